@@ -1,0 +1,46 @@
+// Sources: Issanchou et al. 2016 (profiles, eq 29), van Walstijn et al. 2016 eqs 54-55 (contact stiffness from materials).
+#include "scenes/barrier.hpp"
+
+#include <gsl/gsl_interp.h>
+
+#include <memory>
+#include <numbers>
+
+namespace jvari {
+
+namespace {
+struct HeightAt {
+    const std::vector<double>& x;
+    std::vector<double> operator()(const FlatCurve&) const { return std::vector<double>(x.size(), 0.0); }
+    std::vector<double> operator()(const LineCurve& c) const {
+        std::vector<double> g;
+        for (double p : x) g.push_back(c.coefficient * p);
+        return g;
+    }
+    std::vector<double> operator()(const ParabolaCurve& c) const {
+        std::vector<double> g;
+        for (double p : x) g.push_back(-c.coefficient * p * p);  // (29)
+        return g;
+    }
+    std::vector<double> operator()(const TableCurve& c) const {
+        const auto* kind = c.x.size() > 2 ? gsl_interp_steffen : gsl_interp_linear;
+        const std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline(gsl_interp_alloc(kind, c.x.size()), gsl_interp_free);
+        gsl_interp_init(spline.get(), c.x.data(), c.height.data(), c.x.size());
+        std::vector<double> g;
+        for (double p : x) g.push_back(gsl_interp_eval(spline.get(), c.x.data(), c.height.data(), p, nullptr));
+        return g;
+    }
+};
+}  // namespace
+
+std::vector<double> heights(const Curve& curve, const std::vector<double>& x) { return std::visit(HeightAt{x}, curve); }
+
+double height(const Curve& curve, double x) { return heights(curve, {x}).front(); }
+
+double contact_modulus(double young1, double poisson1, double young2, double poisson2) {
+    return 1 / ((1 - poisson1 * poisson1) / (2 * young1) + (1 - poisson2 * poisson2) / (2 * young2));  // (55)
+}
+
+LumpedStiffness contact_stiffness(double contact_modulus, double width) { return {std::numbers::pi / 4 * contact_modulus * width}; }
+
+}  // namespace jvari

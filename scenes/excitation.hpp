@@ -1,0 +1,17 @@
+// What sets the string in motion: the pluck's force and the spectrum of initial shapes.
+#pragma once
+
+#include "scenes/scene.hpp"
+
+namespace jvari {
+
+// F_e(t) [N]   (van Walstijn et al. 2016, eqs 14-15); 0 outside [start, start + duration]
+double force(const Pluck&, double t);
+
+// Coefficient of sin(beta x) [m] of the smoothed triangle: 2AL^2/(i^2 pi^2 x0 (L-x0)) sin(beta x0) H(beta)
+double coefficient(const TriangleInitial&, double length, int mode);
+
+// H(beta) = [sin(beta s/2)/(beta s/2)]/[1 - (beta s/2 pi)^2]: spectrum of a Hann window of full width s, 1/2 at beta s = 2 pi
+double hann_smoothing(double beta, double s);
+
+}  // namespace jvari

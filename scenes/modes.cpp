@@ -1,0 +1,122 @@
+// Source: van Walstijn et al. 2016, eqs 16-22; Issanchou et al. 2016, section 3.1. Both strings are the same stiff string:
+// omega0^2 = (EI beta^4 + T beta^2)/mu.
+#include "scenes/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/damping.hpp"
+#include "scenes/excitation.hpp"
+
+namespace jvari {
+
+using std::numbers::pi;
+
+namespace {
+double stiff_string_frequency(const String& s, double beta) {  // omega0 [rad/s]
+    return beta * std::sqrt((s.tension + s.bending_stiffness * beta * beta) / s.linear_density);
+}
+
+struct DecayOf {
+    const String& s;
+    int mode;
+    double beta, omega0;
+    double operator()(const NoDamping&) const { return 0; }
+    double operator()(const PolynomialDamping& law) const { return decay_rate(law, beta); }
+    double operator()(const QualityFactorDamping& law) const { return decay_rate(law, s, omega0 / (2 * pi)); }
+    double operator()(const TableDamping& law) const { return law.decay_rate[mode - 1]; }
+    double operator()(const PerPeriodDamping& law) const { return decay_rate(law, stiff_string_frequency(s, pi / s.length) / (2 * pi)); }
+};
+
+struct OneMode {
+    double beta, omega0, sigma;
+};
+OneMode mode_of(const String& s, int i) {
+    const double beta = i * pi / s.length;
+    const auto* table = std::get_if<TableDamping>(&s.damping);
+    const double omega0 = table ? 2 * pi * table->frequency_hz[i - 1] : stiff_string_frequency(s, beta);
+    return {beta, omega0, std::visit(DecayOf{s, i, beta, omega0}, s.damping)};
+}
+
+int modes_available(const String& s) {
+    const auto* table = std::get_if<TableDamping>(&s.damping);
+    return table ? static_cast<int>(std::min(table->frequency_hz.size(), table->decay_rate.size())) : 1 << 20;
+}
+}  // namespace
+
+double omega_squared_damped(double omega0, double sigma) { return (omega0 - sigma) * (omega0 + sigma); }
+
+Modes modes_of(const String& s, int count) {
+    if (count > modes_available(s))
+        throw BadScene("string.damping.file", std::to_string(modes_available(s)) + " measured modes",
+                       "at least the " + std::to_string(count) + " modes asked for");
+    Modes modes;
+    modes.mass = 0.5 * s.linear_density * s.length;
+    for (int i = 1; i <= count; ++i) {
+        const auto [beta, omega0, sigma] = mode_of(s, i);
+        modes.beta.push_back(beta);
+        modes.omega0.push_back(omega0);
+        modes.sigma.push_back(sigma);
+    }
+    return modes;
+}
+
+int modes_below(const String& s, double hertz) {
+    const double limit = 2 * pi * hertz;
+    int i = 0;
+    for (const int last = modes_available(s); i < last; ++i) {
+        const auto [beta, omega0, sigma] = mode_of(s, i + 1);
+        if (omega_squared_damped(omega0, sigma) >= limit * limit) break;
+    }
+    return i;
+}
+
+std::vector<double> displacement_weights(const Modes& modes, double position) {
+    std::vector<double> w;
+    for (double beta : modes.beta) w.push_back(std::sin(beta * position));
+    return w;
+}
+
+std::vector<double> footprint_weights(const Modes& modes, double position, double width) {
+    std::vector<double> w;
+    for (double beta : modes.beta) {
+        const double gap = pi - beta * width;  // cos(beta w/2) = sin(gap/2); the quotient tends to 1/2 as gap -> 0
+        const double window = std::abs(gap) < 1e-8 ? pi / 4 : pi * pi * std::sin(0.5 * gap) / (gap * (pi + beta * width));
+        w.push_back(window * std::sin(beta * position));  // (20)
+    }
+    return w;
+}
+
+std::vector<double> nut_force_weights(const Modes& modes, const String& s) {
+    std::vector<double> w;
+    for (int i = 0; i < modes.count(); ++i) {
+        const double beta = modes.beta[i], sign = i % 2 == 0 ? -1 : 1;                   // cos(i pi) for mode i + 1
+        w.push_back(-sign * beta * (s.tension + s.bending_stiffness * beta * beta));  // v' = beta cos, v''' = -beta^3 cos  (22)
+    }
+    return w;
+}
+
+namespace {
+struct ShapeOf {
+    const Modes& modes;
+    const String& s;
+    std::vector<double> operator()(const ModeInitial& m) const {
+        std::vector<double> y(modes.beta.size(), 0.0);
+        if (m.number <= modes.count()) y[m.number - 1] = m.amplitude;
+        return y;
+    }
+    std::vector<double> operator()(const TriangleInitial& t) const {
+        std::vector<double> y;
+        for (int i = 1; i <= modes.count(); ++i) y.push_back(coefficient(t, s.length, i));
+        return y;
+    }
+};
+}  // namespace
+
+std::vector<double> initial_displacement(const Modes& modes, const String& s) {
+    if (!s.initial) return std::vector<double>(modes.beta.size(), 0.0);
+    return std::visit(ShapeOf{modes, s}, *s.initial);
+}
+
+}  // namespace jvari

@@ -1,0 +1,96 @@
+// Names, what a scene needs, and what a scene may not say.
+#include "scenes/scene.hpp"
+
+namespace jvari {
+
+const char* name_of(Quantity q) {
+    switch (q) {
+        case Quantity::displacement: return "displacement";
+        case Quantity::velocity: return "velocity";
+        case Quantity::nut_force: return "nut_force";
+        case Quantity::bridge_force: return "bridge_force";
+        case Quantity::thread_force: return "thread_force";
+        case Quantity::driving_force: return "driving_force";
+    }
+    return "?";
+}
+
+const char* name_of(Feature f) {
+    switch (f) {
+        case Feature::several_strings: return "several strings";
+        case Feature::bending_stiffness: return "bending stiffness";
+        case Feature::damping: return "damping";
+        case Feature::frequency_dependent_damping: return "frequency-dependent damping";
+        case Feature::measured_modes: return "measured modes";
+        case Feature::lumped_barrier: return "lumped barrier";
+        case Feature::profile_barrier: return "profile barrier";
+        case Feature::several_barriers: return "several barriers";
+        case Feature::power_law_contact: return "contact exponent other than 1";
+        case Feature::contact_loss: return "contact loss";
+        case Feature::thread: return "thread";
+        case Feature::initial_shape: return "initial shape";
+        case Feature::pluck: return "pluck";
+        case Feature::polarisation: return "two polarisations";
+        case Feature::body: return "body";
+    }
+    return "?";
+}
+
+std::string names_of(Features features) {
+    std::string text;
+    for (int i = 0; i < feature_count; ++i) {
+        const auto f = static_cast<Feature>(1u << i);
+        if (features.has(f)) text += (text.empty() ? "" : ", ") + std::string(name_of(f));
+    }
+    return text;
+}
+
+namespace {
+struct DampingNeeds {
+    Features operator()(const NoDamping&) const { return {}; }
+    Features operator()(const PolynomialDamping& d) const {
+        if (d.sigma1 != 0 || d.sigma3 != 0) return Feature::damping | Feature::frequency_dependent_damping;
+        return d.sigma0 != 0 ? Features(Feature::damping) : Features();
+    }
+    Features operator()(const QualityFactorDamping&) const { return Feature::damping | Feature::frequency_dependent_damping; }
+    Features operator()(const TableDamping&) const {
+        return Feature::damping | Feature::frequency_dependent_damping | Features(Feature::measured_modes);
+    }
+    Features operator()(const PerPeriodDamping& d) const { return d.factor != 1 ? Features(Feature::damping) : Features(); }
+};
+
+Features needed_by(const Barrier& barrier) {
+    Features f = std::holds_alternative<LumpedBarrier>(barrier) ? Feature::lumped_barrier : Feature::profile_barrier;
+    std::visit(
+        [&f](const auto& b) {
+            if (b.exponent != 1) f = f | Feature::power_law_contact;
+            if (b.contact_loss != 0) f = f | Feature::contact_loss;
+        },
+        barrier);
+    return f;
+}
+}  // namespace
+
+Features needed_by(const Scene& scene) {
+    Features f;
+    if (scene.strings.size() > 1) f = f | Feature::several_strings;
+    for (const String& s : scene.strings) {
+        if (s.bending_stiffness != 0) f = f | Feature::bending_stiffness;
+        f = f | std::visit(DampingNeeds{}, s.damping);
+        for (const Barrier& b : s.barriers) f = f | needed_by(b);
+        if (s.barriers.size() > 1) f = f | Feature::several_barriers;
+        if (s.thread) f = f | Feature::thread;
+        if (s.initial) f = f | Feature::initial_shape;
+        if (s.pluck) f = f | Feature::pluck;
+        if (s.polarisation) f = f | Feature::polarisation;
+    }
+    if (scene.body) f = f | Feature::body;
+    return f;
+}
+
+BadScene::BadScene(std::string k, std::string f, std::string e)
+    : std::runtime_error(k + ": found " + f + ", expected " + e), key(std::move(k)), found(std::move(f)), expected(std::move(e)) {}
+
+void validate(const Scene&) {}
+
+}  // namespace jvari

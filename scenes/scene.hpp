@@ -1,0 +1,191 @@
+// Scene: the continuous problem in SI units, with no sample rate, grid or mode count in it.
+//
+// A plain value: every part is a struct, an absent part is an empty optional or vector. Reading from TOML: scene_file.hpp.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace jvari {
+
+// ---- Losses of the free string: sigma(beta) or sigma(mode) [1/s]; the laws themselves are in damping.hpp.
+
+struct NoDamping {};
+struct PolynomialDamping {  // sigma = sigma0 + sigma1 beta + sigma3 beta^3   (van Walstijn et al. 2016, eq 18)
+    double sigma0 = 0;      // [1/s]
+    double sigma1 = 0;      // [m/s]
+    double sigma3 = 0;      // [m^3/s]
+};
+struct QualityFactorDamping {         // Issanchou et al. 2016, eq 12 and below
+    double diameter = 0;              // [m]
+    double air_viscosity = 0;         // [kg/(m s)]
+    double air_density = 0;           // [kg/m^3]
+    double viscoelastic_angle = 0;    // delta_ve [rad]
+    double thermoelastic_loss = 0;    // 1/Q_te
+};
+struct TableDamping {                   // measured modes: replaces both frequency and decay
+    std::string file;                   // as written in the scene
+    std::vector<double> frequency_hz;   // one per mode, ascending
+    std::vector<double> decay_rate;     // sigma [1/s]
+};
+struct PerPeriodDamping {  // amplitude factor per period of the first mode, the same decay rate for every mode (Deshmukh)
+    double factor = 1;
+};
+using Damping = std::variant<NoDamping, PolynomialDamping, QualityFactorDamping, TableDamping, PerPeriodDamping>;
+
+// ---- The obstacle. V(eta) = k [eta]^(exponent+1)/(exponent+1), eta = h - y the penetration, F = V'(eta) >= 0 on the string.
+
+struct LumpedStiffness {
+    double k = 0;  // [N/m^exponent]
+};
+struct StiffnessDensity {
+    double K = 0;  // [N/m^(exponent+1)]
+};
+struct LumpedBarrier {     // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
+    double position = 0;   // centre [m]
+    double width = 0;      // footprint [m]; 0: a point
+    double height = 0;     // [m]
+    LumpedStiffness stiffness;
+    double exponent = 1;
+    double contact_loss = 0;  // Hunt-Crossley beta [s/m]
+};
+struct FlatCurve {};  // g = 0
+struct LineCurve {
+    double coefficient = 0;  // g = coefficient x
+};
+struct ParabolaCurve {
+    double coefficient = 0;  // g = -coefficient x^2 [1/m]   (Issanchou et al. 2016, eq 29)
+};
+struct TableCurve {
+    std::string file;
+    std::vector<double> x, height;  // [m], x ascending
+};
+using Curve = std::variant<FlatCurve, LineCurve, ParabolaCurve, TableCurve>;
+struct ProfileBarrier {  // a force density along from <= x <= to (Issanchou et al. 2016, eqs 3-4)
+    Curve curve;
+    double from = 0, to = 0;  // [m]
+    StiffnessDensity stiffness;
+    double exponent = 1;
+    double contact_loss = 0;  // [s/m]
+};
+using Barrier = std::variant<LumpedBarrier, ProfileBarrier>;
+
+struct Thread {           // spring and damper, never detaches (van Walstijn et al. 2016, eq 7)
+    double position = 0;  // [m]
+    double width = 0;     // [m]
+    double stiffness = 0; // [N/m]
+    double damping = 0;   // [kg/s]
+    double height = 0;    // [m]
+};
+
+// ---- What sets it in motion.
+
+struct ModeInitial {
+    int number = 1;
+    double amplitude = 0;  // [m]
+};
+struct TriangleInitial {
+    double position = 0;   // [m]
+    double amplitude = 0;  // [m]
+    double smoothing = 0;  // full width of a Hann smoothing [m]
+};
+using Initial = std::variant<ModeInitial, TriangleInitial>;  // displacement at t = 0, at rest
+
+struct Pluck {             // force, van Walstijn et al. 2016, eqs 14-15
+    double amplitude = 0;  // a_e [N]
+    double duration = 0;   // tau_e [s]
+    double skew = 0;       // beta_e
+    double start = 0;      // t_e [s]
+    double position = 0;   // [m]
+    double width = 0;      // [m]
+};
+struct Polarisation {
+    double rotation = 0;     // [rad] per reflection at the bridge (Deshmukh & Rayavarapu, eq 14)
+    double pluck_angle = 0;  // [rad] from the vertical
+};
+
+struct String {
+    double length = 0;             // L [m]
+    double linear_density = 0;     // mu [kg/m]
+    double tension = 0;            // T [N]
+    double bending_stiffness = 0;  // EI [N m^2]
+    Damping damping;
+    std::vector<Barrier> barriers;
+    std::optional<Thread> thread;
+    std::optional<Initial> initial;
+    std::optional<Pluck> pluck;
+    std::optional<Polarisation> polarisation;
+};
+
+// ---- What is listened to.
+
+enum class Quantity { displacement, velocity, nut_force, bridge_force, thread_force, driving_force };
+const char* name_of(Quantity);
+
+struct Tap {
+    std::string name;
+    Quantity quantity = Quantity::displacement;
+    std::optional<int> string;  // absent: the sum over strings (forces only)
+    double position = 0;        // [m], displacement and velocity only
+};
+struct Body {  // radiation filters on driving_force and nut_force
+    std::string bridge, nut;
+};
+
+struct Scene {
+    std::string name, source;
+    double duration = 0;  // [s]
+    std::vector<String> strings;
+    std::vector<Tap> taps;
+    std::optional<Body> body;
+};
+
+// ---- What a scene asks of a scheme.
+
+enum class Feature : unsigned {
+    several_strings = 1u << 0,
+    bending_stiffness = 1u << 1,
+    damping = 1u << 2,                      // any loss of the free string
+    frequency_dependent_damping = 1u << 3,  // a loss that differs from mode to mode
+    measured_modes = 1u << 4,               // a table in place of the string's own frequencies
+    lumped_barrier = 1u << 5,
+    profile_barrier = 1u << 6,
+    several_barriers = 1u << 7,  // on one string
+    power_law_contact = 1u << 8,  // exponent other than 1
+    contact_loss = 1u << 9,
+    thread = 1u << 10,
+    initial_shape = 1u << 11,
+    pluck = 1u << 12,
+    polarisation = 1u << 13,
+    body = 1u << 14,
+};
+constexpr int feature_count = 15;
+const char* name_of(Feature);
+
+struct Features {
+    unsigned bits = 0;
+    constexpr Features() = default;
+    constexpr Features(Feature f) : bits(static_cast<unsigned>(f)) {}  // NOLINT: a feature is a set of one
+    constexpr explicit Features(unsigned b) : bits(b) {}
+    constexpr bool has(Feature f) const { return (bits & static_cast<unsigned>(f)) != 0; }
+    constexpr bool empty() const { return bits == 0; }
+    friend constexpr bool operator==(Features, Features) = default;
+};
+constexpr Features operator|(Features a, Features b) { return Features(a.bits | b.bits); }
+constexpr Features operator|(Feature a, Feature b) { return Features(a) | Features(b); }
+constexpr Features operator-(Features a, Features b) { return Features(a.bits & ~b.bits); }  // in a and not in b
+std::string names_of(Features);                                                            // "thread, pluck"
+
+Features needed_by(const Scene&);
+
+// A value that cannot be: `key` is its path in a scene file ("string.0.barrier.1.width").
+struct BadScene : std::runtime_error {
+    BadScene(std::string key, std::string found, std::string expected);
+    std::string key, found, expected;
+};
+void validate(const Scene&);  // throws BadScene
+
+}  // namespace jvari

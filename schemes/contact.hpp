@@ -1,0 +1,63 @@
+// THE contact equation. Every scheme ends at the same scalar problem: with a the older displacement of the contact point, r its unknown
+// increment, b minus the force-free increment and theta the scheme's compliance [m/N],
+//
+//     r + b + theta [V(h - a - r) - V(h - a)]/r = 0,      V(eta) = k [eta]^(alpha+1)/(alpha+1)
+//
+// Two-point schemes: a = y^n, r = y^{n+1} - y^n (van Walstijn et al. 2016, eq 48). Three-point: a = u^{n-1}, r = u^{n+1} - u^{n-1}
+// (Issanchou et al. 2016, eq 16). Monotone in r, so the root is unique. A Hunt-Crossley term (1 + c) r divides b and theta by 1 + c.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace jvari {
+
+struct ContactLaw {
+    double k = 0;      // [N/m^alpha]
+    double alpha = 1;  // exponent
+
+    double potential(double eta) const {  // V [J]
+        if (eta <= 0) return 0;
+        return alpha == 1 ? 0.5 * k * eta * eta : k * std::pow(eta, alpha + 1) / (alpha + 1);
+    }
+    double force(double eta) const {  // V' [N]
+        if (eta <= 0) return 0;
+        return alpha == 1 ? k * eta : k * std::pow(eta, alpha);
+    }
+};
+
+struct ContactSolution {
+    double r = 0;        // increment of the contact point [m]
+    double force = 0;    // mean force on the string over the step, >= 0 [N]
+    int iterations = 0;  // 0: closed form
+    bool converged = true;
+};
+
+// Exponent 1: four cases (van Walstijn et al. 2016, fig 4). eta = h - a, phi = theta k/2.
+inline ContactSolution solve_linear_contact(double k, double eta, double b, double theta) {
+    const double phi = 0.5 * theta * k;
+    if (eta <= 0 && eta + b <= 0) return {-b, 0.0};  // stays out
+    double r;
+    if (eta > 0) {
+        if (eta * (1 - phi) + b > 0) {  // stays in: eta - r > 0
+            r = (2 * phi * eta - b) / (1 + phi);
+            return {r, k * (eta - 0.5 * r)};
+        }
+        const double root = std::sqrt(b * b + 4 * phi * eta * eta);  // leaves
+        r = b > 0 ? 2 * phi * eta * eta / (b + root) : 0.5 * (root - b);
+        return {r, 0.5 * k * eta * eta / r};
+    }
+    const double p = b - 2 * phi * eta;  // enters, > 0
+    r = -0.5 * (p + std::sqrt(b * b - 4 * phi * eta * (b + eta))) / (1 + phi);
+    const double depth = eta - r;
+    return {r, depth > 0 ? -0.5 * k * depth * depth / r : 0.0};
+}
+
+// Any exponent >= 1: leaving is analytic, staying and entering by Newton safeguarded by bisection.
+ContactSolution solve_power_contact(const ContactLaw&, double eta, double b, double theta);
+
+inline ContactSolution solve_contact(const ContactLaw& law, double eta, double b, double theta) {
+    return law.alpha == 1 ? solve_linear_contact(law.k, eta, b, theta) : solve_power_contact(law, eta, b, theta);
+}
+
+}  // namespace jvari

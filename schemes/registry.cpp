@@ -1,0 +1,29 @@
+#include "schemes/registry.hpp"
+
+#include <dlfcn.h>
+
+namespace jvari {
+
+extern const Descriptor modal_two_point;
+extern const Descriptor modal_two_point_trapezoidal;
+
+std::span<const Descriptor> schemes() {
+    static const Descriptor table[] = {
+        modal_two_point,
+        modal_two_point_trapezoidal,
+    };
+    return table;
+}
+
+std::span<const Descriptor> load_plugin(const std::string& path) {
+    void* library = dlopen(path.find('/') == std::string::npos ? ("./" + path).c_str() : path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library) throw std::runtime_error("cannot load plugin " + path + ": " + dlerror());
+    const auto* plugin = static_cast<const Plugin*>(dlsym(library, "jvari_plugin"));
+    if (!plugin) throw std::runtime_error("plugin " + path + " does not export jvari_plugin");
+    if (plugin->abi != plugin_abi)
+        throw std::runtime_error("plugin " + path + " has interface version " + std::to_string(plugin->abi) + ", this program has " +
+                                 std::to_string(plugin_abi));
+    return {plugin->schemes, static_cast<std::size_t>(plugin->count)};
+}
+
+}  // namespace jvari

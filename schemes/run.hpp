@@ -1,0 +1,43 @@
+// The stepping loop: a scheme, a scene, a duration -> a trace and what it cost.
+#pragma once
+
+#include <functional>
+
+#include "schemes/scheme.hpp"
+#include "schemes/trace.hpp"
+
+namespace jvari {
+
+struct RunOptions {
+    bool energy = false;      // fill the energy columns
+    int block_rows = 64;      // rows per advance(); the output does not depend on it
+    std::function<void(long done, long rows)> progress;  // called between blocks where set
+};
+
+struct Run {
+    Trace trace;
+    Status status;
+    int dofs = 0;
+    long steps = 0;           // 0 for a continuous-time reference
+    double wall_seconds = 0;  // of the stepping alone
+    std::vector<Fact> facts;
+};
+
+// rows = round(duration x tap_rate) + 1. Denormals are flushed to zero while stepping. Throws Refusal or BadScene before the first step;
+// a run that fails on the way ends with its status and the rows that are valid.
+Run run(const Descriptor&, const Scene&, const Settings&, const RunOptions& = {});
+Run run(Scheme&, const Scene&, const Settings&, const RunOptions& = {});  // an existing scheme, from t = 0
+
+// Flushes denormals to zero on this thread for the life of the object, then restores what was set.
+class FlushDenormals {
+public:
+    FlushDenormals() noexcept;
+    ~FlushDenormals();
+    FlushDenormals(const FlushDenormals&) = delete;
+    FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+private:
+    unsigned saved_;
+};
+
+}  // namespace jvari
