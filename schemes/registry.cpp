@@ -4,15 +4,8 @@
 
 namespace jvari {
 
-extern const Descriptor modal_two_point;
-extern const Descriptor modal_two_point_trapezoidal;
-
 std::span<const Descriptor> schemes() {
-    static const Descriptor table[] = {
-        modal_two_point,
-        modal_two_point_trapezoidal,
-    };
-    return table;
+    return {};
 }
 
 std::span<const Descriptor> load_plugin(const std::string& path) {

@@ -1,0 +1,75 @@
+// Modes of the free string against the figures that the papers print.
+#include "scenes/modes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scenes/damping.hpp"
+#include "scenes/excitation.hpp"
+
+namespace jvari {
+namespace {
+
+String c3() {  // van Walstijn et al. 2016, Table 1
+    String s;
+    s.length = 1.0;
+    s.linear_density = 4.83e-4;
+    s.tension = 33.1;
+    s.bending_stiffness = 6.03e-5;
+    s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6};
+    return s;
+}
+
+TEST(Modes, TheC3StringHas133ModesBelow20kHz) {
+    const String s = c3();
+    EXPECT_EQ(modes_below(s, 20e3), 133);
+    const Modes m = modes_of(s, 133);
+    EXPECT_NEAR(m.omega0.front() / (2 * std::numbers::pi), 130.89, 0.01);
+    EXPECT_NEAR(std::sqrt(omega_squared_damped(m.omega0.back(), m.sigma.back())) / (2 * std::numbers::pi), 19986, 1);
+}
+
+TEST(Modes, FootprintWeightIsTheIntegralOfShapeTimesFootprintAlsoAtItsLimit) {
+    const String s = c3();
+    const Modes m = modes_of(s, 500);
+    const double x = 0.37, w = s.length / 100;  // beta_100 w = pi: the limit pi/4 sin(beta x) of eq 20
+    const auto g = footprint_weights(m, x, w);
+    for (int i : {1, 99, 100, 101, 333, 500}) {
+        double sum = 0;
+        const int n = 4000;
+        for (int k = 0; k < n; ++k) {  // midpoint rule on eq 19
+            const double u = -w / 2 + (k + 0.5) * w / n;
+            sum += std::numbers::pi / (2 * w) * std::cos(std::numbers::pi * u / w) * std::sin(m.beta[i - 1] * (x + u)) * w / n;
+        }
+        EXPECT_NEAR(g[i - 1], sum, 2e-6) << i;
+    }
+    EXPECT_NEAR(g[99], std::numbers::pi / 4 * std::sin(m.beta[99] * x), 1e-12);
+}
+
+TEST(Modes, SmoothedTriangleStartsFromThePluckedShape) {
+    String s = c3();
+    s.initial = TriangleInitial{0.3, 1e-3, 0.0};
+    const Modes m = modes_of(s, 20000);
+    const auto y = initial_displacement(m, s);
+    for (double x : {0.1, 0.3, 0.65}) {
+        const auto v = displacement_weights(m, x);
+        double sum = 0;
+        for (int i = 0; i < m.count(); ++i) sum += v[i] * y[i];
+        EXPECT_NEAR(sum, 1e-3 * (x < 0.3 ? x / 0.3 : (1 - x) / 0.7), 2e-8) << x;
+    }
+    EXPECT_NEAR(hann_smoothing(2 * std::numbers::pi / 0.02, 0.02), 0.5, 1e-12);
+    EXPECT_NEAR(hann_smoothing(2 * std::numbers::pi / 0.02 * (1 + 1e-5), 0.02), 0.5 * (1 - 1.5e-5), 1e-9);
+}
+
+TEST(Damping, WoodhouseLossFactorsAreThePolynomialLaw) {
+    const String s = c3();
+    const auto law = woodhouse(1.2, 5e-5, 0.02, s);
+    const double c = std::sqrt(33.1 / 4.83e-4), lambda = 6.03e-5 / 33.1;
+    EXPECT_DOUBLE_EQ(law.sigma0, 0.6);
+    EXPECT_DOUBLE_EQ(law.sigma1, 0.5 * c * 5e-5);
+    EXPECT_DOUBLE_EQ(law.sigma3, 0.5 * c * lambda * 0.02);
+}
+
+}  // namespace
+}  // namespace jvari
