@@ -11,12 +11,9 @@ namespace jvari {
 
 const char* name_of(Outcome outcome) {
     switch (outcome) {
-        case Outcome::ok:
-            return "ok";
-        case Outcome::diverged:
-            return "diverged";
-        case Outcome::not_converged:
-            return "not_converged";
+        case Outcome::ok: return "ok";
+        case Outcome::diverged: return "diverged";
+        case Outcome::not_converged: return "not_converged";
     }
     return "?";
 }
