@@ -9,9 +9,9 @@
 namespace jvari {
 
 struct RunOptions {
-    bool energy = false;      // fill the energy columns
-    int block_rows = 64;      // rows per advance(); the output does not depend on it
-    std::function<void(long done, long rows)> progress;  // called between blocks where set
+    bool energy = false;                                 // fill the energy columns
+    int block_rows = 64;                                 // rows per advance(); the output does not depend on it
+    std::function<void(long done, long rows)> progress = {};  // called between blocks where set
 };
 
 struct Run {
