@@ -96,12 +96,14 @@ struct Mutator {
 };
 
 std::vector<std::string> nested() {  // as deep as the limits on dots and brackets let through
-    std::string keys, table = "x=[\n";
+    std::string keys, table = "x=[\n", ends = "]\n";
     for (int i = 0; i < 64; ++i) keys += "a.";
-    for (int i = 0; i < 127; ++i) table += "{" + keys + "a=[\n";
-    return {
-        "x=" + std::string(100000, '['), "[" + keys + "a]\n" + keys + "a = 1\n", table, table + std::string(127, ']'), keys + keys + "a=1",
-        std::string(1 << 20, 'a'),       std::string(1 << 20, '\n') + "a"};
+    for (int i = 0; i < 127; ++i) {
+        table += "{" + keys + "a=[\n";
+        ends = "]}" + ends;
+    }
+    return {"x=" + std::string(100000, '['), "[" + keys + "a]\n" + keys + "a = 1\n", table, table + ends, keys + keys + "a=1",
+            std::string(1 << 20, 'a'),       std::string(1 << 20, '\n') + "a"};
 }
 }  // namespace
 
