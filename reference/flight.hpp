@@ -21,7 +21,7 @@ public:
         double length;  // flown; negative: the state is no number
         int contact;    // which barrier is reached, -1: none yet
     };
-    struct Sums {  // of a row's interval
+    struct Sums {                                                     // of a row's interval
         double bridge = 0, thread = 0, supplied = 0, dissipated = 0;  // [N s], [N s], [J], [J]
     };
     // One window, no longer than `left`. `leaving`: the barrier whose surface the string has just left, -1: none. Energies where `probe`.

@@ -1,9 +1,9 @@
 // An adaptive integrator for StringEquations that stops where a barrier's surface is crossed: SUNDIALS behind plain doubles.
 //
-// Multi-step (CVODE: BDF, Adams) and one-step methods (ARKODE: explicit and ESDIRK). A crossing is found by the library's own root finding on
-// the penetrations, from outside where a barrier is not touched and from inside where it is. The library interpolates the state there with
-// fifth degree at most, which is worse than a one-step method's own order: so the last step is made again to end at the crossing, and one
-// Newton step puts the state onto the surface. The error weights leave the equations' four sums out.
+// Multi-step (CVODE: BDF, Adams) and one-step methods (ARKODE: explicit and ESDIRK). A crossing is found by the library's own root finding
+// on the penetrations, from outside where a barrier is not touched and from inside where it is. The library interpolates the state there
+// with fifth degree at most, which is worse than a one-step method's own order: so the last step is made again to end at the crossing, and
+// one Newton step puts the state onto the surface. The error weights leave the equations' four sums out.
 #pragma once
 
 #include <cmath>
@@ -28,13 +28,13 @@ public:
     Integrator(StringEquations&, const Settings&);  // throws std::bad_alloc
     ~Integrator();
 
-    double* state() noexcept;                                     // of size equations.size()
-    double time() const noexcept;                                 // since the restart [s]
+    double* state() noexcept;                                       // of size equations.size()
+    double time() const noexcept;                                   // since the restart [s]
     void restart(double first_step, double longest_step) noexcept;  // from state() at time 0 [s]
 
     enum class Stop { reached, crossed, failed };
-    Stop advance(double to) noexcept;      // allocates nothing
-    int crossed() const noexcept;          // the contact
+    Stop advance(double to) noexcept;  // allocates nothing
+    int crossed() const noexcept;      // the contact
 
     struct Effort {  // and what the steps met
         double steps = 0, slopes = 0, solves = 0;

@@ -17,7 +17,9 @@ namespace {
 constexpr int lanes = 8;  // partial sums in a fixed order: every instruction set gives the same bits
 typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
 
-double total(Lanes s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
+double total(Lanes s) {
+    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}
 
 JVARI_CLONES
 double dot(const double* g, const double* x, int n) {
@@ -108,9 +110,15 @@ StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
     return {f * give, q.alpha * slope * give, q.beta * f, q.beta * f, q.beta * q.alpha * slope};
 }
 
-double StringEquations::penetration(int a, const double* z) const noexcept { return point_[a].height - dot(row(reads_, a), z, padded); }
-double StringEquations::penetration_speed(int a, const double* z) const noexcept { return -dot(row(weights_, a), z + padded, padded); }
-double StringEquations::contact_force(int a, const double* z) const noexcept { return pull(a, motion(a, z)).F; }
+double StringEquations::penetration(int a, const double* z) const noexcept {
+    return point_[a].height - dot(row(reads_, a), z, padded);
+}
+double StringEquations::penetration_speed(int a, const double* z) const noexcept {
+    return -dot(row(weights_, a), z + padded, padded);
+}
+double StringEquations::contact_force(int a, const double* z) const noexcept {
+    return pull(a, motion(a, z)).F;
+}
 
 void StringEquations::slope(double t, const double* z, double* dz) const noexcept {
     const double *p = z, *v = z + padded;

@@ -4,9 +4,9 @@
 //     p_i' = omega0_i v_i,    v_i' = -omega0_i p_i - 2 sigma_i v_i + sum_a d_ai F_a,      d_ai = g_ai/m
 //     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c) - r_c v_c of the thread, F_e(t) of the pluck.
 //
-// Which barriers are touched is given, not decided here: between two events the equations are smooth, and odd beyond the barrier's surface so
-// that a trial step may overshoot. Four sums ride along: impulses of barriers and thread, energy supplied and dissipated.
-// The Jacobian is 2x2 blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's formula.
+// Which barriers are touched is given, not decided here: between two events the equations are smooth, and odd beyond the barrier's surface
+// so that a trial step may overshoot. Four sums ride along: impulses of barriers and thread, energy supplied and dissipated. The Jacobian
+// is 2x2 blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's formula.
 #pragma once
 
 #include <vector>
@@ -29,14 +29,14 @@ struct StringEquations {
 
     int size() const { return 2 * padded + sums; }  // p, v, sums
     void slope(double t, const double* z, double* dz) const noexcept;
-    double penetration(int contact, const double* z) const noexcept;       // eta [m]
+    double penetration(int contact, const double* z) const noexcept;        // eta [m]
     double penetration_speed(int contact, const double* z) const noexcept;  // [m/s]
-    double contact_force(int contact, const double* z) const noexcept;     // [N], whether touched or not
-    double potential(int point, double y) const noexcept;                  // [J], of a barrier or the thread
+    double contact_force(int contact, const double* z) const noexcept;      // [N], whether touched or not
+    double potential(int point, double y) const noexcept;                   // [J], of a barrier or the thread
     double pace(int contact, const double* z) const noexcept;  // of the motion in a contact that is this deep and this fast [1/s]
 
     void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept;  // (I - gamma J(z)) x = b
-    void jacobian(double t, const double* z, double* J) const noexcept;                       // dense, column by column
+    void jacobian(double t, const double* z, double* J) const noexcept;                        // dense, column by column
 
 private:
     struct Point {
@@ -55,13 +55,13 @@ private:
 
     double mass_;
     std::vector<Point> point_;
-    std::vector<Pluck> pluck_;                       // none or one
-    std::vector<double> omega_, damping_, loss_;     // omega0, 2 sigma, 2 m sigma
-    std::vector<double> reads_, weights_, gains_;    // g/omega0, g, g/m [point, then the pluck][mode]
+    std::vector<Pluck> pluck_;                     // none or one
+    std::vector<double> omega_, damping_, loss_;   // omega0, 2 sigma, 2 m sigma
+    std::vector<double> reads_, weights_, gains_;  // g/omega0, g, g/m [point, then the pluck][mode]
 
-    double gamma_ = 0;                               // of what follows
-    std::vector<double> inverse_, compliance_;       // 1/(1 + 2 gamma sigma + (gamma omega0)^2); S_ab = sum_i g_a d_b/that
-    std::vector<double> small_, force_;              // [point][point + 1], [point]
+    double gamma_ = 0;                          // of what follows
+    std::vector<double> inverse_, compliance_;  // 1/(1 + 2 gamma sigma + (gamma omega0)^2); S_ab = sum_i g_a d_b/that
+    std::vector<double> small_, force_;         // [point][point + 1], [point]
     mutable std::vector<Motion> motion_;
     mutable std::vector<Pull> pull_;
 };

@@ -35,9 +35,9 @@ struct Integrator::Library {
 
     double* state() noexcept { return N_VGetArrayPointer(z); }
     bool reinit(double t) noexcept;
-    int step(double to) noexcept;            // one step of the library's own
-    bool run_again(double to) noexcept;      // from `before` to `to`, blind
-    bool onto_surface(double to) noexcept;   // the crossing at `time`, no later than `to`
+    int step(double to) noexcept;           // one step of the library's own
+    bool run_again(double to) noexcept;     // from `before` to `to`, blind
+    bool onto_surface(double to) noexcept;  // the crossing at `time`, no later than `to`
 
     static int slope(realtype t, N_Vector z, N_Vector dz, void* user);
     static int penetrations(realtype t, N_Vector z, realtype* out, void* user);
@@ -145,6 +145,13 @@ Integrator::Library::Library(StringEquations& e, const Settings& s) : equations(
         if (matrix) need(ARKStepSetJacFn(memory, jacobian) == ARK_SUCCESS);
         if (e.contacts > 0) need(ARKStepRootInit(memory, e.contacts, penetrations) == ARK_SUCCESS);
     }
+    floor = 1;
+    first_step = longest_step = 1e-9;
+    blind = true;  // one step from rest: what the library allocates late, it allocates now
+    need(reinit(0) && step(1e-9) >= 0);
+    blind = false;
+    N_VConst(0, z);
+    effort = {};
 }
 
 Integrator::Library::~Library() {
@@ -206,11 +213,21 @@ bool Integrator::Library::onto_surface(double to) noexcept {
 
 Integrator::Integrator(StringEquations& e, const Settings& s) : library_(std::make_unique<Library>(e, s)) {}
 Integrator::~Integrator() = default;
-double* Integrator::state() noexcept { return library_->state(); }
-double Integrator::time() const noexcept { return library_->time; }
-int Integrator::crossed() const noexcept { return library_->contact; }
-Integrator::Effort Integrator::effort() const noexcept { return library_->effort; }
-void Integrator::forget_effort() noexcept { library_->effort = {}; }
+double* Integrator::state() noexcept {
+    return library_->state();
+}
+double Integrator::time() const noexcept {
+    return library_->time;
+}
+int Integrator::crossed() const noexcept {
+    return library_->contact;
+}
+Integrator::Effort Integrator::effort() const noexcept {
+    return library_->effort;
+}
+void Integrator::forget_effort() noexcept {
+    library_->effort = {};
+}
 
 void Integrator::restart(double first_step, double longest_step) noexcept {
     Library& l = *library_;
@@ -235,7 +252,8 @@ Integrator::Stop Integrator::advance(double to) noexcept {
         if (result < 0) return Stop::failed;
         l.contact = -1;
         if (result == CV_ROOT_RETURN) {
-            const int failed = multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) : ARKStepGetRootInfo(l.memory, l.found.data());
+            const int failed =
+                multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) : ARKStepGetRootInfo(l.memory, l.found.data());
             if (failed) return Stop::failed;
             for (int a = l.equations.contacts - 1; a >= 0; --a)
                 if (l.found[a]) l.contact = a;
