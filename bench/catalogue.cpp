@@ -1,7 +1,6 @@
 #include "bench/catalogue.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "bench/console.hpp"
 #include "reference/references.hpp"
@@ -42,12 +41,6 @@ const Descriptor& Catalogue::find(const std::string& name) const {
 bool Catalogue::is_reference(const Descriptor& d) const { return std::find(references.begin(), references.end(), &d) != references.end(); }
 
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration) {
-    const auto library = library_scenes();
-    const bool looks_like_a_file = name.find('/') != std::string::npos || std::filesystem::path(name).extension() == ".toml";
-    if (std::find(library.begin(), library.end(), name) == library.end() && !std::filesystem::exists(name)) {
-        if (looks_like_a_file) throw UsageError("there is no scene file " + name);
-        throw UsageError(unknown("scene", name, library) + " (or the name of a scene file)");
-    }
     Scene scene = read_scene(name, overrides);
     if (duration) scene.duration = *duration;
     return scene;

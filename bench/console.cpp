@@ -3,10 +3,9 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <numeric>
-#include <vector>
+
+#include "scenes/wording.hpp"
 
 namespace jvari {
 
@@ -44,18 +43,10 @@ void Console::Progress::show(double fraction, const std::string& what) {
     std::fflush(stderr);
 }
 
-int edit_distance(const std::string& a, const std::string& b) {
-    std::vector<int> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        int diagonal = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const int changed = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
+std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
+    const std::string near = nearest(word, known);
+    return "unknown " + kind + " " + found_text(word) + "; " +
+           (!near.empty() ? "did you mean " + quote(near) + "?" : known.empty() ? "there is none" : "there is " + list_of(known));
 }
 
 }  // namespace jvari

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace jvari {
 
@@ -41,34 +42,7 @@ private:
     bool json_, quiet_;
 };
 
-// The word nearest to `word` by edit distance where it is near enough to be meant, else "".
-template <class Words>
-std::string nearest(const std::string& word, const Words& words);
-int edit_distance(const std::string& a, const std::string& b);
-
-// "unknown scheme "modal_two": did you mean modal_two_point?", or the list of what there is.
-template <class Words>
-std::string unknown(const std::string& kind, const std::string& word, const Words& words) {
-    std::string all;
-    for (const auto& w : words) all += (all.empty() ? "" : ", ") + std::string(w);
-    const std::string near = nearest(word, words), said = "unknown " + kind + " \"" + word + "\"";
-    if (!near.empty()) return said + ": did you mean " + near + "?";
-    return said + ": " + (all.empty() ? "there is none" : "there is " + all);
-}
-
-template <class Words>
-std::string nearest(const std::string& word, const Words& words) {
-    std::string best;
-    int least = 1 + static_cast<int>(word.size()) / 2;
-    for (const std::string w : words) {
-        const bool begins = word.size() > 2 && w.compare(0, word.size(), word) == 0;
-        const int distance = begins ? 1 : edit_distance(word, w);
-        if (distance < least) {
-            least = distance;
-            best = w;
-        }
-    }
-    return best;
-}
+// "unknown scheme "modal_two": did you mean modal_two_point?", or what there is.
+std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace jvari
