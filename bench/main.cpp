@@ -7,6 +7,7 @@
 #include "bench/commands.hpp"
 #include "bench/console.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/scheme.hpp"
 
 namespace {
 struct Verb {

@@ -39,7 +39,7 @@ Settings settings_for(const RunRequest& r, const Descriptor& d) {
     return s;
 }
 
-std::string text_of(const Summary& s) {
+std::string text_for(const Summary& s) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
     const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<28}{}", name, value); };
     if (s.status.outcome == Outcome::ok) line("status", "ok");
@@ -107,7 +107,7 @@ int run_command(const RunRequest& r) {
     }
     const Summary summary = summary_of(d, scene, settings, result);
     Json json = json_of(summary);
-    std::string text = text_of(summary);
+    std::string text = text_for(summary);
     if (!r.out.empty()) {
         const std::string said = write(file, scene, result.trace);
         json["out"] = r.out;
