@@ -37,6 +37,8 @@ int main(int argc, char** argv) {
         return fail(json, bad_usage, "bad_scene", e.what());
     } catch (const BadScene& e) {
         return fail(json, bad_usage, "bad_scene", e.what());
+    } catch (const UnknownOption& e) {
+        return fail(json, bad_usage, "bad_usage", e.what());
     } catch (const Refusal& e) {
         return fail(json, refused, "refused", e.what());
     } catch (const std::exception& e) {

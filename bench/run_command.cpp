@@ -8,6 +8,7 @@
 #include "bench/commands.hpp"
 #include "bench/console.hpp"
 #include "bench/machine.hpp"
+#include "bench/rates.hpp"
 #include "bench/records.hpp"
 #include "bench/summary.hpp"
 #include "bench/trace_file.hpp"
@@ -17,11 +18,6 @@ namespace jvari {
 
 namespace {
 using Json = nlohmann::ordered_json;
-
-bool whole_multiple(double rate, double of) {
-    const double ratio = rate / of;
-    return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio;
-}
 
 Settings settings_for(const RunRequest& r, const Descriptor& d) {
     Settings s;
