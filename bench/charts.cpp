@@ -90,9 +90,15 @@ Json titles_json(const std::vector<Axis>& axes) {
     return titles;
 }
 
-Json axis(const char* field, int ticks) {
-    return {{"field", field}, {"type", "quantitative"}, {"scale", {{"type", "log"}, {"nice", false}, {"padding", 24}}},
-            {"axis", {{"title", nullptr}, {"format", "~e"}, {"tickCount", ticks}, {"labelExpr", "log(datum.value)/LN10 % 1 == 0 || abs(log(datum.value)/LN10 - round(log(datum.value)/LN10)) < 1e-6 ? datum.label : ''"}}}};
+// Decades are labelled; on an axis of less than three decades 2 and 5 as well.
+Json axis(const char* field) {
+    const std::string label = fmt::format("round(pow(10, log(datum.value)/LN10 - floor(log(datum.value)/LN10 + 1e-9))) == 1 || "
+                                          "(domain('{0}')[1]/domain('{0}')[0] < 1000 && "
+                                          "indexof([2, 5], round(pow(10, log(datum.value)/LN10 - floor(log(datum.value)/LN10 + 1e-9)))) >= 0) ? "
+                                          "(datum.value < 1e-3 || datum.value >= 1e6 ? format(datum.value, '~e') : format(datum.value, ',~r')) : ''",
+                                          field);
+    return {{"field", field}, {"type", "quantitative"}, {"scale", {{"type", "log"}, {"nice", false}, {"padding", 28}}},
+            {"axis", {{"title", nullptr}, {"labelExpr", label}, {"labelOverlap", true}}}};
 }
 }  // namespace
 
@@ -107,7 +113,7 @@ std::string work_precision_spec(const WorkPrecision& w) {
         if (const double f = floor_of(w, e.column); f > 0 && std::isfinite(f)) floors[e.column] = f;
     const std::string error = w.errors.empty() ? "" : w.errors.front().column, cost = w.costs.empty() ? "" : w.costs.front().column;
 
-    const Json x = axis("x", 8), y = axis("y", 10);
+    const Json x = axis("x"), y = axis("y");
     const Json legend = schemes.size() > 1 ? Json{{"title", nullptr}, {"orient", w.wide ? "right" : "bottom"}, {"columns", w.wide ? 1 : 3},
                                                   {"labelLimit", 260}, {"symbolSize", 90}} : Json(nullptr);
     const Json colour{{"field", "scheme"}, {"type", "nominal"}, {"scale", {{"domain", schemes}, {"range", colours}}}, {"legend", legend}};

@@ -64,6 +64,7 @@ dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 <h2>Noise floor</h2>
 <p class="soft">What a relative change of 1e-12 of the initial state makes of the reference: an error no larger than this is a tie.</p>
 <dl id="floor"></dl>
+<details><summary class="soft">of every tap</summary><dl id="floors"></dl></details>
 <h2>Measured with</h2>
 <dl id="machine"></dl>
 </main>
@@ -156,8 +157,11 @@ function list(id, entries) {
     $(id).append(dt, dd);
   }
 }
-list("floor", Object.entries(manifest.noise_floor));
+const of_taps = ([name]) => scene.taps.some(tap => name.endsWith("_" + tap.name));
+
 const {scene, reference, ...rest} = manifest;
+list("floor", Object.entries(manifest.noise_floor).filter(e => !of_taps(e) && !e[0].startsWith("horizon")));
+list("floors", Object.entries(manifest.noise_floor).filter(e => of_taps(e) && !e[0].startsWith("horizon")));
 list("machine", [...Object.entries(rest), ["scene hash", scene.hash], ["set", scene.set.join(" ")], ["reference", `${reference.name} (${reference.source})`],
                  ["reference rate", reference.rate], ["reference note", reference.note], ["reference valid until [s]", reference.valid_until_s],
                  ...Object.entries(reference.facts).map(([k, x]) => ["reference: " + k.replaceAll("_", " "), x]),

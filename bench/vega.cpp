@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <strings.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -87,8 +88,9 @@ std::optional<std::string> vega_scripts(const Vega& v) {
 }
 
 std::string inside_script(std::string text) {
-    for (const auto& [bad, good] : {std::pair<std::string, std::string>{"</", "<\\/"}, {"<!--", "<\\!--"}})
-        for (auto at = text.find(bad); at != std::string::npos; at = text.find(bad, at + good.size())) text.replace(at, bad.size(), good);
+    const auto same = [&text](std::size_t at, const char* word) { return strncasecmp(text.c_str() + at, word, std::strlen(word)) == 0; };
+    for (auto at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1))
+        if (same(at, "</script") || same(at, "<!--")) text.insert(at + 1, 1, '\\');
     return text;
 }
 

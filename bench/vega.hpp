@@ -19,7 +19,7 @@ std::optional<std::string> vega_scripts(const Vega&);
 // A Vega-Lite specification as SVG; nothing where node is missing or fails, `why` says what.
 std::optional<std::string> svg_of(const Vega&, const std::string& spec, std::string& why);
 
-// Text that stands inside <script> without ending it: "</" and "<!--" cannot occur in a script.
+// Text that stands inside <script> without ending it: within a string or a regular expression "<\/script" says the same as "</script".
 std::string inside_script(std::string);
 
 }  // namespace jvari
