@@ -4,8 +4,22 @@
 
 namespace jvari {
 
+extern const Descriptor modal_quadratised, modal_quadratised_two_point_constrained, modal_quadratised_two_point_raw,
+    modal_quadratised_three_point, modal_quadratised_three_point_constrained, modal_quadratised_three_point_raw;
+extern const Descriptor modal_explicit_penalty, modal_impulse_invariant;
+
 std::span<const Descriptor> schemes() {
-    return {};
+    static const Descriptor table[] = {
+        modal_quadratised,
+        modal_quadratised_two_point_constrained,
+        modal_quadratised_two_point_raw,
+        modal_quadratised_three_point,
+        modal_quadratised_three_point_constrained,
+        modal_quadratised_three_point_raw,
+        modal_explicit_penalty,
+        modal_impulse_invariant,
+    };
+    return table;
 }
 
 std::span<const Descriptor> load_plugin(const std::string& path) {
