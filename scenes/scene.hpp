@@ -19,17 +19,17 @@ struct PolynomialDamping {  // sigma = sigma0 + sigma1 beta + sigma3 beta^3   (v
     double sigma1 = 0;      // [m/s]
     double sigma3 = 0;      // [m^3/s]
 };
-struct QualityFactorDamping {         // Issanchou et al. 2016, eq 12 and below
-    double diameter = 0;              // [m]
-    double air_viscosity = 0;         // [kg/(m s)]
-    double air_density = 0;           // [kg/m^3]
-    double viscoelastic_angle = 0;    // delta_ve [rad]
-    double thermoelastic_loss = 0;    // 1/Q_te
+struct QualityFactorDamping {       // Issanchou et al. 2016, eq 12 and below
+    double diameter = 0;            // [m]
+    double air_viscosity = 0;       // [kg/(m s)]
+    double air_density = 0;         // [kg/m^3]
+    double viscoelastic_angle = 0;  // delta_ve [rad]
+    double thermoelastic_loss = 0;  // 1/Q_te
 };
-struct TableDamping {                   // measured modes: replaces both frequency and decay
-    std::string file;                   // as written in the scene
-    std::vector<double> frequency_hz;   // one per mode, ascending
-    std::vector<double> decay_rate;     // sigma [1/s]
+struct TableDamping {                  // measured modes: replaces both frequency and decay
+    std::string file;                  // as written in the scene
+    std::vector<double> frequency_hz;  // one per mode, ascending
+    std::vector<double> decay_rate;    // sigma [1/s]
 };
 struct PerPeriodDamping {  // amplitude factor per period of the first mode, the same decay rate for every mode (Deshmukh)
     double factor = 1;
@@ -44,10 +44,10 @@ struct LumpedStiffness {
 struct StiffnessDensity {
     double K = 0;  // [N/m^(exponent+1)]
 };
-struct LumpedBarrier {     // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
-    double position = 0;   // centre [m]
-    double width = 0;      // footprint [m]; 0: a point
-    double height = 0;     // [m]
+struct LumpedBarrier {    // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
+    double position = 0;  // centre [m]
+    double width = 0;     // footprint [m]; 0: a point
+    double height = 0;    // [m]
     LumpedStiffness stiffness;
     double exponent = 1;
     double contact_loss = 0;  // Hunt-Crossley beta [s/m]
@@ -73,12 +73,12 @@ struct ProfileBarrier {  // a force density along from <= x <= to (Issanchou et 
 };
 using Barrier = std::variant<LumpedBarrier, ProfileBarrier>;
 
-struct Thread {           // spring and damper, never detaches (van Walstijn et al. 2016, eq 7)
-    double position = 0;  // [m]
-    double width = 0;     // [m]
-    double stiffness = 0; // [N/m]
-    double damping = 0;   // [kg/s]
-    double height = 0;    // [m]
+struct Thread {            // spring and damper, never detaches (van Walstijn et al. 2016, eq 7)
+    double position = 0;   // [m]
+    double width = 0;      // [m]
+    double stiffness = 0;  // [N/m]
+    double damping = 0;    // [kg/s]
+    double height = 0;     // [m]
 };
 
 // ---- What sets it in motion.
@@ -153,7 +153,7 @@ enum class Feature : unsigned {
     measured_modes = 1u << 4,               // a table in place of the string's own frequencies
     lumped_barrier = 1u << 5,
     profile_barrier = 1u << 6,
-    several_barriers = 1u << 7,  // on one string
+    several_barriers = 1u << 7,   // on one string
     power_law_contact = 1u << 8,  // exponent other than 1
     contact_loss = 1u << 9,
     thread = 1u << 10,
@@ -174,10 +174,16 @@ struct Features {
     constexpr bool empty() const { return bits == 0; }
     friend constexpr bool operator==(Features, Features) = default;
 };
-constexpr Features operator|(Features a, Features b) { return Features(a.bits | b.bits); }
-constexpr Features operator|(Feature a, Feature b) { return Features(a) | Features(b); }
-constexpr Features operator-(Features a, Features b) { return Features(a.bits & ~b.bits); }  // in a and not in b
-std::string names_of(Features);                                                            // "thread, pluck"
+constexpr Features operator|(Features a, Features b) {
+    return Features(a.bits | b.bits);
+}
+constexpr Features operator|(Feature a, Feature b) {
+    return Features(a) | Features(b);
+}
+constexpr Features operator-(Features a, Features b) {
+    return Features(a.bits & ~b.bits);
+}  // in a and not in b
+std::string names_of(Features);  // "thread, pluck"
 
 Features needed_by(const Scene&);
 

@@ -11,8 +11,12 @@
 namespace jvari {
 
 #if defined(__SSE2__)
-FlushDenormals::FlushDenormals() noexcept : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }  // FTZ | DAZ
-FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+FlushDenormals::FlushDenormals() noexcept : saved_(_mm_getcsr()) {
+    _mm_setcsr(saved_ | 0x8040u);
+}  // FTZ | DAZ
+FlushDenormals::~FlushDenormals() {
+    _mm_setcsr(saved_);
+}
 #else
 FlushDenormals::FlushDenormals() noexcept : saved_(0) {}
 FlushDenormals::~FlushDenormals() = default;

@@ -9,8 +9,8 @@
 namespace jvari {
 
 struct RunOptions {
-    bool energy = false;      // fill the energy columns
-    int block_rows = 64;      // rows per advance(); the output does not depend on it
+    bool energy = false;                                 // fill the energy columns
+    int block_rows = 64;                                 // rows per advance(); the output does not depend on it
     std::function<void(long done, long rows)> progress;  // called between blocks where set
 };
 
