@@ -208,22 +208,14 @@ private:
             double value = 0;
             switch (tap.quantity) {
                 case Quantity::displacement:
-                case Quantity::nut_force:
-                    value = modal_dot(tap.weights, y_);
-                    break;
+                case Quantity::nut_force: value = modal_dot(tap.weights, y_); break;
                 case Quantity::velocity:  // p/m = 2 q/dt
                     for (int i = 0; i < m_.size; ++i) value += tap.weights[i] * momentum(i);
                     value *= 2 / m_.dt;
                     break;
-                case Quantity::bridge_force:
-                    value = bridge;
-                    break;
-                case Quantity::thread_force:
-                    value = thread;
-                    break;
-                case Quantity::driving_force:
-                    value = -(bridge + thread);
-                    break;
+                case Quantity::bridge_force: value = bridge; break;
+                case Quantity::thread_force: value = thread; break;
+                case Quantity::driving_force: value = -(bridge + thread); break;
             }
             out.tap[k * out.stride + row] = value;
         }

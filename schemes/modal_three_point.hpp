@@ -232,23 +232,15 @@ private:
             double value = 0;
             switch (m_.taps[k].quantity) {
                 case Quantity::displacement:
-                case Quantity::nut_force:
-                    value = modal_dot(m_.taps[k].weights, q_);
-                    break;
+                case Quantity::nut_force: value = modal_dot(m_.taps[k].weights, q_); break;
                 case Quantity::velocity:  // centred; at rest in row 0
                     if (step_ > 0)
                         for (int i = 0; i < m_.size; ++i) value += m_.taps[k].weights[i] * (next_increment(i) + d_[i]);
                     value /= 2 * m_.dt;
                     break;
-                case Quantity::bridge_force:
-                    value = bridge;
-                    break;
-                case Quantity::thread_force:
-                    value = thread;
-                    break;
-                case Quantity::driving_force:
-                    value = -(bridge + thread);
-                    break;
+                case Quantity::bridge_force: value = bridge; break;
+                case Quantity::thread_force: value = thread; break;
+                case Quantity::driving_force: value = -(bridge + thread); break;
             }
             out.tap[k * out.stride + row] = value;
         }
