@@ -187,6 +187,25 @@ TEST(ImpulseInvariant, ConvergesWithTheOthersButHighModesHardlyFeelAForce) {
     EXPECT_NEAR(r.trace.column(0).back() * stiff, 0.5 * w / std::tan(w / 2), 0.05);
 }
 
+TEST(ImpulseInvariant, TheAnswerToOneSampleOfForceIsTheSampledImpulseResponse) {
+    Scene scene = c3_free();
+    scene.strings.front().damping = PolynomialDamping{700, 0, 0};
+    const double dt = 1 / 2205.0, amplitude = 0.3;
+    scene.strings.front().pluck = Pluck{amplitude, 2 * dt, 0, 0, 0.5, 0};  // its only sample apart from zeros is at t = dt
+    scene.duration = 40 * dt;
+    const auto r = run(scheme("modal_impulse_invariant"), scene, {2205, 2205, 2, {}});
+    const Modes m = modes_of(scene.strings.front(), 2);
+    const auto g = displacement_weights(m, 0.5), w = displacement_weights(m, 0.3);
+    for (int n = 1; n <= 40; ++n) {
+        double y = 0;
+        for (int i = 0; i < 2; ++i) {
+            const double t = (n - 1) * dt, omega = std::sqrt(omega_squared_damped(m.omega0[i], m.sigma[i]));
+            y += w[i] * g[i] * amplitude * dt * std::exp(-m.sigma[i] * t) * std::sin(omega * t) / (m.mass * omega);
+        }
+        EXPECT_NEAR(r.trace.column(1)[n], y, 1e-15);
+    }
+}
+
 TEST(ImpulseInvariant, OptionsAreChecked) {
     EXPECT_THROW(run(scheme("modal_impulse_invariant"), c3_release(), {44100, 44100, 40, {{"energy", "own"}}}), Refusal);
     EXPECT_THROW(run(scheme("modal_explicit_penalty"), c3_release(), {44100, 44100, 40, {{"energy", "true"}}}), Refusal);

@@ -215,6 +215,19 @@ TEST(Quadratised, ARestBentByTheThreadStartsRight) {  // the thread acts from t 
     EXPECT_LT(e16, 1e-3);
 }
 
+TEST(Quadratised, APluckAloneMovesTheStringAsInTheOtherSchemes) {
+    Scene scene = c3_pluck();
+    scene.strings.front().barriers.clear();
+    scene.strings.front().pluck->duration = 2e-3;
+    scene.taps = {{"y", Quantity::displacement, 0, 0.3}, {"thread", Quantity::thread_force, 0, 0}};
+    const auto fine = play("modal_two_point", scene, 5e-3, 64), same = play("modal_two_point", scene, 5e-3, 1);
+    const auto two = play("modal_quadratised", scene, 5e-3, 1), three = play("modal_quadratised_three_point", scene, 5e-3, 16);
+    for (int k : {0, 1}) {
+        EXPECT_LT(distance(two.trace.column(k), same.trace.column(k)), 1e-11);
+        EXPECT_LT(distance(three.trace.column(k), fine.trace.column(k)), 1e-3);
+    }
+}
+
 TEST(Quadratised, TheStepSolvesItsEquationsAndReleaseLeavesNothingBehind) {
     for (double alpha : {1.0, 1.5, 3.0})
         for (double c : {0.5, 1.0})
