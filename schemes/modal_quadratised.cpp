@@ -74,11 +74,19 @@ public:
         inverse_c_ = 1 / (1 + phi_c_ * theta_cc_);
         beta_c_ = phi_c_ * theta_bc_ * inverse_c_;  // (47)
         theta_ = modal_dot(m_.g_b, e_b_) - beta_c_ * theta_bc_;
-        using Self = QuadratisedTwoPoint;
-        static constexpr Pass passes[2][2][2] = {
-            {{&Self::pass<0, 0, 0>, &Self::pass<0, 0, 1>}, {&Self::pass<0, 1, 0>, &Self::pass<0, 1, 1>}},
-            {{&Self::pass<1, 0, 0>, &Self::pass<1, 0, 1>}, {&Self::pass<1, 1, 0>, &Self::pass<1, 1, 1>}}};
-        passes_ = passes[!m_.g_b.empty()][!m_.g_c.empty()];
+        const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
+        unplucked_ = two_point_pass(barrier, thread, false);
+        plucked_ = two_point_pass(barrier, thread, true);
+        pass_.size = m_.size;
+        pass_.p = a_.data();
+        pass_.r = c_.data();
+        pass_.g_b = m_.g_b.data();
+        pass_.g_c = m_.g_c.data();
+        pass_.e_b = e_b_.data();
+        pass_.e_c = e_c_.data();
+        pass_.e_e = e_e_.data();
+        pass_.x = y_.data();
+        pass_.v = u_.data();
         QuadratisedTwoPoint::reset();
     }
 
@@ -104,10 +112,10 @@ public:
             for (int k = 0; k < m_.steps_per_row; ++k) {
                 solve();
                 if (out.energy) ledger();
-                (this->*passes_[F_e_ != 0])();
+                step();
                 if (!m_.g_b.empty()) seen_.note(F_b_, psi_, m_.h_b - y_b_, q_.psi(m_.h_b - y_b_));
             }
-            if (!std::isfinite(y_b_ + y_c_)) return status_ = {Outcome::diverged, step_ - 1};
+            if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
         }
         return {};
     }
@@ -116,8 +124,6 @@ public:
     std::vector<Fact> facts() const override { return m_.g_b.empty() ? std::vector<Fact>{} : seen_.list(); }
 
 private:
-    using Pass = void (QuadratisedTwoPoint::*)();
-
     ModalArray scaled(const ModalArray& g) const {  // e_z = xi g_z/J
         ModalArray e = g;
         for (std::size_t i = 0; i < std::min<std::size_t>(e.size(), m_.count); ++i) e[i] *= xi_ / J_[i];
@@ -137,44 +143,15 @@ private:
         impulse_c_ += F_c_;
     }
 
-    template <int barrier, int thread, int pluck>
-    void pass() {
-        double acc[4][modal_lanes] = {};
-        double* __restrict y = y_.data(), * __restrict u = u_.data();
-        const double* __restrict a = a_.data(), * __restrict c = c_.data();
-        const double* __restrict g_b = m_.g_b.data(), * __restrict g_c = m_.g_c.data();
-        const double* __restrict e_b = e_b_.data(), * __restrict e_c = e_c_.data(), * __restrict e_e = e_e_.data();
-        const double F_b = F_b_, F_c = F_c_, F_e = F_e_;
-        for (int i = 0; i < m_.size; i += modal_lanes)
-            for (int l = 0; l < modal_lanes; ++l) {
-                const int j = i + l;
-                double s = u[j];
-                if constexpr (barrier != 0) s += e_b[j] * F_b;
-                if constexpr (thread != 0) s += e_c[j] * F_c;
-                if constexpr (pluck != 0) s += e_e[j] * F_e;
-                const double next = a[j] * s - (u[j] + c[j] * y[j]);
-                y[j] += s;
-                u[j] = next;
-                if constexpr (barrier != 0) {
-                    acc[0][l] += g_b[j] * y[j];
-                    acc[1][l] += g_b[j] * next;
-                }
-                if constexpr (thread != 0) {
-                    acc[2][l] += g_c[j] * y[j];
-                    acc[3][l] += g_c[j] * next;
-                }
-            }
-        double sum[4] = {};
-        for (int k = 0; k < 4; ++k)
-            for (int l = 0; l < modal_lanes; ++l) sum[k] += acc[k][l];
-        if constexpr (barrier != 0) {
-            y_b_ = sum[0];
-            u_b_ = sum[1];
-        }
-        if constexpr (thread != 0) {
-            y_c_ = sum[2];
-            u_c_ = sum[3];
-        }
+    void step() {
+        pass_.F_b = F_b_;
+        pass_.F_c = F_c_;
+        pass_.F_e = F_e_;
+        (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
+        y_b_ = pass_.x_b;
+        u_b_ = pass_.v_b;
+        y_c_ = pass_.x_c;
+        u_c_ = pass_.v_c;
         ++step_;
     }
 
@@ -230,7 +207,8 @@ private:
     ModalArray y_, u_, A_, B_, a_, c_, J_, e_b_, e_c_, e_e_;
     double xi_ = 0, theta_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
     double phi_c_ = 0, inverse_c_ = 1, beta_c_ = 0;
-    const Pass* passes_ = nullptr;  // without and with a pluck
+    ModalPass pass_;
+    ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
     long step_ = 0;
     Status status_;
     QuadratisedFacts seen_;

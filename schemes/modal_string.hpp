@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "schemes/contact.hpp"
+#include "schemes/modal_pass.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
 
-constexpr int modal_lanes = 8;  // doubles per turn of a pass over the modes
+constexpr double modal_overflow = 1e140;  // [m] not finite, or so far off that the energy columns no longer are
 using ModalArray = std::vector<double>;
 
 struct ModalTap {

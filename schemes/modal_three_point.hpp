@@ -54,11 +54,19 @@ public:
         theta_ce_ = modal_dot(m_.g_c, e_e_);
         steady_ = couple(0.5 * m_.k_c + 0.5 * m_.r_c / m_.dt, m_.k_c);
         first_ = couple(0.5 * m_.k_c, 0.5 * m_.k_c);
-        using Self = ModalThreePoint;
-        static constexpr Pass passes[2][2][2] = {
-            {{&Self::pass<0, 0, 0>, &Self::pass<0, 0, 1>}, {&Self::pass<0, 1, 0>, &Self::pass<0, 1, 1>}},
-            {{&Self::pass<1, 0, 0>, &Self::pass<1, 0, 1>}, {&Self::pass<1, 1, 0>, &Self::pass<1, 1, 1>}}};
-        passes_ = passes[!m_.g_b.empty()][!m_.g_c.empty()];
+        const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
+        unplucked_ = three_point_pass(barrier, thread, false);
+        plucked_ = three_point_pass(barrier, thread, true);
+        pass_.size = m_.size;
+        pass_.p = m_.loss.data();
+        pass_.r = m_.num.data();
+        pass_.g_b = m_.g_b.data();
+        pass_.g_c = m_.g_c.data();
+        pass_.e_b = e_b_.data();
+        pass_.e_c = e_c_.data();
+        pass_.e_e = e_e_.data();
+        pass_.x = q_.data();
+        pass_.v = d_.data();
         ModalThreePoint::reset();
     }
 
@@ -91,7 +99,7 @@ public:
             supplied_ = dissipated_ = 0;
             if (out.energy && step_ > 0) ledger(0.5);
             for (int k = 0; k < m_.steps_per_row; ++k) {
-                (this->*passes_[F_e_ != 0])();
+                step();
                 solve();
                 if (k + 1 == m_.steps_per_row) break;
                 impulse_b_ += F_b_;
@@ -101,7 +109,7 @@ public:
             impulse_b_ += 0.5 * F_b_;
             impulse_c_ += 0.5 * F_c_;
             if (out.energy) ledger(0.5);
-            if (!std::isfinite(y_b_ + y_c_)) return status_ = {Outcome::diverged, step_ - 1};
+            if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
             if (!contact_.solved()) return status_ = {Outcome::not_converged, step_ - 1};
         }
         return {};
@@ -111,7 +119,6 @@ public:
     std::vector<Fact> facts() const override { return m_.g_b.empty() ? std::vector<Fact>{} : contact_.facts(); }
 
 private:
-    using Pass = void (ModalThreePoint::*)();
     struct Coupling {  // F_c = v_c - beta_c F_b, v_c = [k (h_c - y_c) - phi r_c]/(1 + phi theta_cc)   (45)-(47)
         double phi, k, inverse, beta_c, theta;
     };
@@ -149,48 +156,20 @@ private:
         increment_c_ = rc + theta_bc_ * F_b_ + theta_cc_ * F_c_;
     }
 
-    template <int barrier, int thread, int pluck>
-    void pass() {
-        double acc[4][modal_lanes] = {};
-        double* __restrict q = q_.data(), * __restrict d = d_.data();
-        const double* __restrict num = m_.num.data(), * __restrict loss = m_.loss.data();
-        const double* __restrict g_b = m_.g_b.data(), * __restrict g_c = m_.g_c.data();
-        const double* __restrict e_b = e_b_.data(), * __restrict e_c = e_c_.data(), * __restrict e_e = e_e_.data();
-        const double F_b = F_b_, F_c = F_c_, F_e = F_e_;
-        for (int i = 0; i < m_.size; i += modal_lanes)
-            for (int l = 0; l < modal_lanes; ++l) {
-                const int j = i + l;
-                double dj = (d[j] - loss[j] * d[j]) - num[j] * q[j];
-                if constexpr (barrier != 0) dj += e_b[j] * F_b;
-                if constexpr (thread != 0) dj += e_c[j] * F_c;
-                if constexpr (pluck != 0) dj += e_e[j] * F_e;
-                const double qj = q[j] + dj;
-                q[j] = qj;
-                d[j] = dj;
-                const double r = (2 * dj - loss[j] * dj) - num[j] * qj;  // free q^{n+2} - q^n
-                if constexpr (barrier != 0) {
-                    acc[0][l] += g_b[j] * qj;
-                    acc[1][l] += g_b[j] * r;
-                }
-                if constexpr (thread != 0) {
-                    acc[2][l] += g_c[j] * qj;
-                    acc[3][l] += g_c[j] * r;
-                }
-            }
-        double sum[4] = {};
-        for (int a = 0; a < 4; ++a)
-            for (int l = 0; l < modal_lanes; ++l) sum[a] += acc[a][l];
-        if constexpr (barrier != 0) {
-            contact_.settle(m_.h_b - sum[0], m_.h_b - y_b_);
+    void step() {
+        pass_.F_b = F_b_;
+        pass_.F_c = F_c_;
+        pass_.F_e = F_e_;
+        (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
+        if (!m_.g_b.empty()) {
+            contact_.settle(m_.h_b - pass_.x_b, m_.h_b - y_b_);
             y_b_old_ = y_b_;
-            y_b_ = sum[0];
-            r_b_ = sum[1];
+            y_b_ = pass_.x_b;
+            r_b_ = pass_.v_b;
         }
-        if constexpr (thread != 0) {
-            y_c_old_ = y_c_;
-            y_c_ = sum[2];
-            r_c_ = sum[3];
-        }
+        y_c_old_ = y_c_;
+        y_c_ = pass_.x_c;
+        r_c_ = pass_.v_c;
         ++step_;
     }
 
@@ -255,7 +234,8 @@ private:
     ModalArray q_, d_, d0_, W_, e_b_, e_c_, e_e_;
     double theta_bb_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
     Coupling steady_{}, first_{};
-    const Pass* passes_ = nullptr;  // without and with a pluck
+    ModalPass pass_;
+    ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
     long step_ = 0;
     Status status_;
     double y_b_ = 0, y_b_old_ = 0, y_c_ = 0, y_c_old_ = 0;  // at steps n and n - 1 [m]

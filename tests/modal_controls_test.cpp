@@ -118,13 +118,29 @@ TEST(ExplicitPenalty, AStringOfSeveralModesPressedOnAPointIsQuietBelowTheLimitAn
 TEST(ExplicitPenalty, C3At44100GoesOutOfRangeAndSaysAtWhichStep) {
     Scene scene = c3_release();
     scene.duration = 0.05;
-    const auto r = run(scheme("modal_explicit_penalty"), scene, {44100, 44100, 133, {}});
+    RunOptions options;
+    options.energy = true;
+    const auto r = run(scheme("modal_explicit_penalty"), scene, {44100, 44100, 133, {}}, options);
     EXPECT_EQ(r.status.outcome, Outcome::diverged);
     EXPECT_GT(r.status.step, 0);
     EXPECT_LT(r.trace.rows, r.trace.stride);
     EXPECT_GT(r.trace.rows, 10);
     for (long n = 0; n < r.trace.rows; ++n)
-        ASSERT_TRUE(std::isfinite(r.trace.column(0)[n]) || n + 2 > r.trace.rows) << n << " of " << r.trace.rows;
+        ASSERT_TRUE(std::isfinite(r.trace.column(0)[n]) && std::isfinite(r.trace.energy_column(0)[n])) << n << " of " << r.trace.rows;
+}
+
+TEST(ExplicitPenalty, ImpactsGainEnergyEvenAboveTheRateOfTheLimit) {  // the limit is that of lasting contact: necessary, not sufficient
+    Scene scene = lossless(c3_release());
+    scene.duration = 5e-3;
+    RunOptions options;
+    options.energy = true;
+    const auto gain = [&](int times) {
+        const auto r = run(scheme("modal_explicit_penalty"), scene, {44100.0 * times, 44100, 133, {}}, options);
+        EXPECT_GT(fact(r.facts, "stable_stiffness_limit"), 4.39e8);
+        return r.trace.energy_column(0).back() / r.trace.energy_column(0).front();
+    };
+    EXPECT_GT(gain(118), 10);  // 5.20 MHz, limit 5.19 MHz
+    EXPECT_NEAR(gain(400), 1, 0.02);
 }
 
 TEST(ExplicitPenalty, ASoftContactIsPlayedRight) {

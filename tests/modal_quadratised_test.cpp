@@ -228,6 +228,23 @@ TEST(Quadratised, APluckAloneMovesTheStringAsInTheOtherSchemes) {
     }
 }
 
+TEST(Quadratised, ForcesOfALongRowAreTheMeanOfItsShortRows) {
+    Scene scene = c3_release();
+    scene.duration = 220 / 44100.0;
+    for (const std::string& name : all()) {
+        const auto shorts = run(scheme(name), scene, {176400, 176400, 60, {}}), longs = run(scheme(name), scene, {176400, 44100, 60, {}});
+        for (int k : {2, 3})
+            for (long n = 1; n < longs.trace.rows; ++n) {
+                double mean = 0, size = 0;
+                for (int i = -3; i <= 0; ++i) {
+                    mean += 0.25 * shorts.trace.column(k)[4 * n + i];
+                    size += 0.25 * std::abs(shorts.trace.column(k)[4 * n + i]);
+                }
+                ASSERT_NEAR(longs.trace.column(k)[n], mean, 1e-13 * size) << name << " row " << n;
+            }
+    }
+}
+
 TEST(Quadratised, TheStepSolvesItsEquationsAndReleaseLeavesNothingBehind) {
     for (double alpha : {1.0, 1.5, 3.0})
         for (double c : {0.5, 1.0})
