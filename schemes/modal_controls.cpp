@@ -1,18 +1,19 @@
-// Controls that promise no energy balance, on the three-point recursion of modal_three_point.hpp. Only the contact is the control: the
-// string is exact and the thread implicit, as in the schemes that they stand beside. Stored energy is the true energy of the state, sum m
-// (den d^2 + num s^2)/(8 dt^2) + V_c + (V(eta^{n+1}) + V(eta^n))/2, so what a scheme gains or loses is to be seen in the columns.
+// Controls that promise no energy balance, on the three-point recursion of modal_three_point.hpp. Only the contact or the gain is the
+// control: the string is exact and the thread implicit, as in the schemes that they stand beside. Stored energy is the true one,
+//     sum m (den d^2 + num s^2)/(8 dt^2) + V_c + (V(eta^{n+1}) + V(eta^n))/2,
+// so that what a scheme gains or loses is to be seen in the columns.
 //
-// modal_explicit_penalty   F_b^n = V'(eta^n). For exponent 1 stable in lasting contact only below
+// modal_explicit_penalty   F_b^n = V'(eta^n). With exponent 1 stable in lasting contact only below
 //     k_max = m/(dt^2 sum g^2/den),  den = 1 + C + C~ = 4 cos^2(omega dt/2) without losses,
-//     the stiffness at which the highest root passes z = -1; 4 m/(dt^2 sum g^2) where the modes are far below half the sample rate. The
-//     thread adds its compliance (Sherman-Morrison). Fact `stable_stiffness_limit`.
+//   the stiffness at which the highest root passes z = -1: 4 m/(dt^2 sum g^2) where the modes are far below half the sample rate. The
+//   thread adds its compliance (Sherman-Morrison). Fact `stable_stiffness_limit`. It is the limit of lasting contact, necessary and not
+//   sufficient: impacts gain energy below it too (C3 released without losses: still where the limit is 1.4 k, no longer where it is 11 k).
 //
-// modal_impulse_invariant  the impulse-invariant transform of eq 17 in van Walstijn et al. 2016 (end of section 2.3), each mode with its
-// own gain
-//     e_i = dt R sin(omega dt)/(m omega), and the three-point discrete gradient for the contact. The paper rules it out since gains that
-//     differ from mode to mode would admit no balance with non-negative energy. They do admit one: in place of m each mode takes dt^2/e_i,
-//     which is positive below half the sample rate. Option `energy` = true (default) | adapted shows either: with `adapted` the columns
-//     balance to rounding. What is lost is accuracy, not stability: a mode near half the sample rate hardly feels a force.
+// modal_impulse_invariant  the impulse-invariant transform of eq 17 in van Walstijn et al. 2016 (end of section 2.3): each mode has its own
+//   gain e_i = dt R sin(omega dt)/(m omega); three-point discrete gradient for the contact. The paper rules it out since gains that
+//   differ from mode to mode would admit no balance with non-negative energy. They do admit one: in place of m each mode takes dt^2/e_i,
+//   which is positive below half the sample rate. Option `energy` = true (default) | adapted: with `adapted` the columns balance to
+//   rounding. What is lost is accuracy, not stability: a mode near half the sample rate hardly feels a force.
 //
 // Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
 #include <cmath>

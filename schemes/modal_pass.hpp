@@ -19,8 +19,7 @@ using ModalPassFunction = void (*)(ModalPass&);
 // x' = x + s, v' = p s - (v + r x), s = v + e F; v_z = g_z.v'.   x = y, v = u, p = 2(1-A)/J, r = 4A/J of the two-point form
 ModalPassFunction two_point_pass(bool barrier, bool thread, bool pluck);
 
-// v' = v - p v - r x + e F, x' = x + v'; v_z = g_z.(2v' - p v' - r x').   x = q^n, v = q^n - q^{n-1}, p = loss, r = num of the three-point
-// form
+// v' = v - p v - r x + e F, x' = x + v'; v_z = g_z.(2v' - p v' - r x').   x = q^n, v = d^n, p = loss, r = num of the three-point form
 ModalPassFunction three_point_pass(bool barrier, bool thread, bool pluck);
 
 }  // namespace jvari

@@ -1,11 +1,10 @@
-// The modal three-point recursion with one contact and one thread: Issanchou et al. 2016, eqs 14-21, written in increments d = q^n -
-// q^{n-1},
+// The modal three-point recursion with one contact and one thread: Issanchou et al. 2016, eqs 14-21, in increments d^n = q^n - q^{n-1}:
 //
 //     d^{n+1} = C~ d^n - num q^n + sum_z e_z F_z^n,   q^{n+1} = q^n + d^{n+1},     e_z = gain g_z, gain = dt^2/m unless a scheme says else
 //
 // which is q^{n+1} = C q^n - C~ q^{n-1} + ... without its cancellation at high rates. The thread takes the mean of the two outer levels,
-// F_c = k_c [h_c - (y_c^{n+1} + y_c^{n-1})/2] - r_c (y_c^{n+1} - y_c^{n-1})/(2 dt), and is eliminated as in van Walstijn et al. 2016, eqs
-// 45-47. How the contact force F_b follows from its displacement is the Contact type's affair:
+//     F_c = k_c [h_c - (y_c^{n+1} + y_c^{n-1})/2] - r_c (y_c^{n+1} - y_c^{n-1})/(2 dt),
+// and is eliminated as in van Walstijn et al. 2016, eqs 45-47. How the contact force F_b follows is the Contact type's affair:
 //
 //     double first(eta, s0, theta)           F_b^0/2, where the mean increment of the first half step is s0 + theta F_b^0/2
 //     double next(eta, eta_old, r0, theta)   F_b^n from eta^n, eta^{n-1} and y_b^{n+1} - y_b^{n-1} = r0 + theta F_b^n
@@ -16,9 +15,9 @@
 // Start: the free motion that passes y0 at rest is also run back to t = -dt, and every force acts on the first half step with half its
 // weight. (Without the thread's part of that a start from a bent thread is wrong to first order.)
 // Rows: the energy of a row is the mean of its two half steps, contact forces and the ledger count row instants with half weight, so that
-// stored[n] - stored[n-1] = supplied[n] - dissipated[n] holds to rounding where the scheme has a balance. In row 0 it is that of the first
-// half step. The energy is eq 21 with the constants C1 = (1 + C~)/2, C2 = num/dt^2, C3 = loss/dt in the form sum W (den d^2 + num s^2)/(8
-// dt^2), s = q^{n+1} + q^n, which shows its sign; W is the modal mass unless a scheme says else.
+// stored[n] - stored[n-1] = supplied[n] - dissipated[n] holds to rounding where the scheme has a balance. Row 0 has the first half step's.
+// The energy is eq 21 with the constants C1 = (1 + C~)/2, C2 = num/dt^2, C3 = loss/dt in a form that shows its sign,
+//     sum W (den d^2 + num s^2)/(8 dt^2), s = q^{n+1} + q^n; W is the modal mass unless a scheme says else.
 #pragma once
 
 #include <cmath>
@@ -115,7 +114,7 @@ public:
         return {};
     }
 
-    int dofs() const override { return 2 * m_.count + Contact::dofs; }
+    int dofs() const override { return 2 * m_.count + (m_.g_b.empty() ? 0 : Contact::dofs); }
     std::vector<Fact> facts() const override { return m_.g_b.empty() ? std::vector<Fact>{} : contact_.facts(); }
 
 private:

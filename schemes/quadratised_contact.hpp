@@ -8,9 +8,8 @@
 // F r = c (psi^2 - psi+^2) whatever gamma is: the energy with psi in it is balanced exactly, and nothing but g ties psi to sqrt(2V).
 //
 // raw          g as above, and psi wherever that leads: out of contact it stays behind and pulls (F < 0). A known-bad control.
-// constrained  the published correction (ibid.; S. Willemsen's thesis, Aalborg 2021, has the same): g takes the sign of psi in contact, and
-// out
-//              of it gamma = psi/r0, which would bring psi to 0 if the step were free. Fewer and shorter pulls, not none.
+// constrained  the published correction (ibid.; also in S. Willemsen's thesis, Aalborg 2021): g takes the sign of psi in contact, and
+//              out of it gamma = psi/r0, which would bring psi to 0 if the step were free. Fewer and shorter pulls, not none.
 // released     where psi+ would turn negative, and wherever psi > 0 out of contact, gamma is the one that makes psi+ = 0:
 //              c theta psi gamma^2 + r0 gamma - psi = 0. F >= 0 always, and the whole stored energy goes back to the string.
 #pragma once
