@@ -5,11 +5,22 @@
 namespace jvari {
 
 extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
+extern const Descriptor modal_quadratised, modal_quadratised_two_point_constrained, modal_quadratised_two_point_raw,
+    modal_quadratised_three_point, modal_quadratised_three_point_constrained, modal_quadratised_three_point_raw;
+extern const Descriptor modal_explicit_penalty, modal_impulse_invariant;
 
 std::span<const Descriptor> schemes() {
     static const Descriptor table[] = {
         modal_two_point,
         modal_two_point_trapezoidal,
+        modal_quadratised,
+        modal_quadratised_two_point_constrained,
+        modal_quadratised_two_point_raw,
+        modal_quadratised_three_point,
+        modal_quadratised_three_point_constrained,
+        modal_quadratised_three_point_raw,
+        modal_explicit_penalty,
+        modal_impulse_invariant,
     };
     return table;
 }
