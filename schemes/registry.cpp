@@ -4,8 +4,15 @@
 
 namespace jvari {
 
+const Descriptor& sitar_waveguide();
+const Descriptor& sitar_fdm();
+
 std::span<const Descriptor> schemes() {
-    return {};
+    static const Descriptor table[] = {
+        sitar_waveguide(),
+        sitar_fdm(),
+    };
+    return table;
 }
 
 std::span<const Descriptor> load_plugin(const std::string& path) {
