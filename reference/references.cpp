@@ -2,7 +2,9 @@
 
 namespace jvari {
 
-std::span<const Descriptor> references() { return {}; }
+std::span<const Descriptor> references() {
+    return {};
+}
 
 const Descriptor* best_reference(const Scene& scene) {
     for (const Descriptor& r : references())

@@ -33,14 +33,20 @@ struct HeightAt {
 };
 }  // namespace
 
-std::vector<double> heights(const Curve& curve, const std::vector<double>& x) { return std::visit(HeightAt{x}, curve); }
+std::vector<double> heights(const Curve& curve, const std::vector<double>& x) {
+    return std::visit(HeightAt{x}, curve);
+}
 
-double height(const Curve& curve, double x) { return heights(curve, {x}).front(); }
+double height(const Curve& curve, double x) {
+    return heights(curve, {x}).front();
+}
 
 double contact_modulus(double young1, double poisson1, double young2, double poisson2) {
     return 1 / ((1 - poisson1 * poisson1) / (2 * young1) + (1 - poisson2 * poisson2) / (2 * young2));  // (55)
 }
 
-LumpedStiffness contact_stiffness(double contact_modulus, double width) { return {std::numbers::pi / 4 * contact_modulus * width}; }
+LumpedStiffness contact_stiffness(double contact_modulus, double width) {
+    return {std::numbers::pi / 4 * contact_modulus * width};
+}
 
 }  // namespace jvari

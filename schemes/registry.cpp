@@ -4,13 +4,15 @@
 
 namespace jvari {
 
-const Descriptor& sitar_waveguide();
-const Descriptor& sitar_fdm();
+extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
+extern const Descriptor sitar_waveguide, sitar_fdm;
 
 std::span<const Descriptor> schemes() {
     static const Descriptor table[] = {
-        sitar_waveguide(),
-        sitar_fdm(),
+        modal_two_point,
+        modal_two_point_trapezoidal,
+        sitar_waveguide,
+        sitar_fdm,
     };
     return table;
 }

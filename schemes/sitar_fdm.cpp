@@ -12,6 +12,9 @@
 #include "schemes/sitar.hpp"
 
 namespace jvari {
+
+extern const Descriptor sitar_fdm;
+
 namespace {
 
 struct Grid {
@@ -105,20 +108,15 @@ double SitarFdm::velocity(int m) const {
 
 double SitarFdm::read(const SitarTap& t) const {
     switch (t.quantity) {
-        case Quantity::displacement:
-            return t.weight == 0 ? now_[t.node] : now_[t.node] + t.weight * (now_[t.node + 1] - now_[t.node]);
+        case Quantity::displacement: return t.weight == 0 ? now_[t.node] : now_[t.node] + t.weight * (now_[t.node + 1] - now_[t.node]);
         case Quantity::velocity: {
             const double v = velocity(t.node);
             return t.weight == 0 ? v : v + t.weight * (velocity(t.node + 1) - v);
         }
-        case Quantity::nut_force:
-            return s_.tension / s_.dx * now_[s_.cells - 1];  // -T y' at the peg
-        case Quantity::bridge_force:
-            return ledger_.impulse / (s_.dt * g_.steps_per_row);
-        case Quantity::driving_force:
-            return -ledger_.impulse / (s_.dt * g_.steps_per_row);
-        case Quantity::thread_force:
-            return 0;
+        case Quantity::nut_force: return s_.tension / s_.dx * now_[s_.cells - 1];  // -T y' at the peg
+        case Quantity::bridge_force: return ledger_.impulse / (s_.dt * g_.steps_per_row);
+        case Quantity::driving_force: return -ledger_.impulse / (s_.dt * g_.steps_per_row);
+        case Quantity::thread_force: return 0;
     }
     return 0;
 }
@@ -144,24 +142,12 @@ Status SitarFdm::advance(const Block& out) noexcept {
     return {};
 }
 
-std::unique_ptr<Scheme> make(const Scene&, const Settings&);
-
-constexpr Descriptor descriptor{
-    "sitar_fdm",
-    "Deshmukh & Rayavarapu, eqs 6-12",
-    Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
-        Features(Feature::initial_shape),
-    Balance::to_tolerance,
-    Clock::stepped,
-    make,
-};
-
 std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     refuse_unknown_options(settings, {"stiffness"});
     one_of(settings, "stiffness", {"refuse", "ignore"});
     Grid g;
     g.steps_per_row = steps_per_row(settings);
-    g.string = sitar_string(descriptor, scene, settings);
+    g.string = sitar_string(sitar_fdm, scene, settings);
     g.scene_string = scene.strings.front();
     set_integer_length(g.string);
     lay_bridge(g.string, g.scene_string, 1);
@@ -170,8 +156,14 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-const Descriptor& sitar_fdm() {
-    return descriptor;
-}
+const Descriptor sitar_fdm = {
+    "sitar_fdm",
+    "Deshmukh & Rayavarapu, eqs 6-12",
+    Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+        Features(Feature::initial_shape),
+    Balance::to_tolerance,
+    Clock::stepped,
+    make,
+};
 
 }  // namespace jvari

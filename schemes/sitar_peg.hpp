@@ -58,6 +58,10 @@ struct PegFilter {
     PegFilter(const PegTuning& tuning, double loss_on_the_way) : half(tuning.half), gain(loss_on_the_way) {
         for (double a : tuning.a) sections.push_back({a, {}});
     }
+    void clear() noexcept {
+        in = peg = out = {};
+        for (Allpass& section : sections) section.s = {};
+    }
     double pass(double x) noexcept {
         in.push(x);
         const int count = static_cast<int>(sections.size());

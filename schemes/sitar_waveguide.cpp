@@ -17,6 +17,9 @@
 #include "schemes/sitar_peg.hpp"
 
 namespace jvari {
+
+extern const Descriptor sitar_waveguide;
+
 namespace {
 
 using std::numbers::pi;
@@ -106,7 +109,7 @@ void SitarWaveguide<planes>::reset() noexcept {
             left(p)[M - m] = gain_[M - m] * half;
         }
     for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {  // the filters hold what has passed before t = 0
-        peg_[p] = PegFilter(w_.peg, peg_[p].gain);
+        peg_[p].clear();
         for (int k = 8 * M; k >= 0; --k) {
             const double past = 0.5 * w_.share[p] * std::exp(s_.sigma * s_.dt * k) * initial_shape(w_.scene_string, (M + k) * s_.dx);
             peg_[p].pass(past);
@@ -202,12 +205,9 @@ double SitarWaveguide<planes>::read(const SitarTap& t) {
         case Quantity::nut_force:  // -T y' at the peg
             if (peg_.empty()) return s_.tension / s_.dx * displacement(p, s_.cells - 1);
             return 2 * s_.tension / s_.dx * (peg_[p].peg.now - s_.step_loss * peg_[p].peg.before);  // y' = 2 y_r' there
-        case Quantity::bridge_force:
-            return p == 0 ? ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
-        case Quantity::driving_force:
-            return p == 0 ? -ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
-        case Quantity::thread_force:
-            return 0;
+        case Quantity::bridge_force: return p == 0 ? ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
+        case Quantity::driving_force: return p == 0 ? -ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
+        case Quantity::thread_force: return 0;
     }
     return 0;
 }
@@ -257,18 +257,6 @@ Status SitarWaveguide<planes>::advance(const Block& out) noexcept {
     return {};
 }
 
-std::unique_ptr<Scheme> make(const Scene&, const Settings&);
-
-constexpr Descriptor descriptor{
-    "sitar_waveguide",
-    "Deshmukh & Rayavarapu, eqs 3-5 and 10-14",
-    Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
-        Features(Feature::initial_shape) | Feature::polarisation,
-    Balance::to_tolerance,
-    Clock::stepped,
-    make,
-};
-
 // A length of fs/f0 samples per period, the part that is no whole number of cells in a filter at the peg.
 void set_filtered_length(Waves& w, const String& string, bool stiff) {
     SitarString& s = w.string;
@@ -293,7 +281,7 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     const std::string plane = one_of(settings, "taps", {"vertical", "horizontal"});
     Waves w;
     w.steps_per_row = steps_per_row(settings);
-    w.string = sitar_string(descriptor, scene, settings);
+    w.string = sitar_string(sitar_waveguide, scene, settings);
     const String& string = scene.strings.front();
     const bool stiff = string.bending_stiffness != 0 && stiffness == "dispersion";
     if (stiff && length != "fractional")
@@ -318,8 +306,14 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-const Descriptor& sitar_waveguide() {
-    return descriptor;
-}
+const Descriptor sitar_waveguide = {
+    "sitar_waveguide",
+    "Deshmukh & Rayavarapu, eqs 3-5 and 10-14",
+    Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+        Features(Feature::initial_shape) | Feature::polarisation,
+    Balance::to_tolerance,
+    Clock::stepped,
+    make,
+};
 
 }  // namespace jvari
