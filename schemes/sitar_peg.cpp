@@ -37,13 +37,16 @@ PegTuning tune(double loop, double w, std::vector<double> sections) {
 double worst_cents(const PegTuning& t, const std::vector<double>& omega, double dt) {
     double worst = 0;
     for (std::size_t n = 0; n < omega.size(); ++n) {
-        const double w = omega[n] * dt;
-        double lag = 2 * t.cells * w, slope = 2 * t.cells;
-        for (double a : t.a) {
-            lag += phase_lag(a, w);
-            slope += (1 - a * a) / (1 + 2 * a * std::cos(w) + a * a);
+        double w = omega[n] * dt;  // Newton: the loop's own partial n + 1 has lag(w) = 2 pi (n + 1)
+        for (int i = 0; i < 3; ++i) {
+            double lag = 2 * t.cells * w, slope = 2 * t.cells;
+            for (double a : t.a) {
+                lag += phase_lag(a, w);
+                slope += (1 - a * a) / (1 + 2 * a * std::cos(w) + a * a);
+            }
+            w += (2 * pi * (static_cast<double>(n) + 1) - lag) / slope;
         }
-        const double cents = 1200 / std::log(2.0) * (lag - 2 * pi * (n + 1.0)) / (slope * w);
+        const double cents = 1200 * std::log2(w / (omega[n] * dt));
         if (std::abs(cents) > std::abs(worst)) worst = cents;
     }
     return worst;

@@ -1,5 +1,5 @@
 // The sitar scenes of the tests and the benchmark: C5 on a fretted string, the paper's pitch and loss; its other figures are ours
-// (scenes/sitar_c5.toml).
+// (scenes/sitar_c5.toml says which).
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace jvari {
 
 inline String sitar_string_at(double f0) {
     String s;
-    s.length = 0.22;
-    s.linear_density = 5.55e-4;
+    s.length = 0.25;
+    s.linear_density = 4.8828125e-4;
     s.tension = s.linear_density * (2 * s.length * f0) * (2 * s.length * f0);
     s.initial = TriangleInitial{0.5 * s.length, 2e-3, 0};
     return s;
@@ -29,7 +29,7 @@ inline Scene sitar_scene(double f0 = 523.25) {
     return scene;
 }
 
-inline ProfileBarrier bridge(Curve curve, double to = 0.022) {
+inline ProfileBarrier bridge(Curve curve, double to = 0.025) {
     ProfileBarrier b;
     b.curve = std::move(curve);
     b.to = to;
@@ -39,7 +39,7 @@ inline ProfileBarrier bridge(Curve curve, double to = 0.022) {
 
 inline Tap tap(Quantity q, double position = 0) {
     Tap t;
-    t.name = name_of(q);
+    t.name = name_of(q) + std::string("_") + std::to_string(position);
     t.quantity = q;
     t.string = 0;
     t.position = position;
