@@ -79,6 +79,11 @@ private:
     double peg_slopes() const;
     void step() noexcept;
     void meet_bridge() noexcept;
+    void strike(double corrections) noexcept {  // their impulse on the string
+        const double impulse = s_.impedance() * corrections;
+        ledger_.impulse += impulse;
+        ledger_.smallest_force = std::min(ledger_.smallest_force, impulse / s_.dt);
+    }
 
     Waves w_;
     const SitarString& s_;
@@ -155,6 +160,13 @@ void SitarWaveguide<planes>::meet_bridge() noexcept {
     const int nodes = static_cast<int>(s_.profile.size());
     double* const R = right(0);
     const double* const L = left(0);
+    bool below = false;
+    for (int m = 1; m <= nodes; ++m) below |= displacement(0, m) < s_.profile[m - 1];
+    if (!below) {
+        strike(pending_[0]);
+        pending_[0] = 0;
+        return;
+    }
     double before[3] = {0, before_bridge_end(), R[head_]}, after[3] = {0, before[1], before[2]};  // at m - 2, m - 1, m - 0
     double slopes = 0, moved = 0, moved_first = 0;
     for (int m = 1; m <= nodes + 2; ++m) {
@@ -173,10 +185,8 @@ void SitarWaveguide<planes>::meet_bridge() noexcept {
     }
     slopes_ += slopes;
     ledger_.exchange(s_.wave_energy(slopes));
-    const double impulse = s_.impedance() * (moved + pending_[0]);
+    strike(moved + pending_[0]);
     pending_[0] = -s_.step_loss * (moved - moved_first);
-    ledger_.impulse += impulse;
-    ledger_.smallest_force = std::min(ledger_.smallest_force, impulse / s_.dt);
 }
 
 template <int planes>
