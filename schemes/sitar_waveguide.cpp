@@ -78,6 +78,12 @@ private:
     double rail_slopes();
     double peg_slopes() const;
     void step() noexcept;
+    void settle() noexcept {  // the loss of the steps since the last time
+        const double loss2 = loss_[coasted_] * loss_[coasted_];
+        slopes_dissipated_ += (1 - loss2) * slopes_;
+        slopes_ *= loss2;
+        coasted_ = 0;
+    }
     void meet_bridge() noexcept;
     void strike(double corrections) noexcept {  // their impulse on the string
         const double impulse = s_.impedance() * corrections;
@@ -93,6 +99,7 @@ private:
     std::vector<double> loss_, gain_;  // over m cells, and its inverse
     std::vector<PegFilter> peg_;       // one per plane, none for an integer length
     std::vector<double> pending_;   // part of the rule's impulse that falls due at the next step, over Z [m]; one where there is a bridge
+    int coasted_ = 0;               // steps since settle()
     double slopes_ = 0;             // rail_slopes() as it should be
     double slopes_dissipated_ = 0;  // since the last row [m^2]
     long steps_ = 0;
@@ -103,6 +110,7 @@ template <int planes>
 void SitarWaveguide<planes>::reset() noexcept {
     head_ = 0;
     steps_ = 0;
+    coasted_ = 0;
     ledger_ = {};
     slopes_dissipated_ = 0;
     std::fill(pending_.begin(), pending_.end(), 0.0);
@@ -141,9 +149,8 @@ void SitarWaveguide<planes>::step() noexcept {
         right(0)[head_] = -(w_.cosine * at_bridge[0] - w_.sine * at_bridge[1]);  // (14)
         right(1)[head_] = -(w_.sine * at_bridge[0] + w_.cosine * at_bridge[1]);
     }
-    const double loss = s_.step_loss, loss2 = loss * loss;
-    slopes_dissipated_ += (1 - loss2) * slopes_;
-    slopes_ *= loss2;
+    if (++coasted_ == s_.cells || !peg_.empty()) settle();
+    const double loss = s_.step_loss;
     for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {
         PegFilter& peg = peg_[p];
         left(p)[head_] = -peg.pass(-left(p)[head_]);
@@ -151,7 +158,6 @@ void SitarWaveguide<planes>::step() noexcept {
         slopes_dissipated_ += (1 - peg.gain * peg.gain) * out * out;
         slopes_ += peg.gain * peg.gain * out * out - in * in;
     }
-    ++steps_;
 }
 
 // The rule at nodes 1, 2, ... of the vertical plane; what it does to the energy is in the differences beside the nodes it moves.
@@ -183,6 +189,7 @@ void SitarWaveguide<planes>::meet_bridge() noexcept {
         const double old_slope = before[2] - before[0], new_slope = after[2] - after[0];
         slopes += (new_slope - old_slope) * (new_slope + old_slope);
     }
+    settle();
     slopes_ += slopes;
     ledger_.exchange(s_.wave_energy(slopes));
     strike(moved + pending_[0]);
@@ -263,6 +270,8 @@ Status SitarWaveguide<planes>::advance(const Block& out) noexcept {
             step();
             if (!pending_.empty()) meet_bridge();
         }
+        settle();
+        steps_ += w_.steps_per_row;
     }
     return {};
 }
