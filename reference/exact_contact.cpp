@@ -25,7 +25,7 @@
 namespace jvari {
 
 namespace {
-constexpr double reach_of_window = 3.0;   // window x growth rate at window = 1; 30 terms
+constexpr double reach_of_window = 4.5;   // window x growth rate at window = 1; 30 terms
 constexpr double truncation = 1e-18;      // of every series, relative
 constexpr double rounding = 16 * 2.3e-16; // of a gap, relative to sum |g_i| (|y_i| + |v_i|/rate)
 constexpr int nodes = 8;                  // Gauss-Legendre nodes per window, of the energy probe
@@ -274,12 +274,15 @@ void ExactContact::fly_to(double fraction, double z, int p_terms, bool plucked, 
         if (b < springs_.contacts ? !touching_[b] : b >= springs_.points && !plucked) continue;
         const double* F = force_.data() + b * longest_series;
         double* m = moments_.data() + acting * longest_series;
-        double power = t;
-        for (int n = 0; n < terms; ++n, power *= t) {  // int_0^t (t-s)^n/n! F(s) ds
-            double sum = 0;
-            for (int j = terms_ - 2; j >= 0; --j) sum = sum * fraction + F[j] * inverse_factorial[n + j + 1];
-            m[n] = sum * power;
+        std::fill_n(m, terms, 0.0);
+        double power = 1;
+        for (int j = 0; j < terms_ - 1; ++j, power *= fraction) {
+            const double f = F[j] * power;
+            const double* later = inverse_factorial.data() + j + 1;
+            for (int n = 0; n < terms; ++n) m[n] += f * later[n];
         }
+        power = t;
+        for (int n = 0; n < terms; ++n, power *= t) m[n] *= power;  // int_0^t (t-s)^n/n! F(s) ds
         impulse[b] = m[0] / osc_.rate;
         acting_[acting++] = springs_.gains.data() + static_cast<long>(b) * osc_.padded;
     }

@@ -74,31 +74,35 @@ double Springs::growth(const char* touching) const {
 }
 
 void Springs::solve(const char* touching, double z, const double* p, int p_terms, int terms, double* y, double* F) const {
-    // h^(i) z^(i+1), kept until it no longer counts: i < p_terms as for p.
-    double power[longest_series];
+    double power[longest_series];  // z^(i+1)
     power[0] = z;
     for (int i = 1; i < p_terms; ++i) power[i] = power[i - 1] * z;
-    for (int n = 0; n < terms; ++n) {
+    const auto pass_on = [&](int b, int m) {  // what F_b^(m) adds to every later y
+        const double f = F[b * longest_series + m];
+        const int last = std::min(p_terms, terms - 1 - m);  // h^(i) z^(i+1) no longer counts beyond p_terms, as for p
         for (int a = 0; a < points; ++a) {
-            double sum = n < p_terms ? p[a * longest_series + n] : 0;
-            for (int b = 0; b < forces; ++b) {
-                if (b < contacts && !touching[b]) continue;
-                const double* const f = F + b * longest_series;
-                const double* const hab = h(a, b);
-                double part = 0;
-                for (int i = 1; i < std::min(n, p_terms); ++i) part += hab[i] * power[i] * f[n - 1 - i];
-                sum += part;
-            }
-            y[a * longest_series + n] = sum;
+            double* const later = y + a * longest_series + m + 1;
+            const double* const hab = h(a, b);
+            for (int i = 1; i < last; ++i) later[i] += hab[i] * power[i] * f;
         }
-        for (int b = 0; b < contacts; ++b)
+    };
+    for (int a = 0; a < points; ++a) {
+        std::copy_n(p + a * longest_series, std::min(p_terms, terms), y + a * longest_series);
+        std::fill(y + a * longest_series + std::min(p_terms, terms), y + a * longest_series + terms, 0.0);
+    }
+    for (int n = 0; n < terms; ++n) {
+        for (int b = 0; b < contacts; ++b) {
             F[b * longest_series + n] = touching[b] ? k[b] * ((n == 0 ? height[b] : 0) - y[b * longest_series + n]) : 0;
+            if (touching[b]) pass_on(b, n);
+        }
         if (points > contacts && n > 0) {  // the damper needs one derivative more: F is one term behind
             const int c = contacts;
             const double* yc = y + c * longest_series;
             F[c * longest_series + n] = 0;
             F[c * longest_series + n - 1] = k[c] * ((n == 1 ? height[c] : 0) - yc[n - 1]) - r[c] / z * yc[n];
+            pass_on(c, n - 1);
         }
+        if (forces > points) pass_on(points, n);
     }
 }
 

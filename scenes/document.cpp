@@ -195,7 +195,8 @@ Document parse_document(std::string_view text, const std::string& file, const st
         const int place = -1 - static_cast<int>(i);
         const std::string where = d.place(place);
         const std::size_t equals = overrides[i].find('=');
-        const auto path = parts_of(overrides[i].substr(0, equals));
+        const std::string key = overrides[i].substr(0, equals);
+        const auto path = parts_of(key.substr(0, key.find_last_not_of(' ') + 1));
         if (equals == std::string::npos || equals == 0) throw SceneFileError(where + ": expected key.path=value");
         if (path.size() > deepest)
             throw SceneFileError(where + ": found a key of " + std::to_string(path.size()) + " parts, expected at most " +
