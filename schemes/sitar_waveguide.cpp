@@ -7,6 +7,8 @@
 // how much. To eq 9 a correction d of y_r at node m is an impulse Z d now and -Z d on node m - 1 one step later: no momentum in the end,
 // and a bridge force that may pull.
 //
+// Long, because a class template over the number of planes keeps its step, bridge, taps and ledger in one file.
+//
 // Left out: any stiffness of the contact, losses that differ from partial to partial, where along the string the stiffness acts.
 #include <algorithm>
 #include <cmath>
