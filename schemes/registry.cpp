@@ -8,6 +8,7 @@ extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
 extern const Descriptor modal_quadratised, modal_quadratised_two_point_constrained, modal_quadratised_two_point_raw,
     modal_quadratised_three_point, modal_quadratised_three_point_constrained, modal_quadratised_three_point_raw;
 extern const Descriptor modal_explicit_penalty, modal_impulse_invariant;
+extern const Descriptor sitar_waveguide, sitar_fdm;
 
 std::span<const Descriptor> schemes() {
     static const Descriptor table[] = {
@@ -21,6 +22,8 @@ std::span<const Descriptor> schemes() {
         modal_quadratised_three_point_raw,
         modal_explicit_penalty,
         modal_impulse_invariant,
+        sitar_waveguide,
+        sitar_fdm,
     };
     return table;
 }
