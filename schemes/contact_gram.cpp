@@ -1,3 +1,4 @@
+// The unknown is each contact's new depth eta - r, and not r: a stiff contact's depth is far below the rounding of r.
 // Source: the contact equations of van Walstijn et al. 2016 (eq 48) and Issanchou et al. 2016 (eq 16) for several contacts; Newton's
 // method with a derivative line search (Nocedal & Wright 2006, chapter 3) on a convex merit.
 #include "schemes/contact_gram.hpp"
@@ -6,12 +7,12 @@ namespace jvari {
 
 namespace {
 constexpr int most_iterations = 100, plain_iterations = 20;
-constexpr double rounding = 2e-15;     // of a displacement's scale: nothing finer can be asked
+constexpr double rounding = 2e-15;     // of the terms of one equation: nothing finer can be asked
 constexpr double force_change = 1e-8;  // relative; Newton's next error is about its square
 }  // namespace
 
-MeanForce mean_force(const ContactLaw& law, double eta, double r) {
-    const double depth = eta - r, a = law.alpha;
+MeanForce mean_force(const ContactLaw& law, double eta, double depth) {
+    const double r = eta - depth, a = law.alpha;
     if (eta <= 0) {  // enters, or stays out
         if (depth <= 0) return {};
         const double F = law.potential(depth) / -r;
@@ -48,7 +49,7 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
                 }
         groups_.push_back({first, static_cast<int>(order_.size()) - first});
     }
-    for (auto* w : {&mean_, &slope_, &defect_, &dr_, &df_}) w->assign(n, 0.0);
+    for (auto* w : {&depth_, &mean_, &slope_, &defect_, &dr_, &df_}) w->assign(n, 0.0);
     active_.assign(n, 0);
     int largest = 0;
     for (const Group& g : groups_) largest = std::max(largest, g.count);
@@ -65,7 +66,7 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r, d
             const ContactSolution one = solve_contact(laws_[a], eta[a], b[a], theta_[a * n + a]);
             r[a] = one.r;
             force[a] = one.force;
-            s = {one.iterations, 0, one.converged};
+            s = {one.iterations, one.residual, one.converged};
         } else {
             s = solve_group(g, eta, b, r, force);
         }
@@ -138,23 +139,25 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             f[a] = solve_contact(laws_[a], eta[a], held, theta_[a * stride + a]).force;
         }
 
-    const auto reach = [&](int a) {  // the scale of r_a's rounding
-        double sum = std::abs(b[a]);
+    const auto reach = [&](int a) {  // the scale of rounding in r_a's equation
+        double sum = std::abs(b[a]) + std::abs(eta[a]);
         for (int j = 0; j < n; ++j) sum += std::abs(theta_[a * stride + set[j]] * f[set[j]]);
         return sum;
     };
-    const auto displace = [&] {  // r = -b + Theta f, F, dF/dr and the defect Theta (f - F)
+    const auto displaced = [&](int a) {  // r_a = -b_a + (Theta f)_a
+        double sum = -b[a];
+        for (int j = 0; j < n; ++j) sum += theta_[a * stride + set[j]] * f[set[j]];
+        return sum;
+    };
+    const auto evaluate = [&] {  // F, dF/dr and the defect r + b - Theta F, all from the depths
         for (int i = 0; i < n; ++i) {
-            double sum = -b[set[i]];
-            for (int j = 0; j < n; ++j) sum += theta_[set[i] * stride + set[j]] * f[set[j]];
-            r[set[i]] = sum;
-            const MeanForce F = mean_force(laws_[set[i]], eta[set[i]], sum);
+            const MeanForce F = mean_force(laws_[set[i]], eta[set[i]], depth_[set[i]]);
             mean_[set[i]] = F.value;
             slope_[set[i]] = F.slope;
         }
         for (int i = 0; i < n; ++i) {
-            double sum = 0;
-            for (int j = 0; j < n; ++j) sum += theta_[set[i] * stride + set[j]] * (f[set[j]] - mean_[set[j]]);
+            double sum = eta[set[i]] + b[set[i]] - depth_[set[i]];
+            for (int j = 0; j < n; ++j) sum -= theta_[set[i] * stride + set[j]] * mean_[set[j]];
             defect_[set[i]] = sum;
         }
     };
@@ -162,14 +165,15 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
         double sum = 0;
         for (int i = 0; i < n; ++i) {
             const int a = set[i];
-            sum += dr_[a] * (f[a] + t * df_[a] - mean_force(laws_[a], eta[a], r[a] + t * dr_[a]).value);
+            sum += dr_[a] * (f[a] + t * df_[a] - mean_force(laws_[a], eta[a], depth_[a] - t * dr_[a]).value);
         }
         return sum;
     };
 
     GramSolution s;
     s.converged = false;
-    displace();
+    for (int i = 0; i < n; ++i) depth_[set[i]] = eta[set[i]] - displaced(set[i]);
+    evaluate();
     for (s.iterations = 1; s.iterations <= most_iterations && !s.converged; ++s.iterations) {
         if (!newton_step(set, n)) break;
         s.converged = true;
@@ -177,9 +181,9 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             const int a = set[i];
             df_[a] = mean_[a] + slope_[a] * dr_[a] - f[a];
             const double step = std::abs(dr_[a]);
-            const bool stays_out = slope_[a] == 0 && eta[a] - r[a] - dr_[a] <= 0 && step <= 1e-9 * reach(a);
+            const bool stays_out = slope_[a] == 0 && step <= -1e-3 * depth_[a];
             const bool settled = slope_[a] < 0 && -slope_[a] * step <= force_change * mean_[a];
-            s.converged = s.converged && (stays_out || settled || step <= rounding * reach(a));
+            s.converged = s.converged && (stays_out || settled || std::abs(defect_[a]) <= rounding * reach(a));
         }
         double t = 1;
         if (!s.converged) {
@@ -197,13 +201,20 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
                 t = low > 0 ? low : t;
             }
         }
-        for (int i = 0; i < n; ++i) f[set[i]] += t * df_[set[i]];
-        displace();
+        for (int i = 0; i < n; ++i) {
+            f[set[i]] += t * df_[set[i]];
+            depth_[set[i]] -= t * dr_[set[i]];
+        }
+        evaluate();
     }
     --s.iterations;
     for (int i = 0; i < n; ++i) {
         const int a = set[i];
         if (f[a] < 0) f[a] = mean_[a];
+    }
+    for (int i = 0; i < n; ++i) {
+        const int a = set[i];
+        r[a] = displaced(a);
         const double scale = reach(a) * (1 - theta_[a * stride + a] * slope_[a]);
         if (scale > 0) s.residual = std::max(s.residual, std::abs(defect_[a]) / scale);
     }

@@ -16,8 +16,9 @@
 namespace jvari {
 
 struct GramSolution {
-    int iterations = 0;    // Newton iterations, the most that any group of coupled contacts took
-    double residual = 0;   // worst estimated error of r relative to its scale |b| + |Theta| f, coupled contacts only
+    int iterations = 0;  // Newton iterations, the most that any group of coupled contacts took
+    double residual =
+        0;  // worst: of a lone contact that of ContactSolution; of coupled ones the error of r relative to |eta| + |b| + |Theta| f
     bool converged = true;
 };
 
@@ -42,15 +43,15 @@ private:
     std::vector<double> theta_;
     std::vector<int> order_;
     std::vector<Group> groups_;
-    std::vector<double> mean_, slope_, defect_, dr_, df_, matrix_;  // workspaces
+    std::vector<double> depth_, mean_, slope_, defect_, dr_, df_, matrix_;  // workspaces
     std::vector<int> active_;
 };
 
-// F(r) and dF/dr <= 0 of one contact, limits at r -> 0 taken explicitly.
+// F(r) and dF/dr <= 0 of one contact at r = eta - depth, limits at r -> 0 taken explicitly.
 struct MeanForce {
     double value = 0;  // [N]
     double slope = 0;  // [N/m]
 };
-MeanForce mean_force(const ContactLaw&, double eta, double r);
+MeanForce mean_force(const ContactLaw&, double eta, double depth);
 
 }  // namespace jvari
