@@ -198,7 +198,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
                     else low = t;
                     if (slope <= 0 && slope >= 0.5 * start) break;
                 }
-                t = low > 0 ? low : t;
+                t = low > 0 ? low : 1;  // no descent at all: the slopes are rounding
             }
         }
         for (int i = 0; i < n; ++i) {

@@ -5,11 +5,15 @@
 namespace jvari {
 
 extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
+extern const Descriptor finite_difference_explicit, finite_difference_theta, finite_difference_hamiltonian;
 
 std::span<const Descriptor> schemes() {
     static const Descriptor table[] = {
         modal_two_point,
         modal_two_point_trapezoidal,
+        finite_difference_explicit,
+        finite_difference_theta,
+        finite_difference_hamiltonian,
     };
     return table;
 }
