@@ -75,9 +75,7 @@ public:
         for (int a = 0; a < points; ++a)
             if (force_[a] != 0) responses_[a].add(0.5 * gain_ * force_[a], next);
         std::copy_n(next - 1, N + 2, before - 1);  // at rest: u^{-1} = u^1
-        bridge_ = 0.5 * bridge_force();
-        thread_ = 0.5 * thread_force();
-        supplied_ = dissipated_ = 0;
+        bridge_ = thread_ = supplied_ = dissipated_ = 0;  // row 0 takes the halves of this force
         budget_ = std::abs(stored());
     }
 
