@@ -20,6 +20,7 @@
 
 #include "scenes/excitation.hpp"
 #include "schemes/aligned.hpp"
+#include "schemes/five_point_pass.hpp"
 #include "schemes/grid_scheme.hpp"
 
 namespace jvari {
@@ -45,7 +46,7 @@ public:
         obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, 2 * dt);
         start_ = ObstacleStep(g_.laws, g_.heights, g_.thread, half, dt);
         for (auto* v : {&older_, &free_, &force_, &reading_}) v->assign(points, 0.0);
-        for (auto& b : buffer_) b = AlignedVector(offset + g_.grid.intervals + 16);
+        for (auto& b : buffer_) b = AlignedVector(offset + g_.grid.intervals + five_point_overhang);
     }
 
     void reset() noexcept {
@@ -74,7 +75,7 @@ public:
         if (!start_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, 0};
         for (int a = 0; a < points; ++a)
             if (force_[a] != 0) responses_[a].add(0.5 * gain_ * force_[a], next);
-        std::copy_n(next - 1, N + 2, before - 1);  // at rest: u^{-1} = u^1
+        std::copy_n(next - 1, N + 2, before - 1);         // at rest: u^{-1} = u^1
         bridge_ = thread_ = supplied_ = dissipated_ = 0;  // row 0 takes the halves of this force
         budget_ = std::abs(stored());
     }
@@ -243,31 +244,25 @@ private:
     Status failed_;
 };
 
-// next = a0 u_l + a1 (u_{l-1} + u_{l+1}) + a2 (u_{l-2} + u_{l+2}) + b0 u-_l + b1 (u-_{l-1} + u-_{l+1})
-struct FivePoint {
-    int intervals = 0;
-    double a0 = 0, a1 = 0, a2 = 0, b0 = 0, b1 = 0;
-
-    // (2M - dt^2 K) u - (M - dt R/2) u-, over `divisor`
-    FivePoint(const GridString& g, double dt, double m, double divisor) : intervals(g.grid.intervals) {
+// (2M - dt^2 K) u - (M - dt R/2) u-, over `divisor`
+class FivePoint {
+public:
+    FivePoint(const GridString& g, double dt, double m, double divisor) : intervals_(g.grid.intervals) {
         const double h2 = g.grid.dx * g.grid.dx, s = g.c2 * dt * dt / h2, q = g.kappa2 * dt * dt / (h2 * h2);
         const double mu = m / h2, z = g.loss.sigma1 * dt / h2;
-        a0 = (2 - 4 * mu - 2 * s - 6 * q) / divisor;
-        a1 = (2 * mu + s + 4 * q) / divisor;
-        a2 = -q / divisor;
-        b0 = -(1 - g.loss.sigma0 * dt - 2 * (mu + z)) / divisor;
-        b1 = -(mu + z) / divisor;
+        w_.a0 = (2 - 4 * mu - 2 * s - 6 * q) / divisor;
+        w_.a1 = (2 * mu + s + 4 * q) / divisor;
+        w_.a2 = -q / divisor;
+        w_.b0 = -(1 - g.loss.sigma0 * dt - 2 * (mu + z)) / divisor;
+        w_.b1 = -(mu + z) / divisor;
+        pass_ = five_point_pass(w_);
     }
-    void operator()(double* __restrict next, const double* __restrict now, const double* __restrict before) const noexcept {
-        const int N = intervals;
-        if (b1 == 0)
-            for (int l = 1; l < N; ++l)
-                next[l] = a0 * now[l] + a1 * (now[l - 1] + now[l + 1]) + a2 * (now[l - 2] + now[l + 2]) + b0 * before[l];
-        else
-            for (int l = 1; l < N; ++l)
-                next[l] = a0 * now[l] + a1 * (now[l - 1] + now[l + 1]) + a2 * (now[l - 2] + now[l + 2]) + b0 * before[l] +
-                          b1 * (before[l - 1] + before[l + 1]);
-    }
+    void operator()(double* next, const double* now, const double* before) const noexcept { pass_(w_, intervals_, next, now, before); }
+
+private:
+    int intervals_;
+    FivePointWeights w_;
+    FivePointPass pass_;
 };
 
 }  // namespace jvari
