@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_interp.h>
 
+#include <algorithm>
 #include <memory>
 #include <numbers>
 
@@ -27,7 +28,10 @@ struct HeightAt {
         const std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline(gsl_interp_alloc(kind, c.x.size()), gsl_interp_free);
         gsl_interp_init(spline.get(), c.x.data(), c.height.data(), c.x.size());
         std::vector<double> g;
-        for (double p : x) g.push_back(gsl_interp_eval(spline.get(), c.x.data(), c.height.data(), p, nullptr));
+        for (double p : x) {  // a grid may round past the table's end, where GSL would abort; the end's height holds there
+            const double within = std::clamp(p, c.x.front(), c.x.back());
+            g.push_back(gsl_interp_eval(spline.get(), c.x.data(), c.height.data(), within, nullptr));
+        }
         return g;
     }
 };

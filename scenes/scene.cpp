@@ -1,58 +1,37 @@
-// Names, what a scene needs, and what a scene may not say.
+// Names, and what a scene asks of a scheme. What a scene may not say is in validate.cpp.
 #include "scenes/scene.hpp"
 
 namespace jvari {
 
 const char* name_of(Quantity q) {
     switch (q) {
-        case Quantity::displacement:
-            return "displacement";
-        case Quantity::velocity:
-            return "velocity";
-        case Quantity::nut_force:
-            return "nut_force";
-        case Quantity::bridge_force:
-            return "bridge_force";
-        case Quantity::thread_force:
-            return "thread_force";
-        case Quantity::driving_force:
-            return "driving_force";
+        case Quantity::displacement: return "displacement";
+        case Quantity::velocity: return "velocity";
+        case Quantity::nut_force: return "nut_force";
+        case Quantity::bridge_force: return "bridge_force";
+        case Quantity::thread_force: return "thread_force";
+        case Quantity::driving_force: return "driving_force";
     }
     return "?";
 }
 
 const char* name_of(Feature f) {
     switch (f) {
-        case Feature::several_strings:
-            return "several strings";
-        case Feature::bending_stiffness:
-            return "bending stiffness";
-        case Feature::damping:
-            return "damping";
-        case Feature::frequency_dependent_damping:
-            return "frequency-dependent damping";
-        case Feature::measured_modes:
-            return "measured modes";
-        case Feature::lumped_barrier:
-            return "lumped barrier";
-        case Feature::profile_barrier:
-            return "profile barrier";
-        case Feature::several_barriers:
-            return "several barriers";
-        case Feature::power_law_contact:
-            return "contact exponent other than 1";
-        case Feature::contact_loss:
-            return "contact loss";
-        case Feature::thread:
-            return "thread";
-        case Feature::initial_shape:
-            return "initial shape";
-        case Feature::pluck:
-            return "pluck";
-        case Feature::polarisation:
-            return "two polarisations";
-        case Feature::body:
-            return "body";
+        case Feature::several_strings: return "several strings";
+        case Feature::bending_stiffness: return "bending stiffness";
+        case Feature::damping: return "damping";
+        case Feature::frequency_dependent_damping: return "frequency-dependent damping";
+        case Feature::measured_modes: return "measured modes";
+        case Feature::lumped_barrier: return "lumped barrier";
+        case Feature::profile_barrier: return "profile barrier";
+        case Feature::several_barriers: return "several barriers";
+        case Feature::power_law_contact: return "contact exponent other than 1";
+        case Feature::contact_loss: return "contact loss";
+        case Feature::thread: return "thread";
+        case Feature::initial_shape: return "initial shape";
+        case Feature::pluck: return "pluck";
+        case Feature::polarisation: return "two polarisations";
+        case Feature::body: return "body";
     }
     return "?";
 }
@@ -111,7 +90,5 @@ Features needed_by(const Scene& scene) {
 
 BadScene::BadScene(std::string k, std::string f, std::string e)
     : std::runtime_error(k + ": found " + f + ", expected " + e), key(std::move(k)), found(std::move(f)), expected(std::move(e)) {}
-
-void validate(const Scene&) {}
 
 }  // namespace jvari

@@ -120,9 +120,7 @@ public:
                 case Quantity::displacement:
                     taps_.push_back({From::modes, keep(unscaled(displacement_weights(modes, tap.position)))});
                     break;
-                case Quantity::nut_force:
-                    taps_.push_back({From::modes, keep(unscaled(nut_force_weights(modes, s)))});
-                    break;
+                case Quantity::nut_force: taps_.push_back({From::modes, keep(unscaled(nut_force_weights(modes, s)))}); break;
                 case Quantity::velocity: {  // p/m = 2q/dt, q = J u/2 + A y
                     std::vector<double> on_y = unscaled(displacement_weights(modes, tap.position)), on_u = on_y;
                     for (int i = 0; i < m_.modes; ++i) {
@@ -132,15 +130,9 @@ public:
                     taps_.push_back({From::modes_and_increment, keep(on_y), keep(on_u)});
                     break;
                 }
-                case Quantity::bridge_force:
-                    taps_.push_back({From::bridge});
-                    break;
-                case Quantity::thread_force:
-                    taps_.push_back({From::thread});
-                    break;
-                case Quantity::driving_force:
-                    taps_.push_back({From::driving});
-                    break;
+                case Quantity::bridge_force: taps_.push_back({From::bridge}); break;
+                case Quantity::thread_force: taps_.push_back({From::thread}); break;
+                case Quantity::driving_force: taps_.push_back({From::driving}); break;
             }
         }
         m_.taps = taps_.data();

@@ -162,16 +162,11 @@ double stored(const TwoPoint& m) {
 HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
     const double steps = m.steps_per_row;
     switch (tap.from) {
-        case TwoPointTap::From::modes:
-            return dot(tap.on_y, m.y, m.size);
-        case TwoPointTap::From::modes_and_increment:
-            return dot(tap.on_y, m.y, m.size) + dot(tap.on_u, m.u, m.size);
-        case TwoPointTap::From::bridge:
-            return m.impulse_b / steps;
-        case TwoPointTap::From::thread:
-            return m.impulse_c / steps;
-        case TwoPointTap::From::driving:
-            return -(m.impulse_b + m.impulse_c) / steps;
+        case TwoPointTap::From::modes: return dot(tap.on_y, m.y, m.size);
+        case TwoPointTap::From::modes_and_increment: return dot(tap.on_y, m.y, m.size) + dot(tap.on_u, m.u, m.size);
+        case TwoPointTap::From::bridge: return m.impulse_b / steps;
+        case TwoPointTap::From::thread: return m.impulse_c / steps;
+        case TwoPointTap::From::driving: return -(m.impulse_b + m.impulse_c) / steps;
     }
     return 0;
 }
@@ -196,12 +191,9 @@ Status advance(TwoPoint& m, const Block& out) {
 
 TwoPointAdvance choose(ContactKind kind, bool thread) {
     switch (kind) {
-        case ContactKind::none:
-            return thread ? advance<ContactKind::none, true> : advance<ContactKind::none, false>;
-        case ContactKind::linear:
-            return thread ? advance<ContactKind::linear, true> : advance<ContactKind::linear, false>;
-        case ContactKind::power:
-            return thread ? advance<ContactKind::power, true> : advance<ContactKind::power, false>;
+        case ContactKind::none: return thread ? advance<ContactKind::none, true> : advance<ContactKind::none, false>;
+        case ContactKind::linear: return thread ? advance<ContactKind::linear, true> : advance<ContactKind::linear, false>;
+        case ContactKind::power: return thread ? advance<ContactKind::power, true> : advance<ContactKind::power, false>;
     }
     return nullptr;
 }

@@ -88,14 +88,10 @@ private:
 
     Real value(int k) const {
         switch (scene_.taps[k].quantity) {
-            case Quantity::bridge_force:
-                return impulse_b / ratio_;
-            case Quantity::thread_force:
-                return impulse_c / ratio_;
-            case Quantity::driving_force:
-                return -(impulse_b + impulse_c) / ratio_;
-            default:
-                return (taps_[k] * y).sum();
+            case Quantity::bridge_force: return impulse_b / ratio_;
+            case Quantity::thread_force: return impulse_c / ratio_;
+            case Quantity::driving_force: return -(impulse_b + impulse_c) / ratio_;
+            default: return (taps_[k] * y).sum();
         }
     }
     void step() {
