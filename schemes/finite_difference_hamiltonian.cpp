@@ -146,21 +146,11 @@ private:
             double& cell = out.tap[tap.column * out.stride + row];
             switch (tap.quantity) {
                 case Quantity::displacement:
-                case Quantity::nut_force:
-                    cell += tap.stencil.read(y_);
-                    break;
-                case Quantity::velocity:
-                    cell += tap.stencil.read(q_) * 2 / dt_;
-                    break;
-                case Quantity::bridge_force:
-                    cell += bridge;
-                    break;
-                case Quantity::thread_force:
-                    cell += thread;
-                    break;
-                case Quantity::driving_force:
-                    cell -= bridge + thread;
-                    break;
+                case Quantity::nut_force: cell += tap.stencil.read(y_); break;
+                case Quantity::velocity: cell += tap.stencil.read(q_) * 2 / dt_; break;
+                case Quantity::bridge_force: cell += bridge; break;
+                case Quantity::thread_force: cell += thread; break;
+                case Quantity::driving_force: cell -= bridge + thread; break;
             }
         }
         if (out.energy) {

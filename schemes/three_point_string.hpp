@@ -203,21 +203,11 @@ private:
             double& cell = out.tap[tap.column * out.stride + row];
             switch (tap.quantity) {
                 case Quantity::displacement:
-                case Quantity::nut_force:
-                    cell += tap.stencil.read(now);
-                    break;
-                case Quantity::velocity:
-                    cell += (tap.stencil.read(next) - tap.stencil.read(before)) / (2 * dt_);
-                    break;
-                case Quantity::bridge_force:
-                    cell += bridge;
-                    break;
-                case Quantity::thread_force:
-                    cell += thread;
-                    break;
-                case Quantity::driving_force:
-                    cell -= bridge + thread;
-                    break;
+                case Quantity::nut_force: cell += tap.stencil.read(now); break;
+                case Quantity::velocity: cell += (tap.stencil.read(next) - tap.stencil.read(before)) / (2 * dt_); break;
+                case Quantity::bridge_force: cell += bridge; break;
+                case Quantity::thread_force: cell += thread; break;
+                case Quantity::driving_force: cell -= bridge + thread; break;
             }
         }
         if (out.energy) {
