@@ -39,7 +39,7 @@ public:
         std::vector<Fact> all;
         for (std::size_t k = 0; k < strings_.size(); ++k)
             for (Fact f : strings_[k].facts()) {
-                if (strings_.size() > 1) f.name = "string." + std::to_string(k) + "." + f.name;
+                if (strings_.size() > 1) f.name = std::string("string.").append(std::to_string(k)).append(".").append(f.name);
                 all.push_back(f);
             }
         return all;
