@@ -8,7 +8,9 @@
 
 namespace jvari {
 
-double pluck_window(const Pluck& e) { return e.duration / (8 * std::max(1.0, std::abs(e.skew))); }
+double pluck_window(const Pluck& e) {
+    return e.duration / (8 * std::max(1.0, std::abs(e.skew)));
+}
 
 void pluck_series(const Pluck& e, double u, double h, int count, double* c) {
     const double k = std::abs(e.skew), x = u / e.duration, step = h / e.duration;  // h_e is even in the skew
