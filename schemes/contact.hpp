@@ -31,29 +31,29 @@ struct ContactSolution {
     double force = 0;    // mean force on the string over the step, >= 0 [N]
     int iterations = 0;  // 0: closed form
     bool converged = true;
+    double residual = 0;  // of the equation at the last iterate, before its final correction, relative to its largest term
 };
 
-// Exponent 1: four cases (van Walstijn et al. 2016, fig 4). eta = h - a, phi = theta k/2.
+// Exponent 1: four cases (van Walstijn et al. 2016, fig 4). eta = h - a, phi = theta k/2. Written so that no case subtracts two numbers
+// that a stiff contact (phi >> 1) makes nearly equal.
 inline ContactSolution solve_linear_contact(double k, double eta, double b, double theta) {
     const double phi = 0.5 * theta * k;
     if (eta <= 0 && eta + b <= 0) return {-b, 0.0};  // stays out
-    double r;
     if (eta > 0) {
-        if (eta * (1 - phi) + b > 0) {  // stays in: eta - r > 0
-            r = (2 * phi * eta - b) / (1 + phi);
-            return {r, k * (eta - 0.5 * r)};
-        }
+        if (eta * (1 - phi) + b > 0)  // stays in: eta - r > 0
+            return {(2 * phi * eta - b) / (1 + phi), k * (eta + 0.5 * b) / (1 + phi)};
         const double root = std::sqrt(b * b + 4 * phi * eta * eta);  // leaves
-        r = b > 0 ? 2 * phi * eta * eta / (b + root) : 0.5 * (root - b);
+        const double r = b > 0 ? 2 * phi * eta * eta / (b + root) : 0.5 * (root - b);
         return {r, 0.5 * k * eta * eta / r};
     }
-    const double p = b - 2 * phi * eta;  // enters, > 0
-    r = -0.5 * (p + std::sqrt(b * b - 4 * phi * eta * (b + eta))) / (1 + phi);
-    const double depth = eta - r;
-    return {r, depth > 0 ? -0.5 * k * depth * depth / r : 0.0};
+    // enters: depth x = eta - r solves (1 + phi) x^2 + (gap - free) x - free gap = 0, gap = -eta, free = eta + b > 0
+    const double gap = -eta, free = eta + b, p = gap - free;
+    const double root = std::sqrt(p * p + 4 * (1 + phi) * free * gap);
+    const double x = p > 0 ? 2 * free * gap / (p + root) : 0.5 * (root - p) / (1 + phi);
+    return {-(gap + x), 0.5 * k * x / (gap + x) * x};
 }
 
-// Any exponent >= 1: leaving is analytic, staying and entering by Newton safeguarded by bisection.
+// Any exponent >= 1: leaving is analytic; staying and entering by Newton on a convex increasing function, from above its root.
 ContactSolution solve_power_contact(const ContactLaw&, double eta, double b, double theta);
 
 inline ContactSolution solve_contact(const ContactLaw& law, double eta, double b, double theta) {

@@ -4,8 +4,14 @@
 
 namespace jvari {
 
+extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
+
 std::span<const Descriptor> schemes() {
-    return {};
+    static const Descriptor table[] = {
+        modal_two_point,
+        modal_two_point_trapezoidal,
+    };
+    return table;
 }
 
 std::span<const Descriptor> load_plugin(const std::string& path) {
