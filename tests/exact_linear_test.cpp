@@ -102,9 +102,9 @@ TEST(ExactLinear, TheTraceDoesNotDependOnHowDenselyItIsTapped) {
         Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});
         scene.strings[0].initial = TriangleInitial{0.2, 1e-4, 0.01};
         scene.strings[0].pluck = pluck(skew);
-        scene.duration = 220 / 11025.0;
-        const jvari::Run coarse = run(exact_linear, scene, settings(60, 11025)), fine = run(exact_linear, scene, settings(60, 99225));
-        for (int k = 0; k < 3; ++k) EXPECT_LT(difference(coarse.trace.column(k), fine.trace.column(k), 9), 1e-13) << skew << " tap " << k;
+        scene.duration = 24 / 1225.0;
+        const jvari::Run coarse = run(exact_linear, scene, settings(60, 1225)), fine = run(exact_linear, scene, settings(60, 99225));
+        for (int k = 0; k < 3; ++k) EXPECT_LT(difference(coarse.trace.column(k), fine.trace.column(k), 81), 1e-13) << skew << " tap " << k;
     }
 }
 
