@@ -25,15 +25,9 @@ void Readout::write(const Block& out, int row, const double* y, const double* u,
                 for (int i = 0; i < modes_; ++i) v += w[i] * u[i];
                 v *= rate;
                 break;
-            case Quantity::bridge_force:
-                v = bridge;
-                break;
-            case Quantity::thread_force:
-                v = thread;
-                break;
-            case Quantity::driving_force:
-                v = -(bridge + thread);
-                break;
+            case Quantity::bridge_force: v = bridge; break;
+            case Quantity::thread_force: v = thread; break;
+            case Quantity::driving_force: v = -(bridge + thread); break;
         }
         out.tap[k * out.stride + row] = v;
     }
