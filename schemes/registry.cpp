@@ -2,10 +2,15 @@
 
 #include <dlfcn.h>
 
+#include "schemes/modal_spatial_newton.hpp"
+
 namespace jvari {
 
 std::span<const Descriptor> schemes() {
-    return {};
+    static const Descriptor table[] = {
+        modal_spatial_newton,
+    };
+    return table;
 }
 
 std::span<const Descriptor> load_plugin(const std::string& path) {
