@@ -5,15 +5,20 @@
 // outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ - u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al.
 // 2016, eqs 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two polarisations, several strings.
 //
+// Order: free motion is exact. Forced motion is second order without losses and first order with them: eq 14 puts dt^2/m F on a mode where
+// a damped one wants e^{-sigma dt} of it (a factor per mode would couple the nodes, so the paper's form is kept).
+//
 // Instants. Step n centres on t = n dt and makes level n+1 of levels n and n-1; its force F^n stands for the interval n-1/2 .. n+1/2.
 // Row n is written when F^n is known: displacement is level n; velocity is that of the free motion through levels n-1, n, n+1 corrected for
-// F^n (three_point.hpp; a centred difference near and above Nyquist); a contact force is the trapezoidal mean of F over the interval.
-// Stored energy is H^{n+1/2}, which F^n reaches; supplied and dissipated sum the steps after the former row up to n. Row 0: H^{1/2}.
-// Start: from rest both neighbours of level 0 carry half of F^0, the contact force at level 1 (implicit, so deep contact is stable).
+// F^n for the modes that tell it and a centred difference for the rest (three_point.hpp); a contact force is the trapezoidal mean of F over
+// the interval. Stored energy is H^{n+1/2}, which F^n reaches; supplied and dissipated sum the steps after the former row up to n. Row 0:
+// H^{1/2}. Start: from rest both neighbours of level 0 carry half of F^0, the contact force at level 1 (implicit, so deep contact is
+// stable).
 #include "schemes/modal_spatial_newton.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
@@ -434,8 +439,9 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
     p.modes = modes_of(p.string(), intervals - 1);
     p.initial = initial_displacement(p.modes, p.string());
-    p.three_point = three_point(p.modes, p.dt);
     p.ports = spatial_ports(p.string(), p.modes, intervals, scene.name);
+    const bool linear = p.ports.points.empty() && !p.string().thread;
+    p.three_point = three_point(p.modes, p.dt, (linear ? 0.95 : 0.25) * std::numbers::pi);
     p.update = {intervals, p.three_point.Ct, p.three_point.kappa, p.three_point.gain, p.ports.ports, 0};
     p.update.reads = static_cast<int>(p.ports.points.size()) + (p.string().thread ? 1 : 0);
 

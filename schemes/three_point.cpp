@@ -6,7 +6,7 @@
 
 namespace jvari {
 
-ThreePoint three_point(const Modes& modes, double dt) {
+ThreePoint three_point(const Modes& modes, double dt, double told) {
     ThreePoint c;
     c.gain = dt * dt / modes.mass;
     for (int j = 0; j < modes.count(); ++j) {
@@ -32,8 +32,8 @@ ThreePoint three_point(const Modes& modes, double dt) {
             c.start.push_back(fallen + decay * sigma * dt);
             rate = 1 / dt;
         }
-        const bool told = omega0 * dt < 0.95 * std::numbers::pi && sigma * dt < 1;
-        c.velocity.push_back(told ? 0.5 * rate / decay : 0.0);
+        const bool exact = omega0 * dt < told && sigma * dt < 1;
+        c.velocity.push_back(exact ? 0.5 * rate / decay : 0.0);
     }
     return c;
 }
