@@ -23,16 +23,18 @@ double sine(long numerator, long intervals) {  // sin(pi numerator/intervals)
 }
 
 // S diag(c) S^-1, S_ij = sin(ij pi/N), S^-1 = (2/N) S:  element ik is t(i-k) - t(i+k), t(q) = (1/N) sum_j c_j cos(qj pi/N).
+// In long double: an error common to a diagonal would detune every mode, by 1e-16/(omega dt)^2.
 std::vector<double> nodal_matrix(const std::vector<double>& c, int N) {
     const int n = N - 1;
-    std::vector<double> t(2 * N), cosine(2 * N), matrix(static_cast<std::size_t>(n) * n);
-    for (long q = 0; q < 2 * N; ++q) cosine[q] = std::cos(std::numbers::pi * double(q) / N);
+    std::vector<long double> t(2 * N), cosine(2 * N);
+    std::vector<double> matrix(static_cast<std::size_t>(n) * n);
+    for (long q = 0; q < 2 * N; ++q) cosine[q] = std::cos(std::numbers::pi_v<long double> * q / N);
     for (long q = 0; q < 2 * N; ++q) {
         for (long j = 1; j < N; ++j) t[q] += c[j - 1] * cosine[q * j % (2 * N)];
         t[q] /= N;
     }
     for (int k = 1; k <= n; ++k)
-        for (int i = 1; i <= n; ++i) matrix[static_cast<std::size_t>(k - 1) * n + i - 1] = t[std::abs(i - k)] - t[i + k];
+        for (int i = 1; i <= n; ++i) matrix[static_cast<std::size_t>(k - 1) * n + i - 1] = double(t[std::abs(i - k)] - t[i + k]);
     return matrix;
 }
 }  // namespace
