@@ -54,8 +54,8 @@ struct PluckPort {
 
 struct TapReading {
     Quantity quantity;
-    std::vector<double> displacement, increment, kept;  // weights on the form's levels
-    std::vector<double> force, earlier_force;           // velocity: weights of F^n and F^{n-1}
+    Row displacement, increment, kept;         // weights on the form's levels
+    std::vector<double> force, earlier_force;  // velocity: weights of F^n and F^{n-1}
 };
 
 struct Effort {

@@ -45,7 +45,7 @@ std::vector<double> node_weights(int intervals, int node) {
     return w;
 }
 
-double dot(const std::vector<double>& weights, const std::vector<double>& level) {
+double dot(const Row& weights, const Row& level) {
     return In(weights.data(), weights.size()).dot(In(level.data(), level.size()));
 }
 
@@ -92,14 +92,14 @@ void DenseForm::advance(const double* force, double* free) {
     read(free);
 }
 
-void DenseForm::to_modal(const std::vector<double>& level, double* modal) const {
+void DenseForm::to_modal(const Row& level, double* modal) const {
     Out(modal, size_).noalias() = Matrix(S_.data(), size_, size_) * In(level.data(), size_);
     Out(modal, size_) *= 2.0 / (size_ + 1);
 }
 
-std::vector<double> DenseForm::reading(const std::vector<double>& modal_weights) const {
-    std::vector<double> w(size_);
-    to_modal(modal_weights, w.data());  // S^-1 is symmetric
+Row DenseForm::reading(const std::vector<double>& modal_weights) const {
+    Row w(size_);
+    to_modal(Row(modal_weights.begin(), modal_weights.end()), w.data());  // S^-1 is symmetric
     return w;
 }
 
@@ -150,11 +150,11 @@ void SineForm::advance(const double* force, double* free) {
     read(free);
 }
 
-void SineForm::to_modal(const std::vector<double>& level, double* modal) const {
+void SineForm::to_modal(const Row& level, double* modal) const {
     std::copy(level.begin(), level.end(), modal);
 }
-std::vector<double> SineForm::reading(const std::vector<double>& modal_weights) const {
-    return modal_weights;
+Row SineForm::reading(const std::vector<double>& modal_weights) const {
+    return {modal_weights.begin(), modal_weights.end()};
 }
 
 }  // namespace jvari

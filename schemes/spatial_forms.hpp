@@ -13,6 +13,8 @@
 #include <memory>
 #include <vector>
 
+#include "schemes/aligned.hpp"
+
 namespace jvari {
 
 struct Port {
@@ -34,25 +36,27 @@ std::vector<double> node_weights(int intervals, int node);
 
 // The two levels that a form carries, in its own coordinates, and a copy of the increment taken when asked for.
 struct Levels {
-    std::vector<double> displacement;  // y^n [m]
-    std::vector<double> increment;     // y^{n+1} - y^n without the force of step n [m]
-    std::vector<double> kept;          // an earlier increment
+    Row displacement;  // y^n [m]
+    Row increment;     // y^{n+1} - y^n without the force of step n [m]
+    Row kept;          // an earlier increment
 };
-double dot(const std::vector<double>& weights, const std::vector<double>& level);
+double dot(const Row& weights, const Row& level);
 
 class RestrictedForm {
 public:
     explicit RestrictedForm(const LinearUpdate&);
+    ~RestrictedForm();
     void start(const double* y, const double* free_increment);  // modal values at t = 0
     void read(double* free) const;                              // displacement of the reads at n+1 without the force of step n
     void advance(const double* force, double* free);            // applies the forces of step n, n -> n+1, then reads
-    void to_modal(const std::vector<double>& level, double* modal) const;
-    std::vector<double> reading(const std::vector<double>& modal_weights) const;  // weights of the same quantity in own coordinates
+    void to_modal(const Row& level, double* modal) const;
+    Row reading(const std::vector<double>& modal_weights) const;  // weights of the same quantity in own coordinates
     void keep() { levels.kept = levels.increment; }
     Levels levels;
 
 private:
-    LinearUpdate update_;
+    struct Plan;
+    std::unique_ptr<Plan> plan_;
 };
 
 class DenseForm {
@@ -61,15 +65,15 @@ public:
     void start(const double* y, const double* free_increment);
     void read(double* free) const;
     void advance(const double* force, double* free);
-    void to_modal(const std::vector<double>& level, double* modal) const;
-    std::vector<double> reading(const std::vector<double>& modal_weights) const;
+    void to_modal(const Row& level, double* modal) const;
+    Row reading(const std::vector<double>& modal_weights) const;
     void keep() { levels.kept = levels.increment; }
     Levels levels;
 
 private:
     int size_, reads_;
-    std::vector<double> S_, Dt_, Kappa_;               // column-major, size x size
-    std::vector<std::vector<double>> push_, reading_;  // per port: dt^2/m S g and the reading of g
+    std::vector<double> S_, Dt_, Kappa_;  // column-major, size x size
+    std::vector<Row> push_, reading_;     // per port: dt^2/m S g and the reading of g
     std::vector<double> applied_;
 };
 
@@ -81,8 +85,8 @@ public:
     void start(const double* y, const double* free_increment);
     void read(double* free) const;
     void advance(const double* force, double* free);
-    void to_modal(const std::vector<double>& level, double* modal) const;
-    std::vector<double> reading(const std::vector<double>& modal_weights) const;
+    void to_modal(const Row& level, double* modal) const;
+    Row reading(const std::vector<double>& modal_weights) const;
     void keep() { levels.kept = levels.increment; }
     Levels levels;
 
