@@ -58,7 +58,9 @@ ContactSolution enter(double k, double p, double gap, double free, double theta)
     ContactSolution s;
     const double T = theta * k / p;
     // x^p < free (gap + x)/T: whichever of gap and x is larger gives the bound, near the root where T x^p carries the step
-    double x = std::min(free, std::max(std::pow(gap / T * free, 1 / p), std::pow(free / T, 1 / (p - 1))));
+    const double carried = std::log(free / T);
+    const double near = gap > 0 ? (carried + std::log(gap)) / p : -HUGE_VAL, deep = carried / (p - 1);
+    double x = std::min(free, std::exp(std::max(near, deep)));
     for (s.iterations = 1; s.iterations <= most_iterations; ++s.iterations) {
         const double reach = gap + x, load = T * std::pow(x, p - 1) * (x / reach);  // theta V(x)/(e + x)
         const double residual = x + load - free;
@@ -85,7 +87,7 @@ ContactSolution solve_power_contact(const ContactLaw& law, double eta, double b,
     const double p = law.alpha + 1;
     if (eta <= 0) return enter(law.k, p, -eta, eta + b, theta);
     if (b * epsilon > eta) return enter(law.k, p, 0.0, b, theta);  // a penetration below the rounding of the step is none
-    const double B = b / eta, S = theta * law.k / p * std::pow(eta, law.alpha - 1), scale = law.k / p * std::pow(eta, law.alpha);
+    const double B = b / eta, scale = law.k / p * std::pow(eta, law.alpha), S = theta * scale / eta;
     if (S >= 1 + B) {  // leaves: rho = r/eta >= 1 solves rho^2 + B rho - S = 0
         const double root = std::sqrt(B * B + 4 * S);
         const double rho = B > 0 ? 2 * S / (B + root) : 0.5 * (root - B);

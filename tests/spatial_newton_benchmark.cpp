@@ -107,28 +107,28 @@ double force_of(const ContactLaw& law, double eta, double b, double theta) {
 template <class Real>
 class PlainRestricted {
 public:
-    explicit PlainRestricted(bool parabola) : grid(parabola), c(scene_of(parabola).strings[0]), Phi(grid.count(), M), tap(M) {
+    explicit PlainRestricted(bool parabola) : grid(parabola), c(scene_of(parabola).strings[0]), Phi(M, grid.count()), tap(M) {
         for (int j = 1; j <= M; ++j) {
             for (int z = 0; z < grid.count(); ++z)
-                Phi(z, j - 1) = std::sin(std::numbers::pi_v<Real> * ((long(j) * grid.node[z]) % (2 * N)) / N);
+                Phi(j - 1, z) = std::sin(std::numbers::pi_v<Real> * ((long(j) * grid.node[z]) % (2 * N)) / N);
             tap[j - 1] = std::sin(std::numbers::pi_v<Real> * ((long(j) * 10) % (2 * N)) / N);
         }
         older = c.y0;
         now = c.y1;
-        u_older = Phi * older;
-        u_now = Phi * now;
+        u_older = Phi.transpose() * older;
+        u_now = Phi.transpose() * now;
         force.resize(grid.count());
     }
     void step() {  // n -> n+1
         next.noalias() = c.C.cwiseProduct(now) - c.Ct.cwiseProduct(older);
-        u_next.noalias() = Phi * next;
+        u_next.noalias() = Phi.transpose() * next;
         bool touching = false;
         for (int z = 0; z < grid.count(); ++z) {
             force[z] = force_of(grid.law, grid.height[z] - u_older[z], u_older[z] - u_next[z], c.theta);
             touching = touching || force[z] != 0;
         }
         if (touching) {
-            next.noalias() += c.gain * (Phi.transpose() * force);
+            next.noalias() += Phi * (c.gain * force);
             u_next += c.theta * force;
         }
         older.swap(now);
@@ -141,7 +141,7 @@ public:
 private:
     Grid grid;
     Coefficients<Real> c;
-    Table<Real> Phi;
+    Table<Real> Phi;  // one column of weights per node
     Column<Real> tap, older, now, next, u_older, u_now, u_next, force;
 };
 
@@ -236,8 +236,12 @@ void plain(benchmark::State& state, bool parabola, int rows) {
     report(state, long(rows) * steps_per_row, e);
 }
 
-void restricted(benchmark::State& state, bool parabola) { plain<PlainRestricted<double>>(state, parabola, 400); }
-void dense(benchmark::State& state, bool parabola) { plain<PlainDense>(state, parabola, 40); }
+void restricted(benchmark::State& state, bool parabola) {
+    plain<PlainRestricted<double>>(state, parabola, 400);
+}
+void dense(benchmark::State& state, bool parabola) {
+    plain<PlainDense>(state, parabola, 40);
+}
 
 BENCHMARK_CAPTURE(fused, point, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(restricted, point, false)->Unit(benchmark::kMillisecond);
