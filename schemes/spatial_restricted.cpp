@@ -88,18 +88,38 @@ HWY_INLINE void synthesise(const Pass& p, const double* s0, const double* s1, lo
     }
 }
 
+// What is pushed in this step: the first port's part stays in registers, further ports (a long contact, a pluck) are looped over.
+template <int pushes>  // 0, 1, or 2 for more
+struct Pushed {
+    const double *lo = nullptr, *hi = nullptr;
+    V to_lo = hn::Zero(D()), to_hi = hn::Zero(D());
+    HWY_INLINE explicit Pushed(const Pass& p) {
+        if constexpr (pushes > 0) {
+            lo = p.push[0].lo, hi = p.push[0].hi;
+            to_lo = hn::Set(D(), p.push[0].to_lo), to_hi = hn::Set(D(), p.push[0].to_hi);
+        }
+    }
+};
+
 // The step itself on the pair of vectors at v; returns y + d of lo and hi.
 struct Pair {
     V lo, hi;
 };
-HWY_INLINE Pair update(const Pass& p, long v) {
+template <int pushes>
+HWY_INLINE Pair update(const Pass& p, const Pushed<pushes>& pushed, long v) {
     const D tag;
     double *ylo = p.y + v, *yhi = ylo + p.half, *dlo = p.d + v, *dhi = dlo + p.half;
     V a = hn::Load(tag, dlo), b = hn::Load(tag, dhi);
-    for (int k = 0; k < p.pushes; ++k) {
-        const Push& push = p.push[k];
-        a = hn::MulAdd(hn::Load(tag, push.lo + v), hn::Set(tag, push.to_lo), a);
-        b = hn::MulAdd(hn::Load(tag, push.hi + v), hn::Set(tag, push.to_hi), b);
+    if constexpr (pushes > 0) {
+        a = hn::MulAdd(hn::Load(tag, pushed.lo + v), pushed.to_lo, a);
+        b = hn::MulAdd(hn::Load(tag, pushed.hi + v), pushed.to_hi, b);
+    }
+    if constexpr (pushes > 1) {
+        for (int k = 1; k < p.pushes; ++k) {
+            const Push& push = p.push[k];
+            a = hn::MulAdd(hn::Load(tag, push.lo + v), hn::Set(tag, push.to_lo), a);
+            b = hn::MulAdd(hn::Load(tag, push.hi + v), hn::Set(tag, push.to_hi), b);
+        }
     }
     const V y = hn::Add(hn::Load(tag, ylo), a), z = hn::Add(hn::Load(tag, yhi), b);
     a = hn::NegMulAdd(hn::Load(tag, p.kappa + v), y, hn::Mul(hn::Load(tag, p.Ct + v), a));
@@ -116,49 +136,57 @@ HWY_INLINE Pair reread(const Pass& p, long v) {
             hn::Add(hn::Load(tag, p.y + p.half + v), hn::Load(tag, p.d + p.half + v))};
 }
 
-// K nodes from place `first` of the run's order; `step`: the update happens in the same pass.
-template <int K, bool step>
-void nodes(const Pass& p, int first, int count, int out, double sign) {
+constexpr int no_step = -1;
+
+// K nodes from place `first` of the reads; `pushes` as in Pushed, or no_step: the update has happened in an earlier pass.
+template <int K, int pushes>
+void nodes(const Pass& pass, int first, int count, int out, double sign) {
+    const Pass p = pass;  // a copy that no store can alias: its members stay in registers
     const D tag;
     const long lanes = static_cast<long>(hn::Lanes(tag));
     const double *s0 = p.line[first], *s1 = p.line[first + (count > 1 ? 1 : 0)];
+    const Pushed<std::max(pushes, 0)> pushed(p);
     const V way = hn::Set(tag, sign);
     V sum[K];
     for (int k = 0; k < K; ++k) sum[k] = hn::Zero(tag);
     for (long v = 0; v < p.half; v += lanes) {
-        const Pair x = step ? update(p, v) : reread(p, v);
+        Pair x;
+        if constexpr (pushes == no_step) x = reread(p, v);
+        else x = update(p, pushed, v);
         synthesise<K>(p, s0, s1, v, hn::MulAdd(way, x.hi, x.lo), hn::NegMulAdd(way, x.hi, x.lo), sum);
     }
     for (int k = 0; k < K; ++k)
         if (k < count) p.free[out + k] = total(sum[k]);
 }
 
-template <bool step>
+template <int pushes>
 void chunk(const Pass& p, int first, int count, int out, double sign) {
     if constexpr (most_sums > 8) {
-        if (count > 18) return nodes<20, step>(p, first, count, out, sign);
-        if (count > 16) return nodes<18, step>(p, first, count, out, sign);
-        if (count > 14) return nodes<16, step>(p, first, count, out, sign);
-        if (count > 12) return nodes<14, step>(p, first, count, out, sign);
-        if (count > 10) return nodes<12, step>(p, first, count, out, sign);
-        if (count > 8) return nodes<10, step>(p, first, count, out, sign);
+        if (count > 18) return nodes<20, pushes>(p, first, count, out, sign);
+        if (count > 16) return nodes<18, pushes>(p, first, count, out, sign);
+        if (count > 14) return nodes<16, pushes>(p, first, count, out, sign);
+        if (count > 12) return nodes<14, pushes>(p, first, count, out, sign);
+        if (count > 10) return nodes<12, pushes>(p, first, count, out, sign);
+        if (count > 8) return nodes<10, pushes>(p, first, count, out, sign);
     }
-    if (count > 6) return nodes<8, step>(p, first, count, out, sign);
-    if (count > 4) return nodes<6, step>(p, first, count, out, sign);
-    if (count > 2) return nodes<4, step>(p, first, count, out, sign);
-    if (count > 1) return nodes<2, step>(p, first, count, out, sign);
-    nodes<1, step>(p, first, count, out, sign);
+    if (count > 6) return nodes<8, pushes>(p, first, count, out, sign);
+    if (count > 4) return nodes<6, pushes>(p, first, count, out, sign);
+    if (count > 2) return nodes<4, pushes>(p, first, count, out, sign);
+    if (count > 1) return nodes<2, pushes>(p, first, count, out, sign);
+    nodes<1, pushes>(p, first, count, out, sign);
 }
 
 // Reads by weights of their own on lo and hi.
-template <int K>
-void lines(const Pass& p) {
+template <int K, int pushes>
+void lines(const Pass& pass) {
+    const Pass p = pass;
     const D tag;
     const long lanes = static_cast<long>(hn::Lanes(tag));
+    const Pushed<pushes> pushed(p);
     V sum[2 * K + 1];
     for (V& s : sum) s = hn::Zero(tag);
     for (long v = 0; v < p.half; v += lanes) {
-        const Pair x = update(p, v);
+        const Pair x = update(p, pushed, v);
         for (int k = 0; k < K; ++k) {
             sum[2 * k] = hn::MulAdd(hn::Load(tag, p.line[k] + v), x.lo, sum[2 * k]);
             sum[2 * k + 1] = hn::MulAdd(hn::Load(tag, p.line[k] + p.half + v), x.hi, sum[2 * k + 1]);
@@ -167,21 +195,23 @@ void lines(const Pass& p) {
     for (int k = 0; k < K; ++k) p.free[k] = total(hn::Add(sum[2 * k], sum[2 * k + 1]));
 }
 
-void advance(const Pass& p) {
-    if (p.runs == 0) {
-        if (p.lines == 0) return lines<0>(p);
-        return p.lines == 1 ? lines<1>(p) : lines<2>(p);
-    }
-    bool stepped = false;
+template <int pushes>
+void advance_with(const Pass& p) {
+    if (p.lines == 0) return lines<0, pushes>(p);
+    if (p.runs == 0) return p.lines == 1 ? lines<1, pushes>(p) : lines<2, pushes>(p);
     for (int r = 0; r < p.runs; ++r) {
         const NodeRun& run = p.run[r];
         for (int k = 0; k < run.count; k += most_sums) {  // most_sums is even: each chunk starts on the same parity
             const int count = std::min(run.count - k, most_sums);
-            if (stepped) chunk<false>(p, run.first + k, count, run.out + k, run.sign);
-            else chunk<true>(p, run.first + k, count, run.out + k, run.sign);
-            stepped = true;
+            if (r + k > 0) chunk<no_step>(p, run.first + k, count, run.out + k, run.sign);
+            else chunk<pushes>(p, run.first + k, count, run.out + k, run.sign);
         }
     }
+}
+
+void advance(const Pass& p) {
+    if (p.pushes == 0) return advance_with<0>(p);
+    p.pushes == 1 ? advance_with<1>(p) : advance_with<2>(p);
 }
 
 }  // namespace
