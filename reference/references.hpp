@@ -7,6 +7,8 @@
 
 namespace jvari {
 
+extern const Descriptor exact_linear, exact_contact;
+
 std::span<const Descriptor> references();
 
 // The first reference that represents the scene, or nullptr.

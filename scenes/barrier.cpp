@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_interp.h>
 
+#include <algorithm>
 #include <memory>
 #include <numbers>
 
@@ -27,20 +28,29 @@ struct HeightAt {
         const std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline(gsl_interp_alloc(kind, c.x.size()), gsl_interp_free);
         gsl_interp_init(spline.get(), c.x.data(), c.height.data(), c.x.size());
         std::vector<double> g;
-        for (double p : x) g.push_back(gsl_interp_eval(spline.get(), c.x.data(), c.height.data(), p, nullptr));
+        for (double p : x) {  // a grid may round past the table's end, where GSL would abort; the end's height holds there
+            const double within = std::clamp(p, c.x.front(), c.x.back());
+            g.push_back(gsl_interp_eval(spline.get(), c.x.data(), c.height.data(), within, nullptr));
+        }
         return g;
     }
 };
 }  // namespace
 
-std::vector<double> heights(const Curve& curve, const std::vector<double>& x) { return std::visit(HeightAt{x}, curve); }
+std::vector<double> heights(const Curve& curve, const std::vector<double>& x) {
+    return std::visit(HeightAt{x}, curve);
+}
 
-double height(const Curve& curve, double x) { return heights(curve, {x}).front(); }
+double height(const Curve& curve, double x) {
+    return heights(curve, {x}).front();
+}
 
 double contact_modulus(double young1, double poisson1, double young2, double poisson2) {
     return 1 / ((1 - poisson1 * poisson1) / (2 * young1) + (1 - poisson2 * poisson2) / (2 * young2));  // (55)
 }
 
-LumpedStiffness contact_stiffness(double contact_modulus, double width) { return {std::numbers::pi / 4 * contact_modulus * width}; }
+LumpedStiffness contact_stiffness(double contact_modulus, double width) {
+    return {std::numbers::pi / 4 * contact_modulus * width};
+}
 
 }  // namespace jvari

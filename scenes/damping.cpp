@@ -8,7 +8,9 @@ namespace jvari {
 
 using std::numbers::pi;
 
-double decay_rate(const PolynomialDamping& law, double beta) { return law.sigma0 + (law.sigma1 + law.sigma3 * beta * beta) * beta; }
+double decay_rate(const PolynomialDamping& law, double beta) {
+    return law.sigma0 + (law.sigma1 + law.sigma3 * beta * beta) * beta;
+}
 
 double decay_rate(const QualityFactorDamping& law, const String& s, double nu) {
     const double R = 2 * pi * law.air_viscosity + 2 * pi * law.diameter * std::sqrt(pi * law.air_viscosity * law.air_density * nu);
@@ -18,13 +20,17 @@ double decay_rate(const QualityFactorDamping& law, const String& s, double nu) {
     return pi * nu * (air + viscoelastic + law.thermoelastic_loss);  // sigma = pi nu/Q  (12)
 }
 
-double decay_rate(const PerPeriodDamping& law, double f1) { return -f1 * std::log(law.factor); }
+double decay_rate(const PerPeriodDamping& law, double f1) {
+    return -f1 * std::log(law.factor);
+}
 
 PolynomialDamping woodhouse(double eta_air, double eta_friction, double eta_bending, const String& s) {
     const double c = std::sqrt(s.tension / s.linear_density), lambda = s.bending_stiffness / s.tension;
     return {0.5 * eta_air, 0.5 * c * eta_friction, 0.5 * c * lambda * eta_bending};  // (53)
 }
 
-double moment_of_inertia(double radius) { return pi / 4 * std::pow(radius, 4); }
+double moment_of_inertia(double radius) {
+    return pi / 4 * std::pow(radius, 4);
+}
 
 }  // namespace jvari

@@ -13,8 +13,7 @@ double force(const Pluck& e, double t) {
     if (u < 0 || u > e.duration) return 0;
     const double ratio = u / e.duration;
     // sinh(s x)/sinh(s) = exp(s(x-1)) (1 - exp(-2 s x))/(1 - exp(-2 s)): no overflow; the limit x for s -> 0.
-    const double warped =
-        e.skew == 0 ? ratio : std::exp(e.skew * (ratio - 1)) * std::expm1(-2 * e.skew * ratio) / std::expm1(-2 * e.skew);
+    const double warped = e.skew == 0 ? ratio : std::exp(e.skew * (ratio - 1)) * std::expm1(-2 * e.skew * ratio) / std::expm1(-2 * e.skew);
     const double h = 0.5 * (ratio + warped);  // h_e/tau_e  (15)
     const double sine = std::sin(pi * h);
     return e.amplitude * sine * sine;  // (14)

@@ -45,7 +45,9 @@ int modes_available(const String& s) {
 }
 }  // namespace
 
-double omega_squared_damped(double omega0, double sigma) { return (omega0 - sigma) * (omega0 + sigma); }
+double omega_squared_damped(double omega0, double sigma) {
+    return (omega0 - sigma) * (omega0 + sigma);
+}
 
 Modes modes_of(const String& s, int count) {
     if (count > modes_available(s))
@@ -91,7 +93,7 @@ std::vector<double> footprint_weights(const Modes& modes, double position, doubl
 std::vector<double> nut_force_weights(const Modes& modes, const String& s) {
     std::vector<double> w;
     for (int i = 0; i < modes.count(); ++i) {
-        const double beta = modes.beta[i], sign = i % 2 == 0 ? -1 : 1;                   // cos(i pi) for mode i + 1
+        const double beta = modes.beta[i], sign = i % 2 == 0 ? -1 : 1;                // cos(i pi) for mode i + 1
         w.push_back(-sign * beta * (s.tension + s.bending_stiffness * beta * beta));  // v' = beta cos, v''' = -beta^3 cos  (22)
     }
     return w;

@@ -8,10 +8,10 @@
 namespace jvari {
 
 struct Modes {
-    double mass = 0;                     // modal mass m = mu L/2 [kg], the same for all modes
-    std::vector<double> beta;            // wavenumber [1/m]
-    std::vector<double> omega0;          // undamped angular frequency [rad/s]
-    std::vector<double> sigma;           // decay rate [1/s]
+    double mass = 0;             // modal mass m = mu L/2 [kg], the same for all modes
+    std::vector<double> beta;    // wavenumber [1/m]
+    std::vector<double> omega0;  // undamped angular frequency [rad/s]
+    std::vector<double> sigma;   // decay rate [1/s]
     int count() const { return static_cast<int>(beta.size()); }
 };
 

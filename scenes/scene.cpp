@@ -1,4 +1,4 @@
-// Names, what a scene needs, and what a scene may not say.
+// Names, and what a scene asks of a scheme. What a scene may not say is in validate.cpp.
 #include "scenes/scene.hpp"
 
 namespace jvari {
@@ -90,7 +90,5 @@ Features needed_by(const Scene& scene) {
 
 BadScene::BadScene(std::string k, std::string f, std::string e)
     : std::runtime_error(k + ": found " + f + ", expected " + e), key(std::move(k)), found(std::move(f)), expected(std::move(e)) {}
-
-void validate(const Scene&) {}
 
 }  // namespace jvari

@@ -13,26 +13,32 @@ namespace jvari {
 
 // ---- Losses of the free string: sigma(beta) or sigma(mode) [1/s]; the laws themselves are in damping.hpp.
 
-struct NoDamping {};
+struct NoDamping {
+    bool operator==(const NoDamping&) const = default;
+};
 struct PolynomialDamping {  // sigma = sigma0 + sigma1 beta + sigma3 beta^3   (van Walstijn et al. 2016, eq 18)
     double sigma0 = 0;      // [1/s]
     double sigma1 = 0;      // [m/s]
     double sigma3 = 0;      // [m^3/s]
+    bool operator==(const PolynomialDamping&) const = default;
 };
-struct QualityFactorDamping {         // Issanchou et al. 2016, eq 12 and below
-    double diameter = 0;              // [m]
-    double air_viscosity = 0;         // [kg/(m s)]
-    double air_density = 0;           // [kg/m^3]
-    double viscoelastic_angle = 0;    // delta_ve [rad]
-    double thermoelastic_loss = 0;    // 1/Q_te
+struct QualityFactorDamping {       // Issanchou et al. 2016, eq 12 and below
+    double diameter = 0;            // [m]
+    double air_viscosity = 0;       // [kg/(m s)]
+    double air_density = 0;         // [kg/m^3]
+    double viscoelastic_angle = 0;  // delta_ve [rad]
+    double thermoelastic_loss = 0;  // 1/Q_te
+    bool operator==(const QualityFactorDamping&) const = default;
 };
-struct TableDamping {                   // measured modes: replaces both frequency and decay
-    std::string file;                   // as written in the scene
-    std::vector<double> frequency_hz;   // one per mode, ascending
-    std::vector<double> decay_rate;     // sigma [1/s]
+struct TableDamping {                  // measured modes: replaces both frequency and decay
+    std::string file;                  // as written in the scene
+    std::vector<double> frequency_hz;  // one per mode, ascending
+    std::vector<double> decay_rate;    // sigma [1/s]
+    bool operator==(const TableDamping&) const = default;
 };
 struct PerPeriodDamping {  // amplitude factor per period of the first mode, the same decay rate for every mode (Deshmukh)
     double factor = 1;
+    bool operator==(const PerPeriodDamping&) const = default;
 };
 using Damping = std::variant<NoDamping, PolynomialDamping, QualityFactorDamping, TableDamping, PerPeriodDamping>;
 
@@ -40,28 +46,36 @@ using Damping = std::variant<NoDamping, PolynomialDamping, QualityFactorDamping,
 
 struct LumpedStiffness {
     double k = 0;  // [N/m^exponent]
+    bool operator==(const LumpedStiffness&) const = default;
 };
 struct StiffnessDensity {
     double K = 0;  // [N/m^(exponent+1)]
+    bool operator==(const StiffnessDensity&) const = default;
 };
-struct LumpedBarrier {     // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
-    double position = 0;   // centre [m]
-    double width = 0;      // footprint [m]; 0: a point
-    double height = 0;     // [m]
+struct LumpedBarrier {    // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
+    double position = 0;  // centre [m]
+    double width = 0;     // footprint [m]; 0: a point
+    double height = 0;    // [m]
     LumpedStiffness stiffness;
     double exponent = 1;
     double contact_loss = 0;  // Hunt-Crossley beta [s/m]
+    bool operator==(const LumpedBarrier&) const = default;
 };
-struct FlatCurve {};  // g = 0
+struct FlatCurve {  // g = 0
+    bool operator==(const FlatCurve&) const = default;
+};
 struct LineCurve {
     double coefficient = 0;  // g = coefficient x
+    bool operator==(const LineCurve&) const = default;
 };
 struct ParabolaCurve {
     double coefficient = 0;  // g = -coefficient x^2 [1/m]   (Issanchou et al. 2016, eq 29)
+    bool operator==(const ParabolaCurve&) const = default;
 };
 struct TableCurve {
     std::string file;
     std::vector<double> x, height;  // [m], x ascending
+    bool operator==(const TableCurve&) const = default;
 };
 using Curve = std::variant<FlatCurve, LineCurve, ParabolaCurve, TableCurve>;
 struct ProfileBarrier {  // a force density along from <= x <= to (Issanchou et al. 2016, eqs 3-4)
@@ -70,15 +84,17 @@ struct ProfileBarrier {  // a force density along from <= x <= to (Issanchou et 
     StiffnessDensity stiffness;
     double exponent = 1;
     double contact_loss = 0;  // [s/m]
+    bool operator==(const ProfileBarrier&) const = default;
 };
 using Barrier = std::variant<LumpedBarrier, ProfileBarrier>;
 
-struct Thread {           // spring and damper, never detaches (van Walstijn et al. 2016, eq 7)
-    double position = 0;  // [m]
-    double width = 0;     // [m]
-    double stiffness = 0; // [N/m]
-    double damping = 0;   // [kg/s]
-    double height = 0;    // [m]
+struct Thread {            // spring and damper, never detaches (van Walstijn et al. 2016, eq 7)
+    double position = 0;   // [m]
+    double width = 0;      // [m]
+    double stiffness = 0;  // [N/m]
+    double damping = 0;    // [kg/s]
+    double height = 0;     // [m]
+    bool operator==(const Thread&) const = default;
 };
 
 // ---- What sets it in motion.
@@ -86,11 +102,13 @@ struct Thread {           // spring and damper, never detaches (van Walstijn et 
 struct ModeInitial {
     int number = 1;
     double amplitude = 0;  // [m]
+    bool operator==(const ModeInitial&) const = default;
 };
 struct TriangleInitial {
     double position = 0;   // [m]
     double amplitude = 0;  // [m]
     double smoothing = 0;  // full width of a Hann smoothing [m]
+    bool operator==(const TriangleInitial&) const = default;
 };
 using Initial = std::variant<ModeInitial, TriangleInitial>;  // displacement at t = 0, at rest
 
@@ -101,10 +119,12 @@ struct Pluck {             // force, van Walstijn et al. 2016, eqs 14-15
     double start = 0;      // t_e [s]
     double position = 0;   // [m]
     double width = 0;      // [m]
+    bool operator==(const Pluck&) const = default;
 };
 struct Polarisation {
     double rotation = 0;     // [rad] per reflection at the bridge (Deshmukh & Rayavarapu, eq 14)
     double pluck_angle = 0;  // [rad] from the vertical
+    bool operator==(const Polarisation&) const = default;
 };
 
 struct String {
@@ -118,6 +138,7 @@ struct String {
     std::optional<Initial> initial;
     std::optional<Pluck> pluck;
     std::optional<Polarisation> polarisation;
+    bool operator==(const String&) const = default;
 };
 
 // ---- What is listened to.
@@ -130,9 +151,11 @@ struct Tap {
     Quantity quantity = Quantity::displacement;
     std::optional<int> string;  // absent: the sum over strings (forces only)
     double position = 0;        // [m], displacement and velocity only
+    bool operator==(const Tap&) const = default;
 };
 struct Body {  // radiation filters on driving_force and nut_force
     std::string bridge, nut;
+    bool operator==(const Body&) const = default;
 };
 
 struct Scene {
@@ -141,6 +164,7 @@ struct Scene {
     std::vector<String> strings;
     std::vector<Tap> taps;
     std::optional<Body> body;
+    bool operator==(const Scene&) const = default;
 };
 
 // ---- What a scene asks of a scheme.
@@ -153,7 +177,7 @@ enum class Feature : unsigned {
     measured_modes = 1u << 4,               // a table in place of the string's own frequencies
     lumped_barrier = 1u << 5,
     profile_barrier = 1u << 6,
-    several_barriers = 1u << 7,  // on one string
+    several_barriers = 1u << 7,   // on one string
     power_law_contact = 1u << 8,  // exponent other than 1
     contact_loss = 1u << 9,
     thread = 1u << 10,
@@ -174,10 +198,16 @@ struct Features {
     constexpr bool empty() const { return bits == 0; }
     friend constexpr bool operator==(Features, Features) = default;
 };
-constexpr Features operator|(Features a, Features b) { return Features(a.bits | b.bits); }
-constexpr Features operator|(Feature a, Feature b) { return Features(a) | Features(b); }
-constexpr Features operator-(Features a, Features b) { return Features(a.bits & ~b.bits); }  // in a and not in b
-std::string names_of(Features);                                                            // "thread, pluck"
+constexpr Features operator|(Features a, Features b) {
+    return Features(a.bits | b.bits);
+}
+constexpr Features operator|(Feature a, Feature b) {
+    return Features(a) | Features(b);
+}
+constexpr Features operator-(Features a, Features b) {
+    return Features(a.bits & ~b.bits);
+}  // in a and not in b
+std::string names_of(Features);  // "thread, pluck"
 
 Features needed_by(const Scene&);
 

@@ -1,23 +1,26 @@
-// Row: a std::vector of doubles that starts on a cache line, for passes with vector instructions.
+// A fixed-size array of doubles on a 64-byte boundary, zero at first: what vector loads want.
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <new>
-#include <vector>
 
 namespace jvari {
 
-template <class T>
-struct CacheLine {
-    using value_type = T;
-    CacheLine() = default;
-    template <class U>
-    CacheLine(const CacheLine<U>&) {}  // NOLINT: allocators convert
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
-    void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
-    friend bool operator==(const CacheLine&, const CacheLine&) { return true; }
-};
+class AlignedVector {
+public:
+    AlignedVector() = default;
+    explicit AlignedVector(std::size_t size) : size_(size), data_(new (std::align_val_t(64)) double[size]()) {}
+    double* data() { return data_.get(); }
+    const double* data() const { return data_.get(); }
+    std::size_t size() const { return size_; }
 
-using Row = std::vector<double, CacheLine<double>>;
+private:
+    struct Free {
+        void operator()(double* p) const { ::operator delete[](p, std::align_val_t(64)); }
+    };
+    std::size_t size_ = 0;
+    std::unique_ptr<double[], Free> data_;
+};
 
 }  // namespace jvari

@@ -14,8 +14,6 @@
 // the interval. Stored energy is H^{n+1/2}, which F^n reaches; supplied and dissipated sum the steps after the former row up to n. Row 0:
 // H^{1/2}. Start: from rest both neighbours of level 0 carry half of F^0, the contact force at level 1 (implicit, so deep contact is
 // stable).
-#include "schemes/modal_spatial_newton.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,6 +25,8 @@
 #include "schemes/three_point.hpp"
 
 namespace jvari {
+
+extern const Descriptor modal_spatial_newton;
 
 namespace {
 
@@ -54,8 +54,8 @@ struct PluckPort {
 
 struct TapReading {
     Quantity quantity;
-    Row displacement, increment, kept;         // weights on the form's levels
-    std::vector<double> force, earlier_force;  // velocity: weights of F^n and F^{n-1}
+    AlignedVector displacement, increment, kept;  // weights on the form's levels
+    std::vector<double> force, earlier_force;     // velocity: weights of F^n and F^{n-1}
 };
 
 struct Effort {
@@ -164,6 +164,7 @@ public:
     std::vector<Fact> facts() const override {
         return {{"smallest_contact_force", effort_.smallest_force, "N"},
                 {"deepest_penetration", effort_.deepest, "m"},
+                {"interior_nodes", double(p_.update.modes()), ""},
                 {"contact_points", double(contacts_.size()), ""},
                 {"contact_solves", effort_.solves, ""},
                 {"contact_iterations_mean", effort_.solves > 0 ? effort_.iterations / effort_.solves : 0, ""},
@@ -348,6 +349,7 @@ private:
             kept[j] = G > 0 ? 0 : 0.5 * w[j] / p_.dt;
             differenced_ = differenced_ || G == 0;
         }
+        if (differenced_) form_.listen();
         r.displacement = form_.reading(y);
         r.increment = form_.reading(d);
         r.kept = form_.reading(kept);
@@ -360,17 +362,12 @@ private:
 
     double value(const TapReading& r, double bridge, double thread) const {
         switch (r.quantity) {
-            case Quantity::bridge_force:
-                return bridge;
-            case Quantity::thread_force:
-                return thread;
-            case Quantity::driving_force:
-                return -(bridge + thread);
+            case Quantity::bridge_force: return bridge;
+            case Quantity::thread_force: return thread;
+            case Quantity::driving_force: return -(bridge + thread);
             case Quantity::displacement:
-            case Quantity::nut_force:
-                return dot(r.displacement, form_.levels.displacement);
-            case Quantity::velocity:
-                break;
+            case Quantity::nut_force: return dot(r.displacement, form_.levels.displacement);
+            case Quantity::velocity: break;
         }
         if (step_ == 0) return 0;
         double v = dot(r.displacement, form_.levels.displacement) + dot(r.increment, form_.levels.increment);

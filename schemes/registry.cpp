@@ -2,12 +2,14 @@
 
 #include <dlfcn.h>
 
-#include "schemes/modal_spatial_newton.hpp"
-
 namespace jvari {
+
+extern const Descriptor modal_two_point, modal_two_point_trapezoidal, modal_spatial_newton;
 
 std::span<const Descriptor> schemes() {
     static const Descriptor table[] = {
+        modal_two_point,
+        modal_two_point_trapezoidal,
         modal_spatial_newton,
     };
     return table;

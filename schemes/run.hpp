@@ -9,9 +9,9 @@
 namespace jvari {
 
 struct RunOptions {
-    bool energy = false;      // fill the energy columns
-    int block_rows = 64;      // rows per advance(); the output does not depend on it
-    std::function<void(long done, long rows)> progress;  // called between blocks where set
+    bool energy = false;                                      // fill the energy columns
+    int block_rows = 64;                                      // rows per advance(); the output does not depend on it
+    std::function<void(long done, long rows)> progress = {};  // called between blocks where set
 };
 
 struct Run {
@@ -22,6 +22,10 @@ struct Run {
     double wall_seconds = 0;  // of the stepping alone
     std::vector<Fact> facts;
 };
+
+// A run whose stored energy exceeds this many times what was there at the start and has been supplied since has diverged
+// (seen where the energy is probed; a value that is not finite is always seen).
+constexpr double energy_budget = 10;
 
 // rows = round(duration x tap_rate) + 1. Denormals are flushed to zero while stepping. Throws Refusal or BadScene before the first step;
 // a run that fails on the way ends with its status and the rows that are valid.

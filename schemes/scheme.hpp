@@ -52,15 +52,20 @@ public:
 };
 
 struct Settings {
-    double sample_rate = 0;  // [Hz]; a reference in continuous time ignores it
-    double tap_rate = 44100; // [Hz]
-    int modes = 0;           // modes, or interior nodes for a scheme on a grid; 0: the scheme's default
+    double sample_rate = 0;                                    // [Hz]; a reference in continuous time ignores it
+    double tap_rate = 44100;                                   // [Hz]
+    int modes = 0;                                             // modes, or interior nodes for a scheme on a grid; 0: the scheme's default
     std::vector<std::pair<std::string, std::string>> options;  // of this scheme alone; an unknown one is refused
 };
 
 // The scheme cannot represent this scene, or not with these settings; the text names what is missing.
 struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
+};
+
+// An option that the scheme does not have: a caller with several schemes may give it to the others.
+struct UnknownOption : Refusal {
+    using Refusal::Refusal;
 };
 
 enum class Balance { exact, to_tolerance, none };  // what the energy columns promise
@@ -85,9 +90,9 @@ struct Plugin {
 
 // ---- Checks that every `make` begins with.
 
-void refuse_missing(const Descriptor&, const Scene&);      // Refusal naming what `represents` lacks
-int steps_per_row(const Settings&);                        // sample_rate/tap_rate; Refusal unless a whole number >= 1
-int modes_for(const String&, const Settings&);             // settings.modes, or every mode below min(20 kHz, sample_rate/2)
+void refuse_missing(const Descriptor&, const Scene&);  // Refusal naming what `represents` lacks
+int steps_per_row(const Settings&);                    // sample_rate/tap_rate; Refusal unless a whole number >= 1
+int modes_for(const String&, const Settings&);         // settings.modes, or every mode below min(20 kHz, sample_rate/2)
 
 // The value of an option, or `fallback`; option_names lists what the scheme knows. Refusal for an unknown name.
 void refuse_unknown_options(const Settings&, std::initializer_list<const char*> option_names);

@@ -45,7 +45,7 @@ std::vector<double> node_weights(int intervals, int node) {
     return w;
 }
 
-double dot(const Row& weights, const Row& level) {
+double dot(const AlignedVector& weights, const AlignedVector& level) {
     return In(weights.data(), weights.size()).dot(In(level.data(), level.size()));
 }
 
@@ -67,8 +67,8 @@ DenseForm::DenseForm(const LinearUpdate& update)
         Out(push_.back().data(), size_) = update.gain * (S * In(port.weights.data(), size_));
         reading_.push_back(reading(port.weights));
     }
-    levels.displacement.resize(size_);
-    levels.increment.resize(size_);
+    levels.displacement = AlignedVector(size_);
+    levels.increment = AlignedVector(size_);
 }
 
 void DenseForm::start(const double* y, const double* free_increment) {
@@ -92,28 +92,29 @@ void DenseForm::advance(const double* force, double* free) {
     read(free);
 }
 
-void DenseForm::to_modal(const Row& level, double* modal) const {
+void DenseForm::to_modal(const AlignedVector& level, double* modal) const {
     Out(modal, size_).noalias() = Matrix(S_.data(), size_, size_) * In(level.data(), size_);
     Out(modal, size_) *= 2.0 / (size_ + 1);
 }
 
-Row DenseForm::reading(const std::vector<double>& modal_weights) const {
-    Row w(size_);
-    to_modal(Row(modal_weights.begin(), modal_weights.end()), w.data());  // S^-1 is symmetric
+AlignedVector DenseForm::reading(const std::vector<double>& modal_weights) const {
+    AlignedVector given(size_), w(size_);
+    std::copy(modal_weights.begin(), modal_weights.end(), given.data());
+    to_modal(given, w.data());  // S^-1 is symmetric
     return w;
 }
 
 // ---- Sine transform
 
 SineForm::SineForm(const LinearUpdate& update) : update_(update), transform_(std::make_unique<SineTransform>(update.intervals)) {
-    levels.displacement.resize(update_.modes());
-    levels.increment.resize(update_.modes());
+    levels.displacement = AlignedVector(update_.modes());
+    levels.increment = AlignedVector(update_.modes());
 }
 SineForm::~SineForm() = default;
 
 void SineForm::start(const double* y, const double* free_increment) {
-    levels.displacement.assign(y, y + update_.modes());
-    levels.increment.assign(free_increment, free_increment + update_.modes());
+    std::copy_n(y, update_.modes(), levels.displacement.data());
+    std::copy_n(free_increment, update_.modes(), levels.increment.data());
 }
 
 void SineForm::read(double* free) const {
@@ -150,11 +151,13 @@ void SineForm::advance(const double* force, double* free) {
     read(free);
 }
 
-void SineForm::to_modal(const Row& level, double* modal) const {
-    std::copy(level.begin(), level.end(), modal);
+void SineForm::to_modal(const AlignedVector& level, double* modal) const {
+    std::copy_n(level.data(), level.size(), modal);
 }
-Row SineForm::reading(const std::vector<double>& modal_weights) const {
-    return {modal_weights.begin(), modal_weights.end()};
+AlignedVector SineForm::reading(const std::vector<double>& modal_weights) const {
+    AlignedVector w(modal_weights.size());
+    std::copy(modal_weights.begin(), modal_weights.end(), w.data());
+    return w;
 }
 
 }  // namespace jvari

@@ -10,6 +10,7 @@
 // All have the members of RestrictedForm. A port is a place where a force enters the string or a displacement is read, by modal weights.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -36,11 +37,11 @@ std::vector<double> node_weights(int intervals, int node);
 
 // The two levels that a form carries, in its own coordinates, and a copy of the increment taken when asked for.
 struct Levels {
-    Row displacement;  // y^n [m]
-    Row increment;     // y^{n+1} - y^n without the force of step n [m]
-    Row kept;          // an earlier increment
+    AlignedVector displacement;  // y^n [m]
+    AlignedVector increment;     // y^{n+1} - y^n without the force of step n [m]
+    AlignedVector kept;          // an earlier increment
 };
-double dot(const Row& weights, const Row& level);
+double dot(const AlignedVector& weights, const AlignedVector& level);
 
 class RestrictedForm {
 public:
@@ -49,9 +50,10 @@ public:
     void start(const double* y, const double* free_increment);  // modal values at t = 0
     void read(double* free) const;                              // displacement of the reads at n+1 without the force of step n
     void advance(const double* force, double* free);            // applies the forces of step n, n -> n+1, then reads
-    void to_modal(const Row& level, double* modal) const;
-    Row reading(const std::vector<double>& modal_weights) const;  // weights of the same quantity in own coordinates
-    void keep() { levels.kept = levels.increment; }
+    void to_modal(const AlignedVector& level, double* modal) const;
+    AlignedVector reading(const std::vector<double>& modal_weights) const;   // weights of the same quantity in own coordinates
+    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
+    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
     Levels levels;
 
 private:
@@ -65,15 +67,16 @@ public:
     void start(const double* y, const double* free_increment);
     void read(double* free) const;
     void advance(const double* force, double* free);
-    void to_modal(const Row& level, double* modal) const;
-    Row reading(const std::vector<double>& modal_weights) const;
-    void keep() { levels.kept = levels.increment; }
+    void to_modal(const AlignedVector& level, double* modal) const;
+    AlignedVector reading(const std::vector<double>& modal_weights) const;
+    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
+    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
     Levels levels;
 
 private:
     int size_, reads_;
-    std::vector<double> S_, Dt_, Kappa_;  // column-major, size x size
-    std::vector<Row> push_, reading_;     // per port: dt^2/m S g and the reading of g
+    std::vector<double> S_, Dt_, Kappa_;         // column-major, size x size
+    std::vector<AlignedVector> push_, reading_;  // per port: dt^2/m S g and the reading of g
     std::vector<double> applied_;
 };
 
@@ -85,9 +88,10 @@ public:
     void start(const double* y, const double* free_increment);
     void read(double* free) const;
     void advance(const double* force, double* free);
-    void to_modal(const Row& level, double* modal) const;
-    Row reading(const std::vector<double>& modal_weights) const;
-    void keep() { levels.kept = levels.increment; }
+    void to_modal(const AlignedVector& level, double* modal) const;
+    AlignedVector reading(const std::vector<double>& modal_weights) const;
+    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
+    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
     Levels levels;
 
 private:

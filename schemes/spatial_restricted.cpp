@@ -232,13 +232,13 @@ constexpr int pad = 8;  // doubles of the widest vector
 
 struct RestrictedForm::Plan {
     LinearUpdate update;
-    int half;                         // H
-    std::vector<Row> weights;         // of each port, [lo | hi]
-    std::vector<int> port;            // of each read in the order that the pass reads them
-    std::vector<const double*> line;  // its weights
+    int half;                            // H
+    std::vector<AlignedVector> weights;  // of each port, [lo | hi]
+    std::vector<int> port;               // of each read in the order that the pass reads them
+    std::vector<const double*> line;     // its weights
     std::vector<NodeRun> runs;
     std::vector<Push> push;
-    Row Ct, kappa, twocos;
+    AlignedVector Ct, kappa, twocos;
     std::vector<double> free;
     long padded = 0;
 
@@ -251,14 +251,15 @@ RestrictedForm::RestrictedForm(const LinearUpdate& update) : plan_(std::make_uni
     const int N = update.intervals;
     p.half = N / 2;
     p.padded = (p.half + pad - 1) / pad * pad;
-    p.Ct.assign(2 * p.padded, 0.0);
-    p.kappa.assign(2 * p.padded, 1.0);
-    p.twocos.assign(p.padded, 0.0);
+    p.Ct = AlignedVector(2 * p.padded);
+    p.kappa = AlignedVector(2 * p.padded);
+    p.twocos = AlignedVector(p.padded);
+    std::fill_n(p.kappa.data(), 2 * p.padded, 1.0);
     for (int j = 1; j < N; ++j) {
-        p.Ct[p.place(j)] = update.Ct[j - 1];
-        p.kappa[p.place(j)] = update.kappa[j - 1];
+        p.Ct.data()[p.place(j)] = update.Ct[j - 1];
+        p.kappa.data()[p.place(j)] = update.kappa[j - 1];
     }
-    for (int j = 1; j <= p.half; ++j) p.twocos[j - 1] = 2 * std::cos(std::numbers::pi * j / N);
+    for (int j = 1; j <= p.half; ++j) p.twocos.data()[j - 1] = 2 * std::cos(std::numbers::pi * j / N);
     for (const Port& port : update.ports) p.weights.push_back(reading(port.weights));
     p.push.resize(update.ports.size());
 
@@ -273,17 +274,17 @@ RestrictedForm::RestrictedForm(const LinearUpdate& update) : plan_(std::make_uni
         else p.runs.push_back({k, 1, k, node(p.port[k]) % 2 == 1 ? 1.0 : -1.0});
     }
     p.free.assign(update.reads + 1, 0.0);
-    levels.displacement.assign(2 * p.padded, 0.0);
-    levels.increment.assign(2 * p.padded, 0.0);
+    levels.displacement = AlignedVector(2 * p.padded);
+    levels.increment = AlignedVector(2 * p.padded);
 }
 RestrictedForm::~RestrictedForm() = default;
 
 void RestrictedForm::start(const double* y, const double* free_increment) {
-    std::fill(levels.displacement.begin(), levels.displacement.end(), 0.0);
-    std::fill(levels.increment.begin(), levels.increment.end(), 0.0);
+    std::fill_n(levels.displacement.data(), levels.displacement.size(), 0.0);
+    std::fill_n(levels.increment.data(), levels.increment.size(), 0.0);
     for (int j = 1; j < plan_->update.intervals; ++j) {
-        levels.displacement[plan_->place(j)] = y[j - 1];
-        levels.increment[plan_->place(j)] = free_increment[j - 1];
+        levels.displacement.data()[plan_->place(j)] = y[j - 1];
+        levels.increment.data()[plan_->place(j)] = free_increment[j - 1];
     }
 }
 
@@ -309,13 +310,13 @@ void RestrictedForm::advance(const double* force, double* free) {
     for (int k = 0; k < p.update.reads; ++k) free[p.port[k]] = p.free[k];
 }
 
-void RestrictedForm::to_modal(const Row& level, double* modal) const {
-    for (int j = 1; j < plan_->update.intervals; ++j) modal[j - 1] = level[plan_->place(j)];
+void RestrictedForm::to_modal(const AlignedVector& level, double* modal) const {
+    for (int j = 1; j < plan_->update.intervals; ++j) modal[j - 1] = level.data()[plan_->place(j)];
 }
 
-Row RestrictedForm::reading(const std::vector<double>& modal_weights) const {
-    Row w(2 * plan_->padded, 0.0);
-    for (int j = 1; j < plan_->update.intervals; ++j) w[plan_->place(j)] = modal_weights[j - 1];
+AlignedVector RestrictedForm::reading(const std::vector<double>& modal_weights) const {
+    AlignedVector w(2 * plan_->padded);
+    for (int j = 1; j < plan_->update.intervals; ++j) w.data()[plan_->place(j)] = modal_weights[j - 1];
     return w;
 }
 

@@ -1,7 +1,6 @@
 // The spatial Newton scheme: exact where nothing touches, three forms that agree, a ledger that closes, and the papers' two bridges.
-#include "schemes/modal_spatial_newton.hpp"
-
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <cmath>
 #include <numbers>
@@ -10,6 +9,9 @@
 #include "schemes/run.hpp"
 
 namespace jvari {
+
+extern const Descriptor modal_spatial_newton;
+
 namespace {
 
 using std::numbers::pi;
@@ -52,7 +54,7 @@ Scene two_point_bridge(double duration, double stiffness = 1e10) {  // K = 1e13,
 
 Scene flat_bridge(double duration) {  // the 19 mm parabola of section 4.4
     String s = issanchou_string();
-    s.barriers.push_back(ProfileBarrier{ParabolaCurve{0.0065}, 0, 19e-3, {1e13}, 1.3, 0});
+    s.barriers = {ProfileBarrier{ParabolaCurve{0.0065}, 0, 19e-3, {1e13}, 1.3, 0}};
     return scene_of(s, duration);
 }
 
@@ -201,6 +203,34 @@ TEST(ModalSpatialNewton, BlocksAndTheEnergyProbeDoNotChangeTheTrace) {
     EXPECT_EQ(plain.trace.tap, steps(scene, 88200, 44100, 133, "auto", probed).trace.tap);
 }
 
+TEST(ModalSpatialNewton, EveryInstructionSetOfThisMachineAgreesWithTheSineForm) {
+    Scene gap = flat_bridge(1000 / 256e3);  // runs of 3 and 2 nodes, one alone, and a pluck beside them
+    gap.strings[0].barriers = {ProfileBarrier{FlatCurve{}, 0.011, 0.019, {1e13}, 1.3, 0},
+                               ProfileBarrier{FlatCurve{}, 0.002, 0.0065, {1e13}, 1.3, 0},
+                               LumpedBarrier{10 * 1.002 / 334, 0, 0, {1e10}, 1.3, 0}};
+    gap.strings[0].pluck = Pluck{0.1, 2e-3, 2, 1e-4, 0.6, 0.1};
+    struct Case {
+        Scene scene;
+        int modes;  // N even and odd, one step of padding and none
+    };
+    const auto targets = hwy::SupportedTargets();
+    for (const Case& c :
+         {Case{two_point_bridge(1000 / 256e3), 333}, Case{flat_bridge(1000 / 256e3), 1001}, Case{flat_bridge(1000 / 256e3), 1002},
+          Case{gap, 333}, Case{gap, 667}, Case{tanpura(1000 / 256e3), 128}, Case{tanpura(1000 / 256e3), 133}}) {
+        const auto sine = steps(c.scene, 256e3, 64e3, c.modes, "dst");
+        for (auto left = targets; left != 0; left &= left - 1) {
+            hwy::SetSupportedTargetsForTest(left & ~(left - 1));
+            hwy::GetChosenTarget().Update(left & ~(left - 1));
+            const auto restricted = steps(c.scene, 256e3, 64e3, c.modes, "restricted");
+            for (int k = 0; k < sine.trace.taps(); ++k)
+                EXPECT_LT(difference(restricted.trace, sine.trace, k), 1e-10)
+                    << hwy::TargetName(left & ~(left - 1)) << " modes " << c.modes << " tap " << k;
+        }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(targets);
+}
+
 // ---- Energy
 
 TEST(ModalSpatialNewton, TheLosslessLedgerClosesStepByStep) {
@@ -293,15 +323,23 @@ TEST(ModalSpatialNewton, TheTanpuraConvergesWithItsThread) {
     EXPECT_LT(last, 2e-3);
 }
 
+TEST(ModalSpatialNewton, ANodeOfAProfileCarriesItsStiffnessDensityTimesTheSpacing) {
+    const Scene point = two_point_bridge(5e-3);
+    Scene profile = point;
+    profile.strings[0].barriers = {ProfileBarrier{FlatCurve{}, 5.5e-3, 6.5e-3, {1e13}, 1.3, 0}};  // node 6 of N = 1002, dx = 1 mm
+    const auto a = steps(point, 256e3, 32e3, 1001), b = steps(profile, 256e3, 32e3, 1001);
+    for (int k = 0; k < 3; ++k) EXPECT_LT(difference(a.trace, b.trace, k), 1e-10);
+}
+
 // ---- Orders
 
-// Soft enough to be resolved: the string at rest compresses barrier and thread, a pluck that has begun pushes it, contact is lossy.
+// Soft enough to be resolved: the string at rest compresses barrier and thread, a pluck pushes it, contact is lossy.
 std::vector<double> orders(const Damping& damping) {
     String s = tanpura_string();
     s.damping = damping;
     s.barriers.push_back(LumpedBarrier{0.11, 0.05, 1e-3, {3e5}, 2, 2.0});
     s.thread = Thread{0.23, 0.05, 300, 0.5, 5e-4};
-    s.pluck = Pluck{0.3, 8e-3, 2, -1e-3, 0.6, 0.1};
+    s.pluck = Pluck{0.3, 8e-3, 2, 0, 0.6, 0.1};
     s.initial = ModeInitial{2, 1e-3};
     Scene scene = scene_of(s, 0.01);
     scene.taps.push_back({"v", Quantity::velocity, 0, 0.4});

@@ -15,10 +15,12 @@
 
 #include "scenes/modes.hpp"
 #include "schemes/contact.hpp"
-#include "schemes/modal_spatial_newton.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari {
+
+extern const Descriptor modal_spatial_newton;
+
 namespace {
 
 using std::numbers::pi;

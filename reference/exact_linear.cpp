@@ -1,0 +1,209 @@
+// Closed form for strings that touch nothing: every mode is a damped oscillator,
+//
+//     y_i(t) = e^(-sigma t) (cos wt + sigma sin(wt)/w) y_i(0) + e^(-sigma t) sin(wt)/w v_i(0) + Duhamel integral of the pluck,
+//
+// w^2 = omega0^2 - sigma^2, hyperbolic where that is negative, t itself in place of sin(wt)/w where it is zero (van Walstijn et al. 2016,
+// eqs 16-21). Rows after the last forced one come straight from the state there, with the phase reduced in long double: no error
+// accumulates. The Duhamel integral is Gauss-Legendre on panels that are short against the fastest mode and the pluck's own time scale.
+#include <gsl/gsl_integration.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "reference/readout.hpp"
+#include "reference/references.hpp"
+#include "scenes/excitation.hpp"
+
+namespace jvari {
+
+namespace {
+struct Flight {  // y = yy y0 + yv v0, v = vy y0 + vv v0
+    double yy, yv, vy, vv;
+};
+
+Flight flight(double omega0, double sigma, long double t) {
+    double c, s;  // e^(-sigma t) cos wt, e^(-sigma t) sin(wt)/w
+    if (omega0 > sigma) {
+        const long double turn = 2 * std::numbers::pi_v<long double>;
+        const long double w = std::sqrt((static_cast<long double>(omega0) - sigma) * (static_cast<long double>(omega0) + sigma));
+        const long double phase = w * t;
+        const double reduced = static_cast<double>(phase - turn * std::rint(phase / turn));
+        const double decay = static_cast<double>(std::exp(-static_cast<double>(sigma * t)));
+        c = decay * std::cos(reduced);
+        s = decay * std::sin(reduced) / static_cast<double>(w);
+    } else {
+        const double time = static_cast<double>(t), nu = std::sqrt((sigma - omega0) * (sigma + omega0));
+        const double slow = std::exp(-omega0 * omega0 / (sigma + nu) * time);  // sigma - nu without cancellation
+        c = 0.5 * slow * (1 + std::exp(-2 * nu * time));
+        s = nu == 0 ? slow * time : slow * -std::expm1(-2 * nu * time) / (2 * nu);
+    }
+    return {c + sigma * s, s, -omega0 * omega0 * s, c - sigma * s};
+}
+
+constexpr int nodes = 16;
+
+class ExactLinear final : public Scheme {
+public:
+    ExactLinear(const String&, const Scene&, Modes, double tap_rate);
+    void reset() noexcept override;
+    Status advance(const Block& out) noexcept override;
+    int dofs() const override { return 2 * modes_.count(); }
+
+private:
+    struct State {
+        std::vector<double> y, v;
+    };
+    void next_row(bool probe) noexcept;
+    void fly(const State& from, long double t, State& to) const noexcept;
+    void push(State&, double from, double to) const noexcept;  // free flight and the pluck's force, one panel
+    void ledger(double from, double to) noexcept;               // from state_, energies of one panel by quadrature
+    double stored() const noexcept;
+    int panels(double length) const noexcept { return std::max(1, static_cast<int>(std::ceil(length * rate_ / 3))); }
+
+    Modes modes_;
+    Readout readout_;
+    std::vector<Pluck> pluck_;             // none or one
+    std::vector<double> start_, excited_;  // y at t = 0; g_e/m
+    double tap_rate_, rate_ = 0;           // rate: the fastest of modes and pluck [1/s]
+    State anchor_, state_, node_state_;    // at the last forced row; at this row; the probe's
+    long anchor_row_ = 0, row_ = 0;
+    double supplied_ = 0, dissipated_ = 0;
+    std::array<double, nodes> node_{}, weight_{};
+};
+
+ExactLinear::ExactLinear(const String& s, const Scene& scene, Modes modes, double tap_rate)
+    : modes_(std::move(modes)), readout_(scene, modes_), start_(initial_displacement(modes_, s)), tap_rate_(tap_rate) {
+    for (int i = 0; i < modes_.count(); ++i) rate_ = std::max({rate_, modes_.omega0[i], 2 * modes_.sigma[i]});
+    if (s.pluck) {
+        pluck_.push_back(*s.pluck);
+        excited_ = footprint_weights(modes_, s.pluck->position, s.pluck->width);
+        for (double& g : excited_) g /= modes_.mass;
+        const double k = std::abs(s.pluck->skew);  // the phase 2 pi h_e/tau_e turns at pi (1 + k coth k)/tau_e where it is fastest
+        rate_ = std::max(rate_, std::numbers::pi * (2 + k) / s.pluck->duration);
+    }
+    for (State* state : {&anchor_, &state_, &node_state_}) state->y = state->v = start_;
+    gsl_integration_glfixed_table* table = gsl_integration_glfixed_table_alloc(nodes);
+    for (int q = 0; q < nodes; ++q) gsl_integration_glfixed_point(0, 1, q, &node_[q], &weight_[q], table);
+    gsl_integration_glfixed_table_free(table);
+    reset();
+}
+
+void ExactLinear::reset() noexcept {
+    for (State* state : {&anchor_, &state_}) {
+        std::copy(start_.begin(), start_.end(), state->y.begin());
+        std::fill(state->v.begin(), state->v.end(), 0.0);
+    }
+    anchor_row_ = row_ = 0;
+    supplied_ = dissipated_ = 0;
+}
+
+Status ExactLinear::advance(const Block& out) noexcept {
+    for (int row = 0; row < out.rows; ++row) {
+        readout_.write(out, row, state_.y.data(), state_.v.data(), 1, 0, 0);
+        if (out.energy) {
+            out.energy[row] = stored();
+            out.energy[out.stride + row] = supplied_;
+            out.energy[2 * out.stride + row] = dissipated_;
+        }
+        next_row(out.energy != nullptr);
+    }
+    return {};
+}
+
+void ExactLinear::next_row(bool probe) noexcept {
+    supplied_ = dissipated_ = 0;
+    const double interval = 1 / tap_rate_, now = row_ / tap_rate_;
+    double cut[4] = {0, interval, interval, interval};  // free, plucked, free
+    if (!pluck_.empty()) {
+        cut[1] = std::clamp(pluck_[0].start - now, 0.0, interval);
+        cut[2] = std::clamp(pluck_[0].start + pluck_[0].duration - now, 0.0, interval);
+    }
+    const bool plucked = cut[2] > cut[1];
+    for (int part = 0; part < 3; ++part) {
+        if (!probe && !plucked) break;
+        const double length = cut[part + 1] - cut[part];
+        const int count = length > 0 ? panels(length) : 0;
+        for (int k = 0; k < count; ++k) {
+            const double a = now + cut[part] + length * k / count, b = now + cut[part] + length * (k + 1) / count;
+            if (probe) ledger(a, b);
+            push(state_, a, b);
+        }
+    }
+    ++row_;
+    if (plucked) {
+        anchor_row_ = row_;
+        anchor_.y = state_.y;  // same size: copies in place
+        anchor_.v = state_.v;
+    } else fly(anchor_, static_cast<long double>(row_ - anchor_row_) / tap_rate_, state_);
+}
+
+void ExactLinear::fly(const State& from, long double t, State& to) const noexcept {
+    for (int i = 0; i < modes_.count(); ++i) {
+        const Flight f = flight(modes_.omega0[i], modes_.sigma[i], t);
+        const double y = from.y[i], v = from.v[i];
+        to.y[i] = f.yy * y + f.yv * v;
+        to.v[i] = f.vy * y + f.vv * v;
+    }
+}
+
+void ExactLinear::push(State& state, double from, double to) const noexcept {
+    fly(state, static_cast<long double>(to) - from, state);
+    if (pluck_.empty() || from >= pluck_[0].start + pluck_[0].duration || to <= pluck_[0].start) return;
+    for (int q = 0; q < nodes; ++q) {
+        const double length = to - from, impulse = weight_[q] * length * force(pluck_[0], from + node_[q] * length);
+        for (int i = 0; i < modes_.count(); ++i) {
+            const Flight f = flight(modes_.omega0[i], modes_.sigma[i], length * (1 - node_[q]));
+            state.y[i] += f.yv * impulse * excited_[i];
+            state.v[i] += f.vv * impulse * excited_[i];
+        }
+    }
+}
+
+void ExactLinear::ledger(double from, double to) noexcept {
+    std::copy(state_.y.begin(), state_.y.end(), node_state_.y.begin());
+    std::copy(state_.v.begin(), state_.v.end(), node_state_.v.begin());
+    double at = from;
+    for (int q = 0; q < nodes; ++q) {
+        const double next = from + node_[q] * (to - from);
+        push(node_state_, at, next);
+        at = next;
+        double loss = 0, power = 0;
+        for (int i = 0; i < modes_.count(); ++i) {
+            loss += 2 * modes_.mass * modes_.sigma[i] * node_state_.v[i] * node_state_.v[i];
+            if (!pluck_.empty()) power += modes_.mass * excited_[i] * node_state_.v[i];
+        }
+        dissipated_ += weight_[q] * (to - from) * loss;
+        if (!pluck_.empty()) supplied_ += weight_[q] * (to - from) * power * force(pluck_[0], next);
+    }
+}
+
+double ExactLinear::stored() const noexcept {
+    double sum = 0;
+    for (int i = 0; i < modes_.count(); ++i) {
+        const double p = modes_.omega0[i] * state_.y[i];
+        sum += state_.v[i] * state_.v[i] + p * p;
+    }
+    return 0.5 * modes_.mass * sum;
+}
+
+std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
+    refuse_missing(exact_linear, scene);
+    refuse_unknown_options(settings, {});
+    const String& s = scene.strings.at(0);
+    Settings unsampled = settings;
+    unsampled.sample_rate = 0;
+    return std::make_unique<ExactLinear>(s, scene, modes_of(s, modes_for(s, unsampled)), settings.tap_rate);
+}
+}  // namespace
+
+const Descriptor exact_linear = {"exact_linear",
+                                 "closed form of van Walstijn et al. 2016, eqs 16-21",
+                                 Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                                     Features(Feature::measured_modes) | Features(Feature::initial_shape) | Features(Feature::pluck),
+                                 Balance::to_tolerance,
+                                 Clock::continuous,
+                                 make};
+
+}  // namespace jvari

@@ -1,0 +1,36 @@
+#include "reference/readout.hpp"
+
+namespace jvari {
+
+Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count()) {
+    for (const Tap& tap : scene.taps) {
+        quantity_.push_back(tap.quantity);
+        std::vector<double> w(modes_, 0.0);
+        if (tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity) w = displacement_weights(modes, tap.position);
+        if (tap.quantity == Quantity::nut_force) w = nut_force_weights(modes, scene.strings.front());
+        weights_.insert(weights_.end(), w.begin(), w.end());
+    }
+}
+
+void Readout::write(const Block& out, int row, const double* y, const double* u, double rate, double bridge, double thread) const {
+    for (int k = 0; k < out.taps; ++k) {
+        const double* w = weights_.data() + static_cast<long>(k) * modes_;
+        double v = 0;
+        switch (quantity_[k]) {
+            case Quantity::displacement:
+            case Quantity::nut_force:
+                for (int i = 0; i < modes_; ++i) v += w[i] * y[i];
+                break;
+            case Quantity::velocity:
+                for (int i = 0; i < modes_; ++i) v += w[i] * u[i];
+                v *= rate;
+                break;
+            case Quantity::bridge_force: v = bridge; break;
+            case Quantity::thread_force: v = thread; break;
+            case Quantity::driving_force: v = -(bridge + thread); break;
+        }
+        out.tap[k * out.stride + row] = v;
+    }
+}
+
+}  // namespace jvari

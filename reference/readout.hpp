@@ -1,0 +1,23 @@
+// What the taps of a one-string scene read from a modal state and from the impulses of the last interval.
+#pragma once
+
+#include <vector>
+
+#include "scenes/modes.hpp"
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+struct Readout {
+    Readout(const Scene&, const Modes&);
+
+    // Writes row `row` of the block; y [m] and u [m] are modal displacements and velocities/rate; forces are means over the interval [N].
+    void write(const Block& out, int row, const double* y, const double* u, double rate, double bridge, double thread) const;
+
+private:
+    std::vector<Quantity> quantity_;
+    std::vector<double> weights_;  // [tap][mode], unused where the tap is a contact force
+    int modes_;
+};
+
+}  // namespace jvari

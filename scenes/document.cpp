@@ -1,0 +1,210 @@
+// TOML by toml++; the only file that sees it.
+#include "scenes/document.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "scenes/scene_file.hpp"
+#include "scenes/wording.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr int deepest = 16;         // levels of nesting; scenes have five
+constexpr int dots_in_a_line = 64;  // a key of very many parts would nest tables deeper than the stack is high
+
+template <class Indexed>
+std::optional<std::size_t> index_in(const Indexed& name) {
+    std::size_t i = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), i);
+    if (error != std::errc() || end != name.data() + name.size()) return {};
+    return i;
+}
+
+std::vector<std::string> parts_of(std::string_view path) {
+    std::vector<std::string> parts{""};
+    for (const char c : path) {
+        if (c == '.') parts.emplace_back();
+        else parts.back() += c;
+    }
+    return parts;
+}
+}  // namespace
+
+const Value* Value::find(std::string_view key) const {
+    const auto* table = std::get_if<Table>(&content);
+    if (!table) return nullptr;
+    const auto member = std::find_if(table->begin(), table->end(), [key](const Member& m) { return m.key == key; });
+    return member == table->end() ? nullptr : &member->value;
+}
+
+std::string Value::found() const {
+    struct Says {
+        std::string operator()(bool b) const { return b ? "true" : "false"; }
+        std::string operator()(std::int64_t i) const { return std::to_string(i); }
+        std::string operator()(double x) const { return number_text(x); }
+        std::string operator()(const std::string& s) const { return found_text(s); }
+        std::string operator()(const Moment&) const { return "a date or time"; }
+        std::string operator()(const Array&) const { return "an array"; }
+        std::string operator()(const Table&) const { return "a table"; }
+    };
+    return std::visit(Says{}, content);
+}
+
+std::string Document::place(int p) const {
+    if (p < 0) return "--set " + overrides[static_cast<std::size_t>(-1 - p)];
+    return file + ":" + std::to_string(p);
+}
+
+const Value& Document::nearest(std::string_view path) const {
+    const Value* at = &root;
+    for (const std::string& part : parts_of(path)) {
+        const Value* next = at->find(part);
+        if (const auto* array = std::get_if<Array>(&at->content)) {
+            const auto i = index_in(part);
+            next = i && *i < array->size() ? &(*array)[*i] : nullptr;
+        }
+        if (!next) break;
+        at = next;
+    }
+    return *at;
+}
+
+namespace {
+struct Reading {
+    const std::string& where;  // "scene.toml" or "--set ..."
+    int place;                 // 0: take the line from the document
+    std::string at(int line) const { return place ? where : where + ":" + std::to_string(line); }
+
+    void refuse_long_keys(std::string_view text) const {
+        int line = 1;
+        for (std::size_t begin = 0; begin <= text.size(); ++line) {
+            const std::size_t end = std::min(text.find('\n', begin), text.size());
+            std::string_view one = text.substr(begin, end - begin);
+            const std::size_t comment = one.find('#');
+            if (comment < one.find_first_of("\"'")) one = one.substr(0, comment);
+            if (std::count(one.begin(), one.end(), '.') > dots_in_a_line)
+                throw SceneFileError(at(line) + ": found more than " + std::to_string(dots_in_a_line) + " dots in a line, expected fewer");
+            begin = end + 1;
+        }
+    }
+
+    Value value(const toml::node& node, int level) const {
+        const int line = static_cast<int>(node.source().begin.line);
+        if (level > deepest) throw SceneFileError(at(line) + ": found tables or arrays nested deeper than " + std::to_string(deepest));
+        Value v;
+        v.place = place ? place : line > 0 ? line : 1;
+        if (const auto* table = node.as_table()) {
+            Table members;
+            for (const auto& [key, child] : *table) members.push_back({std::string(key.str()), value(child, level + 1)});
+            const auto line_of = [](const Member& m) { return m.value.place; };
+            std::stable_sort(members.begin(), members.end(), [&](const Member& a, const Member& b) { return line_of(a) < line_of(b); });
+            if (!place && line == 0 && !members.empty()) v.place = line_of(members.front());
+            v.content = std::move(members);
+        } else if (const auto* array = node.as_array()) {
+            Array items;
+            for (const toml::node& child : *array) items.push_back(value(child, level + 1));
+            v.content = std::move(items);
+        } else if (const auto text = node.value_exact<std::string>()) {
+            v.content = *text;
+        } else if (const auto integer = node.value_exact<std::int64_t>()) {
+            v.content = *integer;
+        } else if (const auto number = node.value_exact<double>()) {
+            v.content = *number;
+        } else if (const auto truth = node.value_exact<bool>()) {
+            v.content = *truth;
+        } else {
+            v.content = Moment{};
+        }
+        return v;
+    }
+
+    Value parse(std::string_view text) const {
+        refuse_long_keys(text);
+        try {
+            const toml::table table = toml::parse(text);
+            return value(table, 0);
+        } catch (const toml::parse_error& e) {
+            throw SceneFileError(at(static_cast<int>(e.source().begin.line)) + ": no TOML: " + std::string(e.description()));
+        }
+    }
+};
+
+// TOML syntax; a bare word that is no TOML value is a text.
+Value override_value(std::string_view text, const Reading& reading) {
+    const auto one = [&](std::string_view value) {
+        Value root = reading.parse("value = " + std::string(value));
+        auto& table = std::get<Table>(root.content);
+        if (table.size() != 1) throw SceneFileError(reading.at(0) + ": found a line break in the value");
+        return std::move(table.front().value);
+    };
+    const bool bare = text.empty() || std::string_view("\"'[{").find(text.front()) == std::string_view::npos;
+    if (!bare) return one(text);
+    try {
+        return one(text);
+    } catch (const SceneFileError&) {
+        return one(quote(text));
+    }
+}
+
+bool is_index(std::string_view s) {
+    return !s.empty() && s.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// The value at the path, made where it is absent: a table by its key, an entry of an array by its index or one past the last.
+Value& reach(Value& root, const std::vector<std::string>& path, const std::string& where, int place) {
+    Value* at = &root;
+    std::string walked;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const std::string& part = path[i];
+        const auto refuse = [&](const std::string& found, const std::string& expected) {
+            throw SceneFileError(where + ": " + (walked.empty() ? part : walked) + ": found " + found + ", expected " + expected);
+        };
+        if (auto* array = std::get_if<Array>(&at->content)) {
+            const auto index = is_index(part) ? index_in(part) : std::nullopt;
+            if (!index || *index > array->size())
+                refuse(is_index(part) ? "index " + part : found_text(part), "an index from 0 to " + std::to_string(array->size()));
+            if (*index == array->size()) array->push_back({Table{}, place});
+            at = &(*array)[*index];
+        } else if (auto* table = std::get_if<Table>(&at->content)) {
+            if (part.empty()) throw SceneFileError(where + ": found an empty part in the key, expected key.path=value");
+            const auto member = std::find_if(table->begin(), table->end(), [&](const Member& m) { return m.key == part; });
+            if (member == table->end()) {
+                const bool array_follows = i + 1 < path.size() && is_index(path[i + 1]);
+                table->push_back({part, array_follows ? Value{Array{}, place} : Value{Table{}, place}});
+                at = &table->back().value;
+            } else {
+                at = &member->value;
+            }
+        } else {
+            refuse(at->found(), "a table with the key " + found_text(part));
+        }
+        walked += (walked.empty() ? "" : ".") + part;
+    }
+    return *at;
+}
+}  // namespace
+
+Document parse_document(std::string_view text, const std::string& file, const std::vector<std::string>& overrides) {
+    Document d{Reading{file, 0}.parse(text), file, overrides};
+    d.root.place = 1;
+    for (std::size_t i = 0; i < overrides.size(); ++i) {
+        const int place = -1 - static_cast<int>(i);
+        const std::string where = d.place(place);
+        const std::size_t equals = overrides[i].find('=');
+        const std::string key = overrides[i].substr(0, equals);
+        const auto path = parts_of(key.substr(0, key.find_last_not_of(' ') + 1));
+        if (equals == std::string::npos || equals == 0) throw SceneFileError(where + ": expected key.path=value");
+        if (path.size() > deepest)
+            throw SceneFileError(where + ": found a key of " + std::to_string(path.size()) + " parts, expected at most " +
+                                 std::to_string(deepest));
+        Value value = override_value(std::string_view(overrides[i]).substr(equals + 1), Reading{where, place});
+        reach(d.root, path, where, place) = std::move(value);
+    }
+    return d;
+}
+
+}  // namespace jvari

@@ -1,0 +1,76 @@
+// Finding a scene, reading it, and putting file and line to what is wrong with it.
+#include "scenes/scene_file.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "scenes/columns.hpp"
+#include "scenes/document.hpp"
+#include "scenes/scene_reader.hpp"
+#include "scenes/wording.hpp"
+
+namespace jvari {
+
+namespace fs = std::filesystem;
+
+namespace {
+constexpr std::size_t largest_scene = 1u << 20;  // bytes
+
+fs::path library() {
+    const char* set = std::getenv("JVARI_SCENES");
+    std::error_code error;
+    for (const char* directory : {set, JVARI_SOURCE_SCENES, JVARI_INSTALLED_SCENES})
+        if (directory && *directory && fs::is_directory(directory, error)) return directory;
+    return {};
+}
+
+// "scenes/a.toml" and "./a" are files; "a" is one too where it lies in the working directory as a file.
+std::string path_of(const std::string& name) {
+    std::error_code error;
+    const bool plain = !name.empty() && name.find('/') == std::string::npos && name.find('\0') == std::string::npos;
+    if (plain && fs::is_regular_file(library() / (name + ".toml"), error) && !fs::is_regular_file(name, error))
+        return (library() / (name + ".toml")).string();
+    if (!plain || fs::path(name).extension() == ".toml" || fs::exists(name, error)) return name;
+    const auto known = library_scenes();
+    const std::string near = nearest(name.substr(0, 100), known);
+    throw SceneFileError(found_text(name) + ": neither a file nor a scene of the library; " +
+                         (near.empty() ? "the library has " + list_of(known) : "did you mean " + quote(near) + "?"));
+}
+}  // namespace
+
+std::vector<std::string> library_scenes() {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(library(), error))
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Scene parse_scene(std::string_view text, const std::string& file_name, const std::vector<std::string>& overrides) {
+    if (text.size() > largest_scene)
+        throw SceneFileError(file_name + ":1: found " + std::to_string(text.size()) + " bytes, expected at most " +
+                             std::to_string(largest_scene));
+    const Document document = parse_document(text, file_name, overrides);
+    Scene scene = scene_of(document);
+    try {
+        validate(scene);
+    } catch (const BadScene& e) {
+        throw SceneFileError(document.place(document.nearest(e.key).place) + ": " + e.what());
+    }
+    return scene;
+}
+
+Scene read_scene(const std::string& file_or_library_name, const std::vector<std::string>& overrides) {
+    const std::string path = path_of(file_or_library_name);
+    std::string text;
+    try {
+        text = text_of_file(path, largest_scene);
+    } catch (const std::exception& e) {
+        throw SceneFileError(found_text(path) + " " + e.what());
+    }
+    return parse_scene(text, path, overrides);
+}
+
+}  // namespace jvari

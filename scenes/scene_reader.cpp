@@ -1,0 +1,205 @@
+// Two passes over the schema: Names refuses unknown keys (and chooses the alternatives of variants), Reader takes the values.
+#include "scenes/scene_reader.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "scenes/columns.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/schema.hpp"
+#include "scenes/wording.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr std::size_t largest_table = 16u << 20;  // bytes
+
+std::optional<std::size_t> chosen(const Value* v, std::span<const char* const> names) {
+    const auto* word = v ? std::get_if<std::string>(&v->content) : nullptr;
+    const auto at = word ? std::find(names.begin(), names.end(), *word) : names.end();
+    if (at == names.end()) return {};
+    return static_cast<std::size_t>(at - names.begin());
+}
+
+template <std::size_t I = 0, class... T>
+void emplace(std::variant<T...>& v, std::size_t index) {
+    if constexpr (I < sizeof...(T)) {
+        if (I == index) v.template emplace<I>();
+        else emplace<I + 1>(v, index);
+    }
+}
+
+// ---- Which keys this table may have. Where the key that chooses an alternative is missing or wrong, those of every alternative.
+struct Names {
+    const Value& table;
+    std::vector<std::string> names{};
+    std::vector<std::string> idle{};  // keys of alternatives that an override has turned from
+
+    void add(const char* key) {
+        if (std::find(names.begin(), names.end(), key) == names.end()) names.emplace_back(key);
+    }
+    void number(const char* key, auto&&...) { add(key); }
+    void count(const char* key, auto&) { add(key); }
+    void text(const char* key, auto&) { add(key); }
+    void optional_text(const char* key, auto&) { add(key); }
+    void choice(const char* key, auto&&...) { add(key); }
+    void string_index(const char* key, auto&) { add(key); }
+    void refused(const char* key, const char*) { add(key); }
+    void columns(const char* key, auto&&...) { add(key); }
+    void part(const char* key, auto&) { add(key); }
+    void parts(const char* key, auto&) { add(key); }
+    template <class... T>
+    void one_of(const char* key, std::variant<T...>& v, std::span<const char* const> tags) {
+        add(key);
+        const auto index = chosen(table.find(key), tags);
+        for (std::size_t i = 0; i < sizeof...(T); ++i) {
+            if (index && i != *index && table.find(key)->place > 0) continue;
+            std::variant<T...> alternative;
+            emplace(alternative, i);
+            Names other{table};
+            std::visit([&other](auto& a) { fields(other, a); }, alternative);
+            for (const std::string& name : other.names) index&& i != *index ? idle.push_back(name) : add(name.c_str());
+            idle.insert(idle.end(), other.idle.begin(), other.idle.end());
+            if (i == index) v = std::move(alternative);
+        }
+    }
+};
+
+// ---- The values of one table
+class Reader {
+public:
+    Reader(const Document& document, const Value& table, std::string path) : document_(document), table_(table), path_(std::move(path)) {}
+
+    template <class Part>
+    void read(Part& part) {
+        if (!std::holds_alternative<Table>(table_.content)) fail(table_, path_, table_.found(), "a table");
+        Names names{table_};
+        fields(names, part);
+        for (const Member& m : std::get<Table>(table_.content)) refuse_unknown(m, names);
+        fields(*this, part);
+    }
+
+    void number(const char* key, double& x, const Range& range, const char* unit, std::optional<double> absent = {}) {
+        const std::string expected = range.says + (*unit ? " [" + std::string(unit) + "]" : "");
+        const Value* v = absent ? table_.find(key) : required(key, expected);
+        if (!v) x = *absent;
+        else if (const auto* d = std::get_if<double>(&v->content)) x = *d;
+        else if (const auto* i = std::get_if<std::int64_t>(&v->content)) x = static_cast<double>(*i);
+        else fail(*v, at(key), v->found(), expected);
+    }
+    void count(const char* key, int& n) { n = integer(*required(key, "a whole number >= 1"), key, 1); }
+    void string_index(const char* key, std::optional<int>& n) {
+        if (const Value* v = table_.find(key)) n = integer(*v, key, 0);
+    }
+    void text(const char* key, std::string& s) {
+        required(key, "a text");
+        optional_text(key, s);
+    }
+    void optional_text(const char* key, std::string& s) {
+        const Value* v = table_.find(key);
+        if (!v) return;
+        const auto* found = std::get_if<std::string>(&v->content);
+        if (!found || found->empty()) fail(*v, at(key), v->found(), "a text");
+        s = *found;
+    }
+    template <class Enum>
+    void choice(const char* key, Enum& e, std::span<const char* const> names) {
+        e = static_cast<Enum>(index_of(key, names));
+    }
+    void refused(const char* key, const char* expected) {
+        if (const Value* v = table_.find(key)) fail(*v, at(key), v->found(), expected);
+    }
+    void columns(const char* key, std::string& file, const Column& first, std::vector<double>& a, const Column& second,
+                 std::vector<double>& b) {
+        text(key, file);
+        const std::string path = (std::filesystem::path(document_.file).parent_path() / file).string();
+        const std::string expected = "a CSV file with the columns " + list_of({first.name, second.name});
+        std::error_code error;
+        if (file.find('\0') != std::string::npos || !std::filesystem::is_regular_file(path, error))
+            fail(*table_.find(key), at(key), found_text(file) + ", which is no file", expected);
+        std::string contents;
+        try {
+            contents = text_of_file(path, largest_table);
+        } catch (const std::exception& e) {
+            fail(*table_.find(key), at(key), found_text(file) + ", which " + e.what(), expected);
+        }
+        read_columns(path, contents, first, a, second, b);
+    }
+    template <class... T>
+    void one_of(const char* key, std::variant<T...>& v, std::span<const char* const> tags) {
+        index_of(key, tags);  // Names has made the alternative
+        std::visit([this](auto& alternative) { fields(*this, alternative); }, v);
+    }
+    template <class Part>
+    void part(const char* key, Part& p) {
+        if (const Value* v = table_.find(key)) Reader(document_, *v, at(key)).read(p);
+    }
+    template <class Part>
+    void part(const char* key, std::optional<Part>& p) {
+        if (table_.find(key)) part(key, p.emplace());
+    }
+    template <class Part>
+    void parts(const char* key, std::vector<Part>& all) {
+        const Value* v = table_.find(key);
+        if (!v) return;
+        const auto* items = std::get_if<Array>(&v->content);
+        if (!items) fail(*v, at(key), v->found(), "an array of tables, [[...]]");
+        for (const Value& item : *items) Reader(document_, item, at(key) + "." + std::to_string(all.size())).read(all.emplace_back());
+    }
+
+private:
+    std::string at(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+    [[noreturn]] void fail(const Value& v, const std::string& key, const std::string& found, const std::string& expected) const {
+        throw SceneFileError(document_.place(v.place) + ": " + (key.empty() ? "" : key + ": ") + "found " + found + ", expected " +
+                             expected);
+    }
+    const Value* required(const char* key, const std::string& expected) const {
+        const Value* v = table_.find(key);
+        if (!v) fail(table_, at(key), "nothing", expected);
+        return v;
+    }
+    int integer(const Value& v, const char* key, int least) const {
+        const auto* i = std::get_if<std::int64_t>(&v.content);
+        if (!i || *i < least || *i > std::numeric_limits<int>::max())
+            fail(v, at(key), v.found(), "a whole number >= " + std::to_string(least));
+        return static_cast<int>(*i);
+    }
+    std::size_t index_of(const char* key, std::span<const char* const> names) const {
+        const std::vector<std::string> words(names.begin(), names.end());
+        const std::string expected = "one of " + list_of(words);
+        const Value* v = required(key, expected);
+        const auto index = chosen(v, names);
+        if (index) return *index;
+        const auto* word = std::get_if<std::string>(&v->content);
+        const std::string near = word ? nearest(word->substr(0, 100), words) : "";
+        fail(*v, at(key), v->found(), expected + (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
+    }
+    void refuse_unknown(const Member& m, const Names& names) const {
+        const auto& known = names.names;
+        if (std::find(known.begin(), known.end(), m.key) != known.end()) return;
+        if (m.value.place > 0 && std::find(names.idle.begin(), names.idle.end(), m.key) != names.idle.end()) return;
+        const bool bare =
+            !m.key.empty() &&
+            m.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos &&
+            m.key.size() <= 60;
+        const std::string near = nearest(m.key.substr(0, 100), known);
+        throw SceneFileError(document_.place(m.value.place) + ": " + at(bare ? m.key : found_text(m.key)) + ": unknown key; " +
+                             (near.empty() ? "known here: " + list_of(known) : "did you mean " + quote(near) + "?"));
+    }
+
+    const Document& document_;
+    const Value& table_;
+    std::string path_;
+};
+}  // namespace
+
+Scene scene_of(const Document& document) {
+    Scene scene;
+    Reader(document, document.root, "").read(scene);
+    return scene;
+}
+
+}  // namespace jvari

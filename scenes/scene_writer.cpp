@@ -1,0 +1,116 @@
+// A scene as TOML: the writing pass over the schema. Values that equal their default are left out.
+#include <optional>
+#include <span>
+
+#include "scenes/scene_file.hpp"
+#include "scenes/schema.hpp"
+#include "scenes/wording.hpp"
+
+namespace jvari {
+
+namespace {
+struct Writer {
+    std::string& out;
+    std::string path{};  // "string.barrier": a header names the last entry of every array
+
+    void line(const char* key, const std::string& value) { out += std::string(key) + " = " + value + "\n"; }
+    static std::string number_value(double x) {
+        std::string text = number_text(x);
+        return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;  // a float, also beyond the range of integers
+    }
+
+    void number(const char* key, double x, const Range&, const char*, std::optional<double> absent = {}) {
+        if (x != absent) line(key, number_value(x));
+    }
+    void count(const char* key, int n) { line(key, std::to_string(n)); }
+    void string_index(const char* key, const std::optional<int>& n) {
+        if (n) line(key, std::to_string(*n));
+    }
+    void text(const char* key, const std::string& s) { line(key, quote(s)); }
+    void optional_text(const char* key, const std::string& s) {
+        if (!s.empty()) text(key, s);
+    }
+    template <class Enum>
+    void choice(const char* key, Enum e, std::span<const char* const> names) {
+        line(key, quote(names[static_cast<std::size_t>(e)]));
+    }
+    void refused(const char*, const char*) {}
+    void columns(const char* key, const std::string& file, auto&&...) { text(key, file); }
+    void one_of(const char* key, const auto& variant, std::span<const char* const> names) {
+        line(key, quote(names[variant.index()]));
+        std::visit([this](const auto& alternative) { fields(*this, alternative); }, variant);
+    }
+    template <class Part>
+    void headed(const std::string& header, const std::string& key, const Part& p) {
+        out += "\n" + header + "\n";
+        Writer inner{out, key};
+        fields(inner, p);
+    }
+    std::string at(const char* key) const { return path.empty() ? key : path + "." + key; }
+    template <class Part>
+    void part(const char* key, const Part& p) {
+        headed("[" + at(key) + "]", at(key), p);
+    }
+    template <class Part>
+    void part(const char* key, const std::optional<Part>& p) {
+        if (p) part(key, *p);
+    }
+    template <class Part>
+    void parts(const char* key, const std::vector<Part>& all) {
+        for (const Part& p : all) headed("[[" + at(key) + "]]", at(key), p);
+    }
+};
+
+// The contents of the tables, for the hash.
+struct Tables {
+    std::string& out;
+    void number(auto&&...) {}
+    void count(auto&&...) {}
+    void string_index(auto&&...) {}
+    void text(auto&&...) {}
+    void optional_text(auto&&...) {}
+    void choice(auto&&...) {}
+    void refused(auto&&...) {}
+    void columns(const char*, const std::string&, const Column&, const std::vector<double>& a, const Column&,
+                 const std::vector<double>& b) {
+        for (const auto* column : {&a, &b}) {
+            for (const double x : *column) out += number_text(x) + ",";
+            out += "\n";
+        }
+    }
+    void one_of(const char*, const auto& variant, auto&&...) {
+        std::visit([this](const auto& alternative) { fields(*this, alternative); }, variant);
+    }
+    template <class Part>
+    void part(const char*, const Part& p) {
+        fields(*this, p);
+    }
+    template <class Part>
+    void part(const char* key, const std::optional<Part>& p) {
+        if (p) part(key, *p);
+    }
+    void parts(const char*, const auto& all) {
+        for (const auto& p : all) fields(*this, p);
+    }
+};
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+    std::string text;
+    Writer writer{text};
+    fields(writer, scene);
+    return text;
+}
+
+std::string scene_hash(const Scene& scene) {
+    std::string text = write_scene(scene);
+    Tables tables{text};
+    fields(tables, scene);
+    std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, 64 bit
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    std::string hex(16, '0');
+    for (auto digit = hex.rbegin(); digit != hex.rend(); ++digit, hash >>= 4) *digit = "0123456789abcdef"[hash & 15];
+    return hex;
+}
+
+}  // namespace jvari

@@ -1,0 +1,178 @@
+// The schema of a scene file, written once: the keys of every part of a scene, in the order in which they are written, each with its unit,
+// its range and, where it may be absent, the value it then has. Four passes walk it: naming the keys, reading, writing, and checking
+// ranges. What no single value can tell (a bridge beyond the end of the string) is checked in validate.cpp.
+//
+// A pass has: number, count, text, optional_text, choice, string_index, refused (a key that has no meaning here), columns (a CSV file),
+// one_of (a variant and the key that chooses), part (a table), parts (an array of tables).
+#pragma once
+
+#include <concepts>
+#include <limits>
+
+#include "scenes/scene.hpp"
+
+namespace jvari {
+
+template <class T, class Part>
+concept Is = std::same_as<std::remove_const_t<T>, Part>;
+
+struct Range {
+    const char* says;
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+    bool without_low = false;
+    bool holds(double x) const {
+        return x - x == 0 && x >= low && x <= high && !(without_low && x == low);
+    }  // x - x: neither nan nor infinite
+};
+inline constexpr Range any{"a finite number"};
+inline constexpr Range positive{"a positive number", 0, std::numeric_limits<double>::infinity(), true};
+inline constexpr Range not_negative{"a number >= 0", 0};
+inline constexpr Range one_or_more{"a number >= 1", 1};
+inline constexpr Range fraction{"a number above 0 and at most 1", 0, 1, true};
+
+struct Column {  // of a CSV file
+    const char* name;
+    const char* alias;
+    Range range;
+};
+
+inline constexpr const char* quantity_names[] = {"displacement", "velocity", "nut_force", "bridge_force", "thread_force", "driving_force"};
+inline constexpr const char* damping_names[] = {"none", "polynomial", "quality_factor", "table", "per_period"};
+inline constexpr const char* barrier_names[] = {"lumped", "profile"};
+inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
+inline constexpr const char* initial_names[] = {"mode", "triangle"};
+
+// ---- Losses
+
+void fields(auto&, Is<NoDamping> auto&) {}
+void fields(auto& pass, Is<PolynomialDamping> auto& d) {
+    pass.number("sigma0", d.sigma0, not_negative, "1/s", 0.0);
+    pass.number("sigma1", d.sigma1, not_negative, "m/s", 0.0);
+    pass.number("sigma3", d.sigma3, not_negative, "m^3/s", 0.0);
+}
+void fields(auto& pass, Is<QualityFactorDamping> auto& d) {
+    pass.number("diameter", d.diameter, positive, "m");
+    pass.number("air_viscosity", d.air_viscosity, not_negative, "kg/(m s)");
+    pass.number("air_density", d.air_density, not_negative, "kg/m^3");
+    pass.number("viscoelastic_angle", d.viscoelastic_angle, not_negative, "rad");
+    pass.number("thermoelastic_loss", d.thermoelastic_loss, not_negative, "");
+}
+void fields(auto& pass, Is<TableDamping> auto& d) {
+    pass.columns("file", d.file, Column{"frequency_hz", "frequency_hz", positive}, d.frequency_hz,
+                 Column{"decay_rate_per_s", "sigma_per_s", not_negative}, d.decay_rate);
+}
+void fields(auto& pass, Is<PerPeriodDamping> auto& d) {
+    pass.number("factor", d.factor, fraction, "");
+}
+void fields(auto& pass, Is<Damping> auto& d) {
+    pass.one_of("law", d, damping_names);
+}
+
+// ---- The obstacle
+
+void fields(auto&, Is<FlatCurve> auto&) {}
+void fields(auto& pass, Is<LineCurve> auto& c) {
+    pass.number("coefficient", c.coefficient, any, "");
+}
+void fields(auto& pass, Is<ParabolaCurve> auto& c) {
+    pass.number("coefficient", c.coefficient, any, "1/m");
+}
+void fields(auto& pass, Is<TableCurve> auto& c) {
+    pass.columns("file", c.file, Column{"x_m", "x_m", any}, c.x, Column{"height_m", "height_m", any}, c.height);
+}
+void fields(auto& pass, Is<LumpedBarrier> auto& b) {
+    pass.number("position", b.position, any, "m");
+    pass.number("width", b.width, not_negative, "m", 0.0);
+    pass.number("height", b.height, any, "m", 0.0);
+    pass.number("stiffness", b.stiffness.k, positive, "N/m^exponent");
+    pass.number("exponent", b.exponent, one_or_more, "", 1.0);
+    pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
+}
+void fields(auto& pass, Is<ProfileBarrier> auto& b) {
+    pass.one_of("curve", b.curve, curve_names);
+    pass.number("from", b.from, any, "m");
+    pass.number("to", b.to, any, "m");
+    pass.number("stiffness_density", b.stiffness.K, positive, "N/m^(exponent+1)");
+    pass.number("exponent", b.exponent, one_or_more, "", 1.0);
+    pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
+}
+void fields(auto& pass, Is<Barrier> auto& b) {
+    pass.one_of("shape", b, barrier_names);
+}
+
+void fields(auto& pass, Is<Thread> auto& t) {
+    pass.number("position", t.position, any, "m");
+    pass.number("width", t.width, not_negative, "m", 0.0);
+    pass.number("stiffness", t.stiffness, not_negative, "N/m");
+    pass.number("damping", t.damping, not_negative, "kg/s", 0.0);
+    pass.number("height", t.height, any, "m", 0.0);
+}
+
+// ---- What sets it in motion
+
+void fields(auto& pass, Is<ModeInitial> auto& m) {
+    pass.count("number", m.number);
+    pass.number("amplitude", m.amplitude, any, "m");
+}
+void fields(auto& pass, Is<TriangleInitial> auto& t) {
+    pass.number("position", t.position, any, "m");
+    pass.number("amplitude", t.amplitude, any, "m");
+    pass.number("smoothing", t.smoothing, not_negative, "m", 0.0);
+}
+void fields(auto& pass, Is<Initial> auto& i) {
+    pass.one_of("shape", i, initial_names);
+}
+
+void fields(auto& pass, Is<Pluck> auto& p) {
+    pass.number("amplitude", p.amplitude, any, "N");
+    pass.number("duration", p.duration, positive, "s");
+    pass.number("skew", p.skew, not_negative, "", 0.0);
+    pass.number("start", p.start, not_negative, "s", 0.0);
+    pass.number("position", p.position, any, "m");
+    pass.number("width", p.width, not_negative, "m", 0.0);
+}
+void fields(auto& pass, Is<Polarisation> auto& p) {
+    pass.number("rotation", p.rotation, any, "rad");
+    pass.number("pluck_angle", p.pluck_angle, any, "rad", 0.0);
+}
+
+void fields(auto& pass, Is<String> auto& s) {
+    pass.number("length", s.length, positive, "m");
+    pass.number("linear_density", s.linear_density, positive, "kg/m");
+    pass.number("tension", s.tension, positive, "N");
+    pass.number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);
+    pass.part("damping", s.damping);
+    pass.parts("barrier", s.barriers);
+    pass.part("thread", s.thread);
+    pass.part("initial", s.initial);
+    pass.part("pluck", s.pluck);
+    pass.part("polarisation", s.polarisation);
+}
+
+// ---- What is listened to
+
+constexpr bool has_position(Quantity q) {
+    return q == Quantity::displacement || q == Quantity::velocity;
+}
+
+void fields(auto& pass, Is<Tap> auto& t) {
+    pass.text("name", t.name);
+    pass.choice("quantity", t.quantity, quantity_names);
+    pass.string_index("string", t.string);
+    if (has_position(t.quantity)) pass.number("position", t.position, any, "m");
+    else pass.refused("position", "no position, which only displacement and velocity have");
+}
+void fields(auto& pass, Is<Body> auto& b) {
+    pass.optional_text("bridge", b.bridge);
+    pass.optional_text("nut", b.nut);
+}
+void fields(auto& pass, Is<Scene> auto& s) {
+    pass.text("name", s.name);
+    pass.optional_text("source", s.source);
+    pass.number("duration", s.duration, positive, "s");
+    pass.parts("string", s.strings);
+    pass.parts("tap", s.taps);
+    pass.part("body", s.body);
+}
+
+}  // namespace jvari

@@ -1,0 +1,165 @@
+// What a scene may not say: the range of every number (a pass over the schema), then what no number tells alone.
+#include <cmath>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "scenes/schema.hpp"
+#include "scenes/wording.hpp"
+
+namespace jvari {
+
+namespace {
+std::string joined(const std::string& path, const std::string& key) {
+    return path.empty() ? key : path + "." + key;
+}
+
+struct Ranges {
+    std::string path{};
+
+    void number(const char* key, double x, const Range& range, const char* unit, std::optional<double> = {}) {
+        if (!range.holds(x)) throw BadScene(joined(path, key), number_text(x), range.says + (*unit ? " [" + std::string(unit) + "]" : ""));
+    }
+    void count(const char* key, int n) {
+        if (n < 1) throw BadScene(joined(path, key), std::to_string(n), "a whole number >= 1");
+    }
+    void string_index(auto&&...) {}
+    void text(auto&&...) {}
+    void optional_text(auto&&...) {}
+    void choice(auto&&...) {}
+    void refused(auto&&...) {}
+    void columns(const char* key, const std::string&, const Column& first, const std::vector<double>& a, const Column& second,
+                 const std::vector<double>& b) {
+        const std::string at = joined(path, key);
+        if (a.size() != b.size())
+            throw BadScene(at, std::to_string(a.size()) + " and " + std::to_string(b.size()) + " rows", "columns of one length");
+        if (a.empty()) throw BadScene(at, "no rows", "at least one");
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            if (!first.range.holds(a[i]) || (i > 0 && !(a[i - 1] < a[i])))
+                throw BadScene(at, std::string(first.name) + " " + number_text(a[i]) + " in row " + std::to_string(i + 1),
+                               std::string(first.range.says) + ", above that of the row before");
+            if (!second.range.holds(b[i]))
+                throw BadScene(at, std::string(second.name) + " " + number_text(b[i]) + " in row " + std::to_string(i + 1),
+                               second.range.says);
+        }
+    }
+    void one_of(const char*, const auto& variant, auto&&...) {
+        std::visit([this](const auto& alternative) { fields(*this, alternative); }, variant);
+    }
+    template <class Part>
+    void part(const char* key, const Part& p) {
+        Ranges inner{joined(path, key)};
+        fields(inner, p);
+    }
+    template <class Part>
+    void part(const char* key, const std::optional<Part>& p) {
+        if (p) part(key, *p);
+    }
+    void parts(const char* key, const auto& all) {
+        for (std::size_t i = 0; i < all.size(); ++i) part((key + ("." + std::to_string(i))).c_str(), all[i]);
+    }
+};
+
+// ---- Against the string
+struct On {
+    const String& string;
+    std::string path;
+    double slack = 1e-12 * string.length;  // a footprint of the whole string may round past its end
+
+    std::string between(const char* sign) const {
+        return std::string("0 ") + sign + " x " + sign + " " + number_text(string.length) + " [m], on the string";
+    }
+
+    void inside(const std::string& part, double position) const {
+        if (!(position > 0 && position < string.length)) throw BadScene(path + part + ".position", number_text(position), between("<"));
+    }
+    void footprint(const std::string& part, double position, double width) const {
+        inside(part, position);
+        if (position - 0.5 * width < -slack || position + 0.5 * width > string.length + slack)
+            throw BadScene(path + part + ".width", number_text(width),
+                           "at most " + number_text(2 * std::min(position, string.length - position)) +
+                               " [m], so that the footprint ends on the string");
+    }
+    void curve(const std::string& part, const ProfileBarrier& b, const TableCurve& c) const {
+        if (c.x.size() < 2) throw BadScene(path + part + ".file", std::to_string(c.x.size()) + " rows", "at least two");
+        if (c.x.front() > b.from || c.x.back() < b.to)
+            throw BadScene(path + part + ".file", "heights from " + number_text(c.x.front()) + " to " + number_text(c.x.back()) + " m",
+                           "them from " + number_text(b.from) + " to " + number_text(b.to) + " m");
+    }
+    void barrier(const std::string& part, const LumpedBarrier& b) const { footprint(part, b.position, b.width); }
+    void barrier(const std::string& part, const ProfileBarrier& b) const {
+        if (b.from < 0 || b.from >= string.length) throw BadScene(path + part + ".from", number_text(b.from), between("<="));
+        if (b.to < 0 || b.to > string.length + slack) throw BadScene(path + part + ".to", number_text(b.to), between("<="));
+        if (b.from >= b.to) throw BadScene(path + part + ".to", number_text(b.to), "a number above from, " + number_text(b.from) + " [m]");
+        if (const auto* table = std::get_if<TableCurve>(&b.curve)) curve(part, b, *table);
+    }
+    void all() const {
+        for (std::size_t i = 0; i < string.barriers.size(); ++i)
+            std::visit([&](const auto& b) { barrier("barrier." + std::to_string(i), b); }, string.barriers[i]);
+        if (string.thread) footprint("thread", string.thread->position, string.thread->width);
+        if (string.pluck) footprint("pluck", string.pluck->position, string.pluck->width);
+        if (!string.initial) return;
+        const auto* triangle = std::get_if<TriangleInitial>(&*string.initial);
+        if (!triangle) return;
+        inside("initial", triangle->position);
+        if (triangle->smoothing > string.length)
+            throw BadScene(path + "initial.smoothing", number_text(triangle->smoothing),
+                           "at most the length of the string, " + number_text(string.length) + " [m]");
+    }
+};
+
+// ---- Taps
+bool name_is_plain(const std::string& name) {  // it heads a column of CSV files
+    return !name.empty() &&
+           name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") == std::string::npos &&
+           name != "time_s" && name.rfind("energy_", 0) != 0;
+}
+
+const char* lacks(Quantity q, const String& s) {  // what the quantity is taken from, where the string has none
+    const bool barrier = !s.barriers.empty(), thread = s.thread.has_value();
+    if (q == Quantity::bridge_force && !barrier) return "a barrier";
+    if (q == Quantity::thread_force && !thread) return "a thread";
+    if (q == Quantity::driving_force && !barrier && !thread) return "a barrier or a thread";
+    return nullptr;
+}
+
+void check(const Tap& tap, const Scene& scene, const std::string& path) {
+    if (!name_is_plain(tap.name))
+        throw BadScene(path + "name", found_text(tap.name), "letters, digits, _ . and -, neither time_s nor energy_...");
+    if (tap.string && (*tap.string < 0 || *tap.string >= static_cast<int>(scene.strings.size())))
+        throw BadScene(path + "string", std::to_string(*tap.string),
+                       "a string of the scene, 0 to " + std::to_string(scene.strings.size() - 1));
+    if (!tap.string && has_position(tap.quantity))
+        throw BadScene(path + "string", "nothing", "the string whose " + std::string(name_of(tap.quantity)) + " is meant");
+    const char* lack = nullptr;
+    if (tap.string) {
+        const String& s = scene.strings[static_cast<std::size_t>(*tap.string)];
+        lack = lacks(tap.quantity, s);
+        if (has_position(tap.quantity) && !(tap.position >= 0 && tap.position <= s.length))
+            throw BadScene(path + "position", number_text(tap.position), On{s, ""}.between("<="));
+    } else {
+        for (const String& s : scene.strings)
+            if (!(lack = lacks(tap.quantity, s))) break;
+    }
+    if (lack)
+        throw BadScene(path + "quantity", quote(name_of(tap.quantity)) + " of a string without " + lack, "a quantity that the string has");
+}
+}  // namespace
+
+void validate(const Scene& scene) {
+    Ranges ranges;
+    fields(ranges, scene);
+    if (scene.strings.empty()) throw BadScene("string", "no string", "at least one [[string]]");
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) On{scene.strings[i], "string." + std::to_string(i) + "."}.all();
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < scene.taps.size(); ++i) {
+        const std::string path = "tap." + std::to_string(i) + ".";
+        check(scene.taps[i], scene, path);
+        if (!names.insert(scene.taps[i].name).second)
+            throw BadScene(path + "name", quote(scene.taps[i].name) + " a second time", "a name of its own");
+    }
+    if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty())
+        throw BadScene("body", "neither bridge nor nut", "at least one of them");
+}
+
+}  // namespace jvari

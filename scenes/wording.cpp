@@ -1,0 +1,75 @@
+#include "scenes/wording.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <numeric>
+#include <utility>
+
+namespace jvari {
+
+std::string number_text(double x) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, x).ptr;
+    return {text, end};
+}
+
+std::string quote(std::string_view s) {
+    std::string text = "\"";
+    for (const char c : s) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            text += {'\\', c};
+        } else if (code < 0x20 || code == 0x7f) {
+            char escape[8];
+            std::snprintf(escape, sizeof escape, "\\u%04X", code);
+            text += escape;
+        } else {
+            text += c;
+        }
+    }
+    return text + '"';
+}
+
+std::string found_text(std::string_view s) {
+    constexpr std::size_t longest = 60;
+    if (s.size() <= longest) return quote(s);
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(s[end]) & 0xc0) == 0x80) --end;  // not inside a UTF-8 sequence
+    return quote(s.substr(0, end)) + "... (" + std::to_string(s.size()) + " bytes)";
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& w : words) text += (text.empty() ? "" : ", ") + quote(w);
+    return text;
+}
+
+namespace {
+// Insertions, deletions, changes, and neighbours exchanged (optimal string alignment).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+    std::iota(last.begin(), last.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            row[j] = std::min({last[j - 1] + (a[i - 1] != b[j - 1]), last[j] + 1, row[j - 1] + 1});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        before = std::exchange(last, row);
+    }
+    return last.back();
+}
+}  // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+    std::string best;
+    std::size_t least = word.size();
+    for (const std::string& k : known) {
+        const std::size_t distance = edit_distance(word, k);
+        if (distance < least && 2 * distance <= std::max(word.size(), k.size())) least = distance, best = k;
+    }
+    return best;
+}
+
+}  // namespace jvari

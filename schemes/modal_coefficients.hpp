@@ -1,0 +1,34 @@
+// One mode stepped over dt, in the two forms that the papers use; exact for free motion, also where a mode is overdamped.
+//
+// With R = exp(-sigma dt), Omega = cos(omega dt) (cosh where overdamped), num = 1 - 2 R Omega + R^2 and den = 1 + 2 R Omega + R^2:
+//     two-point   A = num/den, B = 2 (1 - R^2)/den     van Walstijn et al. 2016, eq 33
+//     three-point C = 2 R Omega, C~ = R^2              Issanchou et al. 2016, eq 14
+// num and den are formed without cancellation, so that low modes stay exact at high rates.
+#pragma once
+
+#include <cmath>
+
+namespace jvari {
+
+struct ModeStep {
+    double num, den;  // as above
+    double loss;      // 1 - R^2
+    double C() const { return 0.5 * (den - num); }
+    double C_tilde() const { return 1 - loss; }
+    double A() const { return num / den; }
+    double B() const { return 2 * loss / den; }
+};
+
+inline ModeStep exact_step(double omega0, double sigma, double dt) {
+    const double square = (omega0 - sigma) * (omega0 + sigma);  // omega^2
+    const double loss = -std::expm1(-2 * sigma * dt);
+    if (square >= 0) {
+        const double R = std::exp(-sigma * dt), E = std::expm1(-sigma * dt), half = 0.5 * std::sqrt(square) * dt;
+        const double s = std::sin(half), c = std::cos(half);
+        return {E * E + 4 * R * s * s, E * E + 4 * R * c * c, loss};
+    }
+    const double gamma = std::sqrt(-square), slow = omega0 * omega0 / (sigma + gamma), fast = sigma + gamma;  // the two real roots
+    return {std::expm1(-slow * dt) * std::expm1(-fast * dt), (1 + std::exp(-slow * dt)) * (1 + std::exp(-fast * dt)), loss};
+}
+
+}  // namespace jvari

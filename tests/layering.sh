@@ -1,0 +1,28 @@
+#!/bin/sh
+# The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp and scenes; bench and tests see all. No scheme includes another,
+# and each library is seen by one folder (or file) alone.
+cd "$(dirname "$0")/.." || exit 2
+status=0
+forbid() {  # forbid REASON PATTERN PATHS...: no line of PATHS matches PATTERN
+    reason=$1 pattern=$2
+    shift 2
+    if grep -nE "$pattern" "$@" /dev/null; then
+        echo "^ $reason" >&2
+        status=1
+    fi
+}
+files() { find "$@" -name '*.hpp' -o -name '*.cpp' | sort; }
+
+forbid "scenes see nothing above them" '#include "(schemes|reference|analysis|bench)/' $(files scenes)
+forbid "schemes see scenes alone" '#include "(reference|analysis|bench)/' $(files schemes)
+forbid "references see schemes and scenes" '#include "(analysis|bench)/' $(files reference)
+forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
+forbid "TOML belongs to scenes (and suites)" '#include <toml' $(files schemes reference analysis)
+forbid "FFTW belongs to analysis and the sine transform" '#include <fftw' $(files scenes reference bench) $(files schemes | grep -v sine_transform)
+forbid "SUNDIALS belongs to reference/sundials" '#include <(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' \
+    $(files scenes schemes analysis bench) $(files reference | grep -v 'reference/sundials')
+forbid "JSON, HDF5, sndfile and CLI11 belong to bench" '#include <(nlohmann|hdf5|sndfile|CLI)' $(files scenes schemes reference analysis)
+forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|cvode|sundials)' \
+    $(find scenes schemes reference analysis -name '*.hpp')
+forbid "-ffast-math is forbidden" 'ffast-math' CMakeLists.txt tests/CMakeLists.txt CMakePresets.json
+exit $status

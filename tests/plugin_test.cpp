@@ -1,0 +1,48 @@
+// The example plugin under tests/plugin, built out of tree against the install tree by the tests that this one depends on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
+#include "tests/c3.hpp"
+
+namespace jvari {
+namespace {
+
+TEST(Plugin, BuiltAgainstTheInstallTreeGivesTheBuiltInSchemesTrace) {
+    const char* path = std::getenv("JVARI_EXAMPLE_PLUGIN");
+    ASSERT_NE(path, nullptr) << "run this test through ctest";
+    const auto loaded = load_plugin(path);
+    ASSERT_EQ(loaded.size(), 1u);
+    EXPECT_STREQ(loaded[0].name, "plain_two_point");
+
+    for (Scene scene : {c3_release(), c3_pluck()}) {
+        scene.duration = 0.06;
+        const Settings settings{88200, 44100, 133, {}};
+        const auto ours = run(schemes()[0], scene, settings), theirs = run(loaded[0], scene, settings);
+        for (int k = 0; k < ours.trace.taps(); ++k) {
+            double difference = 0, largest = 0;
+            for (long n = 0; n < ours.trace.rows; ++n) {
+                difference = std::max(difference, std::abs(ours.trace.column(k)[n] - theirs.trace.column(k)[n]));
+                largest = std::max(largest, std::abs(ours.trace.column(k)[n]));
+            }
+            EXPECT_LT(difference, 1e-9 * largest) << ours.trace.names[k];
+        }
+    }
+}
+
+TEST(Plugin, AMissingOrForeignLibraryIsRefusedWithItsReason) {
+    EXPECT_THROW(load_plugin("/nonexistent/plugin.so"), std::runtime_error);
+    try {
+        load_plugin("libm.so.6");
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("libm.so.6"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace jvari

@@ -1,0 +1,522 @@
+// Scene files: what the library holds, round trips, overrides, and the exact words for everything that is wrong.
+#include "scenes/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <random>
+
+#include "scenes/modes.hpp"
+
+namespace jvari {
+namespace {
+
+namespace fs = std::filesystem;
+
+Features features(std::initializer_list<Feature> all) {
+    Features f;
+    for (Feature one : all) f = f | Features(one);
+    return f;
+}
+
+std::string message(const std::string& text, const std::vector<std::string>& overrides = {}, const std::string& file = "scene.toml") {
+    try {
+        parse_scene(text, file, overrides);
+    } catch (const SceneFileError& e) {
+        return e.what();
+    }
+    return "(read without an error)";
+}
+
+struct Directory {  // of this test alone, removed after it
+    fs::path path = fs::temp_directory_path() / ("jvari_scene_file_test." + std::to_string(std::random_device{}()));
+    Directory() { fs::create_directories(path); }
+    ~Directory() { fs::remove_all(path); }
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(path / name, std::ios::binary) << text;
+        return (path / name).string();
+    }
+};
+
+const std::string head = "name = \"s\"\nduration = 1.0\n";                                                                 // lines 1-2
+const std::string one = head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\ntension = 33.1\n";                     // 3-6
+const std::string lumped = one + "[[string.barrier]]\nshape = \"lumped\"\nposition = 0.01\nstiffness = 4.39e8\n";          // 7-10
+const std::string profile = one + "[[string.barrier]]\nshape = \"profile\"\ncurve = \"flat\"\nstiffness_density = 1e9\n";  // 7-10
+const std::string tap = one + "[[tap]]\nname = \"a\"\n";                                                                   // 7-8
+
+// ---- The library
+
+TEST(Library, HoldsThePapersScenesWithWhatTheyNeed) {
+    using enum Feature;
+    const Features c3 = features({bending_stiffness, damping, frequency_dependent_damping});
+    const Features steel = c3 | features({power_law_contact, initial_shape});
+    const std::vector<std::pair<std::string, Features>> expected{
+        {"free_string", c3 | Features(initial_shape)},
+        {"sitar_c5", features({damping, profile_barrier, initial_shape})},
+        {"sitar_parabola", steel | Features(profile_barrier)},
+        {"tanpura_c3", c3 | features({lumped_barrier, thread, pluck})},
+        {"tanpura_c3_release", c3 | features({lumped_barrier, thread, initial_shape})},
+        {"two_point_bridge", steel | Features(lumped_barrier)},
+    };
+    const auto names = library_scenes();
+    for (const auto& [name, needed] : expected) {
+        EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
+        EXPECT_EQ(names_of(needed_by(read_scene(name))), names_of(needed)) << name;
+    }
+    EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+}
+
+TEST(Library, EveryScenePassesItsChecksNamesItselfAndItsSourceAndSurvivesBeingWritten) {
+    for (const std::string& name : library_scenes()) {
+        const Scene scene = read_scene(name);
+        EXPECT_NO_THROW(validate(scene)) << name;
+        EXPECT_EQ(scene.name, name);
+        EXPECT_FALSE(scene.source.empty()) << name;
+        EXPECT_FALSE(scene.taps.empty()) << name;
+        const Scene again = parse_scene(write_scene(scene), "again.toml");
+        EXPECT_TRUE(again == scene) << write_scene(scene);
+        EXPECT_EQ(scene_hash(again), scene_hash(scene));
+    }
+}
+
+TEST(Library, TheC3StringIsTable1) {
+    const Scene scene = read_scene("tanpura_c3");
+    const String& s = scene.strings.at(0);
+    EXPECT_TRUE(s.damping == Damping(PolynomialDamping{0.6, 6.5e-3, 5.0e-6}));
+    EXPECT_TRUE(s.barriers.at(0) == Barrier(LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}));
+    EXPECT_TRUE(s.thread == (Thread{5e-3, 1.2e-3, 1.2e5, 1.2, 0}));
+    EXPECT_TRUE(s.pluck == (Pluck{-0.4, 50e-3, 30, 0, 0.5, 1.0}));
+    EXPECT_FALSE(s.initial);
+    EXPECT_EQ(scene.taps.size(), 4u);
+    const Scene release = read_scene("tanpura_c3_release");
+    EXPECT_TRUE(release.strings.at(0).initial == Initial(ModeInitial{1, 1.9e-3}));
+    EXPECT_FALSE(release.strings.at(0).pluck);
+}
+
+TEST(Library, TheSitarStringIsTunedToC5AndTheSteelStringHasThePrintedInharmonicity) {
+    const String sitar = read_scene("sitar_c5").strings.at(0);
+    EXPECT_EQ(std::sqrt(sitar.tension / sitar.linear_density) / (2 * sitar.length), 523.25);
+    for (const char* name : {"two_point_bridge", "sitar_parabola"}) {
+        const String s = read_scene(name).strings.at(0);
+        EXPECT_NEAR(std::numbers::pi * std::numbers::pi * s.bending_stiffness / (s.tension * s.length * s.length), 1.78e-5, 1e-18) << name;
+    }
+}
+
+TEST(Library, IsTheDirectoryThatTheEnvironmentNames) {
+    const Directory other;
+    other.write("mine.toml", one);
+    setenv("JVARI_SCENES", other.path.c_str(), 1);
+    EXPECT_EQ(library_scenes(), std::vector<std::string>{"mine"});
+    EXPECT_EQ(read_scene("mine").name, "s");
+    unsetenv("JVARI_SCENES");
+    EXPECT_THROW(read_scene("mine"), SceneFileError);
+}
+
+// ---- Writing
+
+const char* const everything = R"(
+name = "all \"of\" it"
+source = "tab\t, line\n, µ"
+duration = 0.5
+[[string]]
+length = 0.9
+linear_density = 5e-4
+tension = 30
+[string.damping]
+law = "quality_factor"
+diameter = 3e-4
+air_viscosity = 1.8e-5
+air_density = 1.2
+viscoelastic_angle = 0.004
+thermoelastic_loss = 2e-4
+[[string.barrier]]
+shape = "lumped"
+position = 0.01
+width = 2e-3
+height = -1e-4
+stiffness = 1e9
+exponent = 1.5
+contact_loss = 2.0
+[[string.barrier]]
+shape = "profile"
+curve = "parabola"
+coefficient = 0.5
+from = 0.02
+to = 0.04
+stiffness_density = 12345678901234567000.0
+exponent = 2.5
+contact_loss = 1.0
+[string.thread]
+position = 5e-3
+width = 1e-3
+stiffness = 1e5
+damping = 0.5
+height = 1e-5
+[string.initial]
+shape = "triangle"
+position = 0.3
+amplitude = -1e-3
+smoothing = 0.01
+[string.pluck]
+amplitude = 0.4
+duration = 0.05
+skew = 3.0
+start = 0.1
+position = 0.45
+width = 0.9
+[string.polarisation]
+rotation = 0.05
+pluck_angle = 0.2
+[[string]]
+length = 1
+linear_density = 1e-3
+tension = 40
+damping = {law = "per_period", factor = 0.99}
+barrier = [{shape = "profile", curve = "line", coefficient = -0.01, from = 0, to = 0.01, stiffness_density = 1e9},
+           {shape = "profile", curve = "flat", from = 0.9, to = 1, stiffness_density = 1e9}]
+initial = {shape = "mode", number = 3, amplitude = 1e-3}
+[[tap]]
+name = "v"
+quantity = "velocity"
+string = 1
+position = 0.25
+[[tap]]
+name = "drive"
+quantity = "driving_force"
+[body]
+bridge = "bridge.wav"
+nut = "nut.wav"
+)";
+
+TEST(WriteScene, EveryKeyOfTheSchemaSurvives) {
+    const Scene scene = parse_scene(everything, "scene.toml");
+    EXPECT_EQ(scene.source, "tab\t, line\n, µ");
+    EXPECT_EQ(scene.strings[0].polarisation->pluck_angle, 0.2);
+    EXPECT_EQ(std::get<ProfileBarrier>(scene.strings[0].barriers[1]).stiffness.K, 12345678901234567000.0);
+    EXPECT_EQ(std::get<ModeInitial>(*scene.strings[1].initial).number, 3);
+    EXPECT_EQ(scene.taps[1].string, std::nullopt);
+    EXPECT_EQ(scene.body->nut, "nut.wav");
+    const Scene again = parse_scene(write_scene(scene), "again.toml");
+    EXPECT_TRUE(again == scene) << write_scene(scene);
+    EXPECT_EQ(write_scene(again), write_scene(scene));
+}
+
+TEST(WriteScene, EveryDoubleIsReadBackToTheBit) {
+    Scene scene = parse_scene(one, "scene.toml");
+    std::mt19937_64 engine(1);
+    for (int i = 0; i < 2000; ++i) {
+        scene.duration = std::ldexp(1.0 + static_cast<double>(engine() >> 12) * 0x1p-52, static_cast<int>(engine() % 2000) - 1000);
+        EXPECT_EQ(parse_scene(write_scene(scene), "again.toml").duration, scene.duration);
+    }
+}
+
+TEST(SceneHash, ChangesWithEveryValueAndIsTheSameForTheSameScene) {
+    const Scene scene = parse_scene(everything, "scene.toml");
+    const std::string hash = scene_hash(scene);
+    EXPECT_EQ(hash.size(), 16u);
+    EXPECT_EQ(hash, scene_hash(parse_scene(everything, "elsewhere.toml")));
+    EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml", {"string.0.thread.height=1.0000000000000001e-5", "duration=0.6"})));
+    EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml", {"string.0.length=0.9000000000000001"})));
+    Scene tables = scene;
+    tables.strings[0].damping = TableDamping{"modes.csv", {100}, {1}};
+    const std::string before = scene_hash(tables);
+    tables.strings[0].damping = TableDamping{"modes.csv", {100}, {2}};
+    EXPECT_NE(before, scene_hash(tables));  // the same file name, other contents
+}
+
+// ---- Tables
+
+TEST(Tables, AreFoundBesideTheSceneAndReadByTheNamesInTheirHeader) {
+    const Directory d;
+    d.write("modes.csv", "# measured\nmode, sigma_per_s ,frequency_hz\r\n1,0.5,100\n\n# and\n2, 0.75 ,2.01e2,left over\n");
+    d.write("bridge.csv", "x_m,height_m\n0,0\n0.01,-1e-6\n0.02,-4e-6\n");
+    const std::string path =
+        d.write("scene.toml", one +
+                                  "[string.damping]\nlaw = \"table\"\nfile = \"modes.csv\"\n[[string.barrier]]\nshape = \"profile\"\n"
+                                  "curve = \"table\"\nfile = \"bridge.csv\"\nfrom = 0\nto = 0.02\nstiffness_density = 1e9\n");
+    const Scene scene = read_scene(path);
+    EXPECT_TRUE(scene.strings[0].damping == Damping(TableDamping{"modes.csv", {100, 201}, {0.5, 0.75}}));
+    EXPECT_EQ(modes_of(scene.strings[0], 2).sigma[1], 0.75);
+    EXPECT_TRUE(std::get<ProfileBarrier>(scene.strings[0].barriers[0]).curve ==
+                Curve(TableCurve{"bridge.csv", {0, 0.01, 0.02}, {0, -1e-6, -4e-6}}));
+    EXPECT_TRUE(needed_by(scene).has(Feature::measured_modes));
+    EXPECT_TRUE(parse_scene(write_scene(scene), (d.path / "again.toml").string()) == scene);
+}
+
+TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
+    const Directory d;
+    const std::string text = one + "[string.damping]\nlaw = \"table\"\nfile = \"modes.csv\"\n", file = (d.path / "scene.toml").string();
+    const auto with = [&](const std::string& csv) {
+        d.write("modes.csv", csv);
+        std::string m = message(text, {}, file);
+        if (m.rfind(d.path.string() + "/", 0) == 0) m.erase(0, d.path.string().size() + 1);
+        return m;
+    };
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,abc\n"), "modes.csv:2: decay_rate_per_s: found \"abc\", expected a number >= 0");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,1\nnan,1\n"),
+              "modes.csv:3: frequency_hz: found \"nan\", expected a positive number");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100\n"), "modes.csv:2: decay_rate_per_s: found \"\", expected a number >= 0");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,-1\n"), "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
+    EXPECT_EQ(with("# a\nfrequency,decay_rate_per_s\n"), "modes.csv:2: header: found no column \"frequency_hz\"");
+    EXPECT_EQ(with("# nothing\n"), "modes.csv:1: found no header, expected the columns \"frequency_hz\", \"decay_rate_per_s\"");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n"), "scene.toml:9: string.0.damping.file: found no rows, expected at least one");
+    EXPECT_EQ(
+        with("frequency_hz,decay_rate_per_s\n200,1\n100,1\n"),
+        "scene.toml:9: string.0.damping.file: found frequency_hz 100 in row 2, expected a positive number, above that of the row before");
+    d.write("bridge.csv", "x_m,height_m\n0,0\n0.01,0\n");
+    EXPECT_EQ(message(profile + "from = 0\nto = 0.02\n", {"string.0.barrier.0.curve=table", "string.0.barrier.0.file=bridge.csv"}, file),
+              "--set string.0.barrier.0.file=bridge.csv: string.0.barrier.0.file: found heights from 0 to 0.01 m, expected them from 0 to "
+              "0.02 m");
+}
+
+// ---- Overrides
+
+TEST(Overrides, SetValuesByPathAlsoAbsentOnes) {
+    const Scene scene =
+        read_scene("tanpura_c3", {"string.0.barrier.0.stiffness=1e9", "duration = 2", "string.0.polarisation.rotation=0.1",
+                                  "name=other-name", "source=\"quoted\"", "tap.4.name=v", "tap.4.quantity=velocity", "tap.4.string=0",
+                                  "tap.4.position=0.1", "string.0.initial={shape='mode', number=2, amplitude=1e-3}"});
+    EXPECT_EQ(std::get<LumpedBarrier>(scene.strings[0].barriers[0]).stiffness.k, 1e9);
+    EXPECT_EQ(scene.duration, 2);
+    EXPECT_EQ(scene.strings[0].polarisation->rotation, 0.1);
+    EXPECT_EQ(scene.name, "other-name");
+    EXPECT_EQ(scene.source, "quoted");
+    EXPECT_EQ(scene.taps.at(4).quantity, Quantity::velocity);
+    EXPECT_TRUE(scene.strings[0].initial == Initial(ModeInitial{2, 1e-3}));
+    EXPECT_TRUE(scene.strings[0].pluck);
+}
+
+TEST(Overrides, ALaterOneWinsAndAnArrayIsMadeWhereItIsAbsent) {
+    const Scene scene = parse_scene(one, "scene.toml",
+                                    {"duration=2", "duration=3", "string.0.barrier.0.shape=lumped", "string.0.barrier.0.position=0.01",
+                                     "string.0.barrier.0.stiffness=1e8"});
+    EXPECT_EQ(scene.duration, 3);
+    EXPECT_TRUE((scene.strings[0].barriers == std::vector<Barrier>{LumpedBarrier{0.01, 0, 0, {1e8}, 1, 0}}));
+}
+
+TEST(Overrides, ChoosingAnotherLawOrShapeLeavesTheKeysOfTheFormerUnread) {
+    const Scene lossless = read_scene("tanpura_c3", {"string.0.damping.law=none"});
+    EXPECT_TRUE(lossless.strings[0].damping == Damping(NoDamping{}));
+    const Scene flat = read_scene("sitar_c5", {"string.0.barrier.0.curve=flat"});
+    EXPECT_TRUE(std::get<ProfileBarrier>(flat.strings[0].barriers[0]).curve == Curve(FlatCurve{}));
+    const Scene mode = read_scene("free_string", {"string.0.initial.shape=mode", "string.0.initial.number=5"});
+    EXPECT_TRUE(mode.strings[0].initial == Initial(ModeInitial{5, 1e-3}));
+}
+
+TEST(Overrides, ErrorsNameTheOverride) {
+    const std::vector<std::pair<std::string, std::string>> rows{
+        {"string.0.tension=-1", "--set string.0.tension=-1: string.0.tension: found -1, expected a positive number [N]"},
+        {"string.0.tension=nan", "--set string.0.tension=nan: string.0.tension: found nan, expected a positive number [N]"},
+        {"string.0.tension=30 N", "--set string.0.tension=30 N: string.0.tension: found \"30 N\", expected a positive number [N]"},
+        {"string.0.tension=", "--set string.0.tension=: string.0.tension: found \"\", expected a positive number [N]"},
+        {"string.0.tensoin=30", "--set string.0.tensoin=30: string.0.tensoin: unknown key; did you mean \"tension\"?"},
+        {"string.1000000000.length=1", "--set string.1000000000.length=1: string: found index 1000000000, expected an index from 0 to 1"},
+        {"string.99999999999999999999.length=1",
+         "--set string.99999999999999999999.length=1: string: found index 99999999999999999999, expected an index from 0 to 1"},
+        {"string.first.length=1", "--set string.first.length=1: string: found \"first\", expected an index from 0 to 1"},
+        {"string.1.length=1", "--set string.1.length=1: string.1.linear_density: found nothing, expected a positive number [kg/m]"},
+        {"duration.s=1", "--set duration.s=1: duration: found 1, expected a table with the key \"s\""},
+        {"duration", "--set duration: expected key.path=value"},
+        {"=1", "--set =1: expected key.path=value"},
+        {"string..length=1", "--set string..length=1: string: found \"\", expected an index from 0 to 1"},
+        {"a..b=1", "--set a..b=1: found an empty part in the key, expected key.path=value"},
+        {"name=[1", "--set name=[1: no TOML: Error while parsing array: encountered end-of-file"},
+        {"duration=1\nname=2", "--set duration=1\nname=2: duration: found \"1\\u000Aname=2\", expected a positive number [s]"},
+        {"a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1", "--set a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1: found a key of 17 parts, expected at most 16"},
+        {"string.0.length=0.005", "scene.toml:9: string.0.barrier.0.position: found 0.01, expected 0 < x < 0.005 [m], on the string"},
+    };
+    for (const auto& [override, expected] : rows) EXPECT_EQ(message(lumped, {override}), expected);
+}
+
+// ---- Bad input
+
+struct Bad {
+    std::string text, says;
+};
+const std::string laws = "\"none\", \"polynomial\", \"quality_factor\", \"table\", \"per_period\"";
+
+const std::vector<Bad> bad_scenes{
+    // no TOML
+    {"name = ", "scene.toml:1: no TOML: Error while parsing key-value pair: encountered end-of-file"},
+    {head + "duration = 2.0\n",
+     "scene.toml:3: no TOML: Error while parsing key-value pair: cannot redefine existing floating-point 'duration'"},
+    {one + "[string.initial]\nshape = \"mode\"\nshape = \"triangle\"\n",
+     "scene.toml:9: no TOML: Error while parsing key-value pair: cannot redefine existing string 'shape'"},
+    {"\xff\xfe", "scene.toml:1: no TOML: Encountered invalid utf-8 sequence"},
+    {"x = " + std::string(5000, '['),
+     "scene.toml:1: no TOML: Error while parsing value: exceeded maximum nested value depth of 256 (TOML_MAX_NESTED_VALUES)"},
+    {head + "x = [[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n", "scene.toml:3: found tables or arrays nested deeper than 16"},
+    {"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
+     "a = 1",
+     "scene.toml:1: found more than 64 dots in a line, expected fewer"},
+    {std::string((1 << 20) + 1, ' '), "scene.toml:1: found 1048577 bytes, expected at most 1048576"},
+    // keys
+    {"", "scene.toml:1: name: found nothing, expected a text"},
+    {head, "scene.toml:1: string: found no string, expected at least one [[string]]"},
+    {head + "string = []\n", "scene.toml:3: string: found no string, expected at least one [[string]]"},
+    {"druation = 1.0\n", "scene.toml:1: druation: unknown key; did you mean \"duration\"?"},
+    {head + "[[string]]\ntensoin = 33.1\n", "scene.toml:4: string.0.tensoin: unknown key; did you mean \"tension\"?"},
+    {one + "[string.damping]\nlwa = \"none\"\n", "scene.toml:8: string.0.damping.lwa: unknown key; did you mean \"law\"?"},
+    {one + "[string.damping]\nlaw = \"none\"\nsigma0 = 1\n", "scene.toml:9: string.0.damping.sigma0: unknown key; known here: \"law\""},
+    {one + "\"a\\nb\" = 1\n",
+     "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"linear_density\", \"tension\", \"bending_stiffness\", "
+     "\"damping\", "
+     "\"barrier\", \"thread\", \"initial\", \"pluck\", \"polarisation\""},
+    {head + "[[string]]\nlength = 1.0\nlinear_density = 1e-3\n",
+     "scene.toml:3: string.0.tension: found nothing, expected a positive number [N]"},
+    {one + "[string.damping]\nsigma0 = 1\n", "scene.toml:7: string.0.damping.law: found nothing, expected one of " + laws},
+    {one + "[string.thread]\nposition = 5e-3\n", "scene.toml:7: string.0.thread.stiffness: found nothing, expected a number >= 0 [N/m]"},
+    // types
+    {"name = 3\nduration = 1.0\n", "scene.toml:1: name: found 3, expected a text"},
+    {"name = \"\"\nduration = 1.0\n", "scene.toml:1: name: found \"\", expected a text"},
+    {"name = \"s\"\nduration = \"1 s\"\n", "scene.toml:2: duration: found \"1 s\", expected a positive number [s]"},
+    {"name = \"s\"\nduration = 1979-05-27\n", "scene.toml:2: duration: found a date or time, expected a positive number [s]"},
+    {"name = \"s\"\nduration = true\n", "scene.toml:2: duration: found true, expected a positive number [s]"},
+    {"name = \"s\"\nduration = [1]\n", "scene.toml:2: duration: found an array, expected a positive number [s]"},
+    {head + "string = 3\n", "scene.toml:3: string: found 3, expected an array of tables, [[...]]"},
+    {head + "[string]\nlength = 1.0\n", "scene.toml:3: string: found a table, expected an array of tables, [[...]]"},
+    {head + "string = [3]\n", "scene.toml:3: string.0: found 3, expected a table"},
+    {one + "[[string.initial]]\nshape = \"mode\"\n", "scene.toml:7: string.0.initial: found an array, expected a table"},
+    {one + "thread = 5e-3\n", "scene.toml:7: string.0.thread: found 0.005, expected a table"},
+    {one + "thread = \"" + std::string(70, 'x') + "\"\n",
+     "scene.toml:7: string.0.thread: found \"" + std::string(60, 'x') + "\"... (70 bytes), expected a table"},
+    // choices
+    {one + "[string.damping]\nlaw = \"polynomal\"\n",
+     "scene.toml:8: string.0.damping.law: found \"polynomal\", expected one of " + laws + "; did you mean \"polynomial\"?"},
+    {one + "[string.damping]\nlaw = 3\n", "scene.toml:8: string.0.damping.law: found 3, expected one of " + laws},
+    {one + "[[string.barrier]]\nshape = \"round\"\n",
+     "scene.toml:8: string.0.barrier.0.shape: found \"round\", expected one of \"lumped\", \"profile\""},
+    {tap + "quantity = \"position\"\n",
+     "scene.toml:9: tap.0.quantity: found \"position\", expected one of \"displacement\", \"velocity\", \"nut_force\", \"bridge_force\", "
+     "\"thread_force\", \"driving_force\""},
+    // numbers
+    {"name = \"s\"\nduration = 0.0\n[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension = 33.1\n",
+     "scene.toml:2: duration: found 0, expected a positive number [s]"},
+    {head + "[[string]]\nlength = -1.0\nlinear_density = 1e-3\ntension = 33.1\n",
+     "scene.toml:4: string.0.length: found -1, expected a positive number [m]"},
+    {head + "[[string]]\nlength = inf\nlinear_density = 1e-3\ntension = 33.1\n",
+     "scene.toml:4: string.0.length: found inf, expected a positive number [m]"},
+    {head + "[[string]]\nlength = 1.0\nlinear_density = nan\ntension = 33.1\n",
+     "scene.toml:5: string.0.linear_density: found nan, expected a positive number [kg/m]"},
+    {head + "[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension = 0\n",
+     "scene.toml:6: string.0.tension: found 0, expected a positive number [N]"},
+    {one + "bending_stiffness = -1e-5\n", "scene.toml:7: string.0.bending_stiffness: found -1e-05, expected a number >= 0 [N m^2]"},
+    {one + "[string.damping]\nlaw = \"polynomial\"\nsigma3 = -1\n",
+     "scene.toml:9: string.0.damping.sigma3: found -1, expected a number >= 0 [m^3/s]"},
+    {one + "[string.damping]\nlaw = \"per_period\"\nfactor = 1.5\n",
+     "scene.toml:9: string.0.damping.factor: found 1.5, expected a number above 0 and at most 1"},
+    {one + "[string.damping]\nlaw = \"per_period\"\nfactor = 0.0\n",
+     "scene.toml:9: string.0.damping.factor: found 0, expected a number above 0 and at most 1"},
+    {one + "[string.damping]\nlaw = \"table\"\nfile = \"none.csv\"\n",
+     "scene.toml:9: string.0.damping.file: found \"none.csv\", which is no file, expected a CSV file with the columns \"frequency_hz\", "
+     "\"decay_rate_per_s\""},
+    {lumped + "exponent = 0.5\n", "scene.toml:11: string.0.barrier.0.exponent: found 0.5, expected a number >= 1"},
+    {lumped + "contact_loss = -0.5\n", "scene.toml:11: string.0.barrier.0.contact_loss: found -0.5, expected a number >= 0 [s/m]"},
+    {lumped + "height = nan\n", "scene.toml:11: string.0.barrier.0.height: found nan, expected a finite number [m]"},
+    {one + "[string.initial]\nshape = \"mode\"\nnumber = 0\namplitude = 1e-3\n",
+     "scene.toml:9: string.0.initial.number: found 0, expected a whole number >= 1"},
+    {one + "[string.initial]\nshape = \"mode\"\nnumber = 1.5\namplitude = 1e-3\n",
+     "scene.toml:9: string.0.initial.number: found 1.5, expected a whole number >= 1"},
+    {one + "[string.initial]\nshape = \"mode\"\nnumber = 3000000000\namplitude = 1e-3\n",
+     "scene.toml:9: string.0.initial.number: found 3000000000, expected a whole number >= 1"},
+    {one + "[string.pluck]\namplitude = 1\nduration = 0\nposition = 0.5\n",
+     "scene.toml:9: string.0.pluck.duration: found 0, expected a positive number [s]"},
+    {one + "[string.pluck]\namplitude = 1\nduration = 1\nposition = 0.5\nskew = -1\n",
+     "scene.toml:11: string.0.pluck.skew: found -1, expected a number >= 0"},
+    // the string and what stands at it
+    {one + "[[string.barrier]]\nshape = \"lumped\"\nposition = 1.5\nstiffness = 1e9\n",
+     "scene.toml:9: string.0.barrier.0.position: found 1.5, expected 0 < x < 1 [m], on the string"},
+    {one + "[[string.barrier]]\nshape = \"lumped\"\nposition = 0\nstiffness = 1e9\n",
+     "scene.toml:9: string.0.barrier.0.position: found 0, expected 0 < x < 1 [m], on the string"},
+    {lumped + "width = 0.1\n",
+     "scene.toml:11: string.0.barrier.0.width: found 0.1, expected at most 0.02 [m], so that the footprint ends on the string"},
+    {one + "[string.thread]\nposition = 0.999\nwidth = 0.01\nstiffness = 1e5\n",
+     "scene.toml:9: string.0.thread.width: found 0.01, expected at most 0.0020000000000000018 [m], so that the footprint ends on the "
+     "string"},
+    {one + "[string.pluck]\namplitude = 1\nduration = 1\nposition = -0.5\n",
+     "scene.toml:10: string.0.pluck.position: found -0.5, expected 0 < x < 1 [m], on the string"},
+    {one + "[string.initial]\nshape = \"triangle\"\nposition = 1.0\namplitude = 1e-3\n",
+     "scene.toml:9: string.0.initial.position: found 1, expected 0 < x < 1 [m], on the string"},
+    {one + "[string.initial]\nshape = \"triangle\"\nposition = 0.5\namplitude = 1e-3\nsmoothing = 2\n",
+     "scene.toml:11: string.0.initial.smoothing: found 2, expected at most the length of the string, 1 [m]"},
+    {profile + "from = 0.02\nto = 0.01\n", "scene.toml:12: string.0.barrier.0.to: found 0.01, expected a number above from, 0.02 [m]"},
+    {profile + "from = 0.01\nto = 0.01\n", "scene.toml:12: string.0.barrier.0.to: found 0.01, expected a number above from, 0.01 [m]"},
+    {profile + "from = 0.9\nto = 1.1\n", "scene.toml:12: string.0.barrier.0.to: found 1.1, expected 0 <= x <= 1 [m], on the string"},
+    {profile + "from = -0.1\nto = 0.1\n", "scene.toml:11: string.0.barrier.0.from: found -0.1, expected 0 <= x <= 1 [m], on the string"},
+    {profile + "from = 0\nto = 0.1\nwidth = 2e-3\n",
+     "scene.toml:13: string.0.barrier.0.width: unknown key; known here: \"shape\", \"curve\", \"from\", \"to\", \"stiffness_density\", "
+     "\"exponent\", \"contact_loss\""},
+    // taps
+    {tap + "quantity = \"nut_force\"\nstring = 1\n", "scene.toml:10: tap.0.string: found 1, expected a string of the scene, 0 to 0"},
+    {tap + "quantity = \"nut_force\"\nstring = -1\n", "scene.toml:10: tap.0.string: found -1, expected a whole number >= 0"},
+    {tap + "quantity = \"nut_force\"\nposition = 0.3\n",
+     "scene.toml:10: tap.0.position: found 0.3, expected no position, which only displacement and velocity have"},
+    {tap + "quantity = \"displacement\"\nstring = 0\n", "scene.toml:7: tap.0.position: found nothing, expected a finite number [m]"},
+    {tap + "quantity = \"displacement\"\nposition = 0.3\n",
+     "scene.toml:7: tap.0.string: found nothing, expected the string whose displacement is meant"},
+    {tap + "quantity = \"velocity\"\nstring = 0\nposition = 1.3\n",
+     "scene.toml:11: tap.0.position: found 1.3, expected 0 <= x <= 1 [m], on the string"},
+    {tap + "quantity = \"thread_force\"\nstring = 0\n",
+     "scene.toml:9: tap.0.quantity: found \"thread_force\" of a string without a thread, expected a quantity that the string has"},
+    {tap + "quantity = \"bridge_force\"\n",
+     "scene.toml:9: tap.0.quantity: found \"bridge_force\" of a string without a barrier, expected a quantity that the string has"},
+    {tap + "quantity = \"driving_force\"\n",
+     "scene.toml:9: tap.0.quantity: found \"driving_force\" of a string without a barrier or a thread, expected a quantity that the string "
+     "has"},
+    {tap + "quantity = \"nut_force\"\n[[tap]]\nname = \"a\"\nquantity = \"nut_force\"\n",
+     "scene.toml:11: tap.1.name: found \"a\" a second time, expected a name of its own"},
+    {one + "[[tap]]\nname = \"a,b\"\nquantity = \"nut_force\"\n",
+     "scene.toml:8: tap.0.name: found \"a,b\", expected letters, digits, _ . and -, neither time_s nor energy_..."},
+    {one + "[[tap]]\nname = \"time_s\"\nquantity = \"nut_force\"\n",
+     "scene.toml:8: tap.0.name: found \"time_s\", expected letters, digits, _ . and -, neither time_s nor energy_..."},
+    {one + "[body]\n", "scene.toml:7: body: found neither bridge nor nut, expected at least one of them"},
+};
+
+TEST(BadScenes, EachSaysWhereWhatWasFoundAndWhatWasExpected) {
+    for (const Bad& bad : bad_scenes) EXPECT_EQ(message(bad.text), bad.says) << bad.text.substr(0, 300);
+}
+
+TEST(BadScenes, TheTextsTheyAreMadeFromAreGood) {
+    for (const std::string& text : {one, lumped, profile + "from = 0\nto = 0.1\n", tap + "quantity = \"nut_force\"\n"})
+        EXPECT_EQ(message(text), "(read without an error)");
+}
+
+TEST(BadScenes, AMissingSceneNamesTheNearestOfTheLibrary) {
+    const auto says = [](const std::string& name) {
+        try {
+            read_scene(name);
+        } catch (const SceneFileError& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(says("tanpura_c4"), "\"tanpura_c4\": neither a file nor a scene of the library; did you mean \"tanpura_c3\"?");
+    EXPECT_EQ(says("no/such/scene.toml"), "\"no/such/scene.toml\" cannot be read");
+    EXPECT_EQ(says("/"), "\"/\" is no file");
+    EXPECT_EQ(says("/dev/zero"), "\"/dev/zero\" is larger than 1048576 bytes");
+}
+
+TEST(Validate, ChecksScenesThatNoFileHasSeen) {
+    Scene scene = read_scene("tanpura_c3");
+    scene.strings[0].damping = PerPeriodDamping{1.5};
+    try {
+        validate(scene);
+        FAIL();
+    } catch (const BadScene& e) {
+        EXPECT_EQ(e.key, "string.0.damping.factor");
+        EXPECT_EQ(e.found, "1.5");
+        EXPECT_EQ(e.expected, "a number above 0 and at most 1");
+    }
+    scene = read_scene("tanpura_c3");
+    scene.taps[0].string = 1000000000;
+    EXPECT_THROW(validate(scene), BadScene);
+    scene.strings.clear();
+    EXPECT_THROW(validate(scene), BadScene);
+}
+
+}  // namespace
+}  // namespace jvari
