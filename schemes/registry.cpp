@@ -4,7 +4,7 @@
 
 namespace jvari {
 
-extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
+extern const Descriptor modal_two_point, modal_two_point_trapezoidal, modal_spatial_newton;
 extern const Descriptor modal_quadratised, modal_quadratised_two_point_constrained, modal_quadratised_two_point_raw,
     modal_quadratised_three_point, modal_quadratised_three_point_constrained, modal_quadratised_three_point_raw;
 extern const Descriptor modal_explicit_penalty, modal_impulse_invariant;
@@ -15,6 +15,7 @@ std::span<const Descriptor> schemes() {
     static const Descriptor table[] = {
         modal_two_point,
         modal_two_point_trapezoidal,
+        modal_spatial_newton,
         modal_quadratised,
         modal_quadratised_two_point_constrained,
         modal_quadratised_two_point_raw,
