@@ -42,7 +42,7 @@ void refuse_unknown_options(const Settings& s, std::initializer_list<const char*
         if (std::find(names.begin(), names.end(), name) != names.end()) continue;
         std::string known;
         for (const char* n : names) known += (known.empty() ? "" : ", ") + std::string(n);
-        throw Refusal("unknown option " + name + "; this scheme has " + (known.empty() ? "none" : known));
+        throw UnknownOption("unknown option " + name + "; this scheme has " + (known.empty() ? "none" : known));
     }
 }
 

@@ -63,6 +63,11 @@ struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// An option that the scheme does not have: a caller with several schemes may give it to the others.
+struct UnknownOption : Refusal {
+    using Refusal::Refusal;
+};
+
 enum class Balance { exact, to_tolerance, none };  // what the energy columns promise
 enum class Clock { stepped, continuous };          // continuous: a reference that has no sample rate
 

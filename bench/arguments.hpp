@@ -1,0 +1,58 @@
+// The command line as values: one struct per verb.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace jvari {
+
+struct Common {
+    bool json = false, quiet = false;
+    std::vector<std::string> plugins;
+};
+
+struct ListRequest : Common {
+    std::string what;  // "": everything
+    bool markdown = false;
+};
+
+struct SchemeOption {                 // --option [scheme:]name=value
+    std::string scheme, name, value;  // scheme "": every scheme that knows the name
+};
+
+struct RunRequest : Common {
+    std::string scene, scheme;
+    std::optional<double> rate;  // [Hz]
+    int modes = 0;
+    std::optional<double> duration;  // [s]
+    std::optional<double> tap_rate;  // [Hz]
+    bool energy = false;
+    std::vector<std::string> set;
+    std::vector<SchemeOption> options;
+    std::string out, wav_format;
+};
+
+struct CompareRequest : Common {
+    std::string scene, reference, out;
+    std::vector<std::string> schemes;
+    std::vector<double> rates;  // [Hz]
+    int modes = 0;
+    std::optional<double> duration, tap_rate;
+    std::vector<std::string> set;
+    std::vector<SchemeOption> options;
+    int repeats = 5;
+};
+
+struct ReportRequest : Common {
+    std::string folder;
+};
+
+using Request = std::variant<ListRequest, RunRequest, CompareRequest, ReportRequest>;
+
+// Throws UsageError. No value: help or the version was asked for and printed.
+std::optional<Request> read_arguments(int argc, const char* const* argv);
+
+}  // namespace jvari

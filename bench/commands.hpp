@@ -1,0 +1,13 @@
+// The verbs. Each returns the program's exit code, or throws: UsageError, BadScene, SceneFileError (2), Refusal (3).
+#pragma once
+
+#include "bench/arguments.hpp"
+
+namespace jvari {
+
+int list_command(const ListRequest&);
+int run_command(const RunRequest&);
+int compare_command(const CompareRequest&);
+int report_command(const ReportRequest&);
+
+}  // namespace jvari

@@ -1,0 +1,18 @@
+# Writes OUT with the commit of SOURCE, or "unknown" outside git; leaves OUT alone where nothing changed.
+set(commit "unknown")
+find_program(git_program git)
+if(git_program)
+    execute_process(COMMAND ${git_program} -C ${SOURCE} describe --always --dirty --abbrev=12
+        OUTPUT_VARIABLE described ERROR_QUIET RESULT_VARIABLE failed OUTPUT_STRIP_TRAILING_WHITESPACE)
+    if(NOT failed AND described)
+        set(commit "${described}")
+    endif()
+endif()
+set(text "#define JVARI_COMMIT \"${commit}\"\n")
+set(old "")
+if(EXISTS ${OUT})
+    file(READ ${OUT} old)
+endif()
+if(NOT text STREQUAL old)
+    file(WRITE ${OUT} "${text}")
+endif()

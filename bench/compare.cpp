@@ -1,0 +1,107 @@
+#include "bench/compare.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/compare_plan.hpp"
+#include "bench/cost.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari {
+
+namespace {
+Run accuracy_run(const Descriptor& d, const Scene& scene, const Settings& settings, Console::Progress& progress, double from, double to,
+                 bool energy) {
+    RunOptions options;
+    options.energy = energy;
+    const std::string what = std::isfinite(settings.sample_rate) && settings.sample_rate > 0
+                                 ? fmt::format("{} at {} Hz", d.name, settings.sample_rate)
+                                 : std::string(d.name);
+    options.progress = [&](long done, long rows) {
+        progress.show(from + (to - from) * static_cast<double>(done) / static_cast<double>(rows), what);
+    };
+    return run(d, scene, settings, options);
+}
+
+struct Reference {
+    ReferenceChoice choice;
+    Run run, moved;  // moved: started 1e-12 apart
+};
+
+Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, const Console& console) {
+    std::string refusals;
+    for (const ReferenceChoice& choice : choices) try {
+            Console::Progress progress(console, "reference");
+            Run truth = accuracy_run(*choice.scheme, scene, choice.settings, progress, 0, 0.5, false);
+            if (truth.trace.rows < 2) {
+                refusals += fmt::format("; {} failed at its start", choice.scheme->name);
+                continue;
+            }
+            Run moved = accuracy_run(*choice.scheme, scaled(scene, 1 + 1e-12), choice.settings, progress, 0.5, 1, false);
+            return {choice, std::move(truth), std::move(moved)};
+        } catch (const Refusal& e) {
+            refusals += std::string("; ") + e.what();
+        }
+    throw Refusal("reference: none represents scene " + scene.name + refusals);
+}
+
+void measure(Cell& cell, const Scene& scene, const Trace& reference, Console::Progress& progress, double from, double to) {
+    const Run result = accuracy_run(*cell.scheme, scene, cell.settings, progress, from, to, true);
+    cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
+    cell.errors = errors_of(result.trace, reference);
+    if (result.status.outcome != Outcome::ok)
+        cell.reason =
+            fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
+}
+}  // namespace
+
+Scene scaled(Scene scene, double factor) {
+    for (String& s : scene.strings) {
+        if (s.initial) std::visit([factor](auto& shape) { shape.amplitude *= factor; }, *s.initial);
+        if (s.pluck) s.pluck->amplitude *= factor;
+    }
+    return scene;
+}
+
+Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const Console& console) {
+    Comparison c;
+    c.scene = load_scene(request.scene, request.set, request.duration);
+    c.headline = headline_of(c.scene);
+    const Plan plan = plan_of(request, catalogue, c.scene);
+    for (const std::string& note : plan.notes) console.note(note);
+    c.cells = plan.cells;
+
+    const Reference reference = run_reference(plan.references, c.scene, console);
+    c.reference = reference.choice.scheme;
+    c.reference_settings = reference.choice.settings;
+    c.reference_note = reference.choice.note;
+    c.reference_summary = summary_of(*c.reference, c.scene, c.reference_settings, reference.run);
+    c.floor = errors_of(reference.moved.trace, reference.run.trace);
+    if (!c.reference_note.empty()) console.note(c.reference_note);
+    if (reference.run.status.outcome != Outcome::ok)
+        console.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
+                                 name_of(reference.run.status.outcome), c.reference_summary.duration));
+
+    {
+        Console::Progress progress(console, "errors");
+        double work = 0, finished = 0;
+        for (const Cell& cell : c.cells) work += cell.settings.sample_rate;
+        for (Cell& cell : c.cells) {
+            const double next = finished + cell.settings.sample_rate;
+            try {
+                measure(cell, c.scene, reference.run.trace, progress, finished / work, next / work);
+            } catch (const Refusal& e) {
+                cell.refused = true;
+                cell.reason = e.what();
+            }
+            finished = next;
+        }
+    }
+    time_cells(c.cells, c.scene, request.repeats, console);
+    return c;
+}
+
+}  // namespace jvari

@@ -1,0 +1,46 @@
+// A comparison: schemes x rates on one scene, each against one reference on the same rows.
+//
+// Each cell is run once for its errors (energy probe on), then timed (cost.hpp). A cell that refuses or fails stays in the list with its
+// reason.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/statistics.hpp"
+#include "bench/arguments.hpp"
+#include "bench/catalogue.hpp"
+#include "bench/console.hpp"
+#include "bench/errors.hpp"
+#include "bench/summary.hpp"
+
+namespace jvari {
+
+struct Cell {
+    const Descriptor* scheme;
+    Settings settings;
+    bool refused = false;
+    std::string reason;  // of a refusal or a failure
+    Summary summary{};   // of the accuracy run; empty where refused
+    Errors errors;
+    Spread wall{};  // of the timed runs [s], of the whole scene or up to the failure
+    int modes() const { return refused ? settings.modes : summary.modes; }
+};
+
+struct Comparison {
+    Scene scene;
+    Headline headline;
+    const Descriptor* reference;
+    Settings reference_settings;
+    Summary reference_summary;
+    std::string reference_note;  // why this one, where it was not asked for
+    Errors floor;                // of the reference started 1e-12 apart
+    std::vector<Cell> cells;
+};
+
+Comparison compare(const CompareRequest&, const Catalogue&, const Console&);  // throws UsageError, BadScene, Refusal
+
+// The scene with every initial shape and every pluck scaled.
+Scene scaled(Scene, double factor);
+
+}  // namespace jvari

@@ -1,0 +1,111 @@
+// jvari compare: the main job. What it found goes to a folder, a table and a page.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bench/commands.hpp"
+#include "bench/compare_record.hpp"
+#include "bench/fresh_file.hpp"
+#include "bench/report.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+Json json_of(const Table& table) {
+    Json rows = Json::array();
+    for (const auto& row : table.rows) {
+        Json j = Json::object();
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            const std::string& name = table.columns[k];
+            if (name == "scheme" || name == "status" || name == "reason" || name == "below_floor") j[name] = row[k];
+            else if (name == "pareto") j[name] = row[k] == "1";
+            else if (row[k].find_first_not_of("0123456789") == std::string::npos && !row[k].empty() && row[k].size() < 18)
+                j[name] = std::stol(row[k]);
+            else j[name] = number_of(row[k]);  // "" and infinities become null
+        }
+        rows.push_back(std::move(j));
+    }
+    return rows;
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder)) throw UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
+    must_be_writable(folder / "cells.csv");
+}
+
+int exit_code(const Comparison& c) {
+    const auto good = [](const Cell& cell) { return !cell.refused && cell.summary.status.outcome == Outcome::ok; };
+    if (c.cells.empty() || std::any_of(c.cells.begin(), c.cells.end(), good)) return done;
+    return std::all_of(c.cells.begin(), c.cells.end(), [](const Cell& cell) { return cell.refused; }) ? refused : run_failed;
+}
+
+std::string floor_text(const Comparison& c) {
+    std::string text;
+    for (std::size_t k = 0; k < measures().size(); ++k) {
+        const Measure& m = measures()[k];
+        const double floor = c.floor[c.headline.tap(m)][k];
+        if (m.less_is_better && !std::isnan(floor))
+            text += fmt::format("{}{} {:.1e}", text.empty() ? "noise floor: " : ", ", m.column, floor);
+    }
+    return text;
+}
+}  // namespace
+
+int compare_command(const CompareRequest& r) {
+    const Console console(r.json, r.quiet);
+    const Catalogue catalogue(r.plugins);
+    if (!r.out.empty()) make_folder(r.out);
+    const Comparison c = compare(r, catalogue, console);
+    const Table cells = cells_of(c);
+    const std::string manifest = manifest_of(c, r);
+
+    const double rate = c.reference_summary.rate;
+    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene.name,
+                              c.reference->name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
+                              c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
+                              c.scene.taps.at(c.headline.bridge).name));
+    console.print(headline_text(cells, headline_error(c)) + "\n" + floor_text(c));
+    Json files = Json::array();
+    if (!r.out.empty()) {
+        const fs::path folder = r.out;
+        write_fresh(folder / "cells.csv", csv(cells));
+        write_fresh(folder / "errors.csv", csv(errors_only(cells)));
+        write_fresh(folder / "cost.csv", csv(cost_only(cells)));
+        write_fresh(folder / "manifest.json", manifest + "\n");
+        for (const char* name : {"cells.csv", "errors.csv", "cost.csv", "manifest.json"}) files.push_back((folder / name).string());
+        for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
+        console.print("written: " + folder.string());
+    }
+    const int code = exit_code(c);
+    console.print_json(Json{
+        {"scene", c.scene.name},
+        {"reference", c.reference->name},
+        {"status", code == done      ? "ok"
+                   : code == refused ? "refused"
+                                     : "failed"},
+        {"manifest", Json::parse(manifest)},
+        {"cells", json_of(cells)},
+        {"files", files}}.dump(2));
+    return code;
+}
+
+int report_command(const ReportRequest& r) {
+    const Console console(r.json, r.quiet);
+    Json files = Json::array();
+    for (const std::string& name : write_report(r.folder, console)) {
+        files.push_back((fs::path(r.folder) / name).string());
+        console.print("written: " + (fs::path(r.folder) / name).string());
+    }
+    console.print_json(Json{{"folder", r.folder}, {"files", files}}.dump(2));
+    return done;
+}
+
+}  // namespace jvari

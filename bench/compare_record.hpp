@@ -1,0 +1,26 @@
+// A comparison as rows and as its manifest.
+//
+// cells.csv has everything, one row per scheme x rate x modes. errors.csv has what repeats bit for bit on one program and cost.csv what
+// the clock said: only those two are committed, for numbers of the two kinds never share a committed file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/compare.hpp"
+#include "bench/records.hpp"
+
+namespace jvari {
+
+Table cells_of(const Comparison&);
+std::string manifest_of(const Comparison&, const CompareRequest&);  // JSON
+
+Table errors_only(const Table& cells);
+Table cost_only(const Table& cells);
+
+// The measure that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else the whole run.
+std::string headline_error(const Comparison&);
+
+std::string headline_text(const Table& cells, const std::string& error_column);  // for the terminal, the front marked
+
+}  // namespace jvari

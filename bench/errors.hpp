@@ -1,0 +1,32 @@
+// The errors of one cell: every measure of design rule 4 on every tap, and which of them stand in the headline.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "schemes/trace.hpp"
+
+namespace jvari {
+
+struct Measure {
+    std::string column;  // "error_l2_50ms"
+    std::string title;   // "relative L2, 0-50 ms"
+    bool bridge;         // the headline figure is of the bridge tap, else of the nut tap
+    bool less_is_better;
+};
+const std::vector<Measure>& measures();
+
+// One row per tap, one column per measure; NaN where the reference says nothing (a window that it does not cover), +inf for a run
+// that stopped inside the window.
+using Errors = std::vector<std::vector<double>>;
+Errors errors_of(const Trace& candidate, const Trace& reference);
+
+// The taps of the headline columns: the first nut force and the first bridge force, else the first driving force, else the first tap.
+struct Headline {
+    int nut = 0, bridge = 0;
+    int tap(const Measure& m) const { return m.bridge ? bridge : nut; }
+};
+Headline headline_of(const Scene&);
+
+}  // namespace jvari

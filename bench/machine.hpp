@@ -1,0 +1,18 @@
+// What a result depends on beside its scene: the program, its compiler and the machine.
+#pragma once
+
+#include <string>
+
+namespace jvari {
+
+struct Machine {
+    std::string version, commit;         // commit: git describe when built, "unknown" outside git
+    std::string compiler, flags, build;  // build: CMake's build type
+    std::string cpu, system;
+    int cores;
+};
+const Machine& machine();
+
+std::string now_utc();  // "2016-05-04T12:00:00Z"
+
+}  // namespace jvari

@@ -1,0 +1,28 @@
+// A trace on disk, by extension: .csv (17 significant digits), .wav (libsndfile, one channel per tap), .h5 (one dataset per tap).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "schemes/trace.hpp"
+
+namespace jvari {
+
+struct TraceFile {
+    std::filesystem::path path;
+    std::string wav_format;                                       // "" = "float64", "float32", "pcm24", "pcm16"
+    std::vector<std::pair<std::string, std::string>> attributes;  // of the run as a whole (.h5)
+};
+
+// Throws UsageError for a path or a format that cannot be written; before the run, so that no work is lost.
+void check(const TraceFile&, double tap_rate);
+
+// Returns what the reader has to know of it ("" or a sentence), as that pcm channels were scaled.
+std::string write(const TraceFile&, const Scene&, const Trace&);
+
+std::vector<std::string> trace_columns(const Trace&);  // time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J]
+
+}  // namespace jvari

@@ -1,0 +1,17 @@
+// A trace as HDF5: one dataset per tap (attribute "unit"), the energy columns where probed, the run's facts as attributes of the file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "schemes/trace.hpp"
+
+namespace jvari {
+
+void write_hdf5(const std::filesystem::path&, const std::vector<std::pair<std::string, std::string>>& attributes, const Scene&,
+                const Trace&);
+
+}  // namespace jvari

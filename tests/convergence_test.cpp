@@ -1,0 +1,137 @@
+// Orders of data whose order is known, and a confidence interval that covers as often as it says.
+#include "analysis/convergence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace jvari {
+namespace {
+
+using Signal = std::vector<double>;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+const Signal rates = {44100, 88200, 176400, 352800, 705600};
+
+Signal power_law(double c, double order) {
+    Signal e;
+    for (double r : rates) e.push_back(c * std::pow(r, -order));
+    return e;
+}
+
+TEST(Order, OfAPowerLawIsItsExponent) {
+    for (double p : {0.5, 1.0, 2.0, 4.0}) {
+        const Order o = observed_order(rates, power_law(3e4, p));
+        EXPECT_NEAR(o.order, p, 1e-12);
+        EXPECT_NEAR(o.half_width, 0, 1e-6);
+        EXPECT_NEAR(o.constant, 3e4, 1e-6);
+        EXPECT_EQ(o.points, 5);
+    }
+}
+
+TEST(Order, IntervalIsStudentsTTimesTheStandardErrorOfTheSlope) {
+    // ln e = 0, -1, 1 over ln r = 0, 1, 2: slope 1/2, residuals (1/2, -1, 1/2), chi^2 = 3/2, S_xx = 2, one degree of freedom:
+    // standard error sqrt(1.5/2), t(0.975; 1) = 12.7062047 (table).
+    const Signal r = {1, std::exp(1.0), std::exp(2.0)}, e = {1, std::exp(-1.0), std::exp(1.0)};
+    const Order o = observed_order(r, e);
+    EXPECT_NEAR(o.order, -0.5, 1e-12);
+    EXPECT_NEAR(o.half_width, 12.7062047 * std::sqrt(0.75), 1e-6);
+    EXPECT_NEAR(o.scatter, std::sqrt(0.5), 1e-12);
+    EXPECT_NEAR(observed_order(r, e, {}, 0.5).half_width, 1.0 * std::sqrt(0.75), 1e-9);  // t(0.75; 1) = tan(pi/4)
+}
+
+TEST(Order, NinetyFivePercentIntervalsCoverTheTruthNinetyFiveTimesInAHundred) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> scatter(0, 0.3);
+    const int trials = 4000;
+    int covered = 0;
+    for (int k = 0; k < trials; ++k) {
+        Signal e = power_law(1, 1);
+        for (double& v : e) v *= std::exp(scatter(random));
+        const Order o = observed_order(rates, e);
+        covered += std::abs(o.order - 1) < o.half_width;
+    }
+    EXPECT_NEAR(covered / double(trials), 0.95, 0.011);  // three standard deviations of the count
+}
+
+TEST(Order, AWeightPullsTheLineAndItsScaleDoesNotMatter) {
+    Signal e = power_law(1, 2);
+    e.front() *= 10;  // outside the asymptotic range
+    const double plain = observed_order(rates, e).order;
+    const Signal w = {1e-6, 1, 1, 1, 1}, scaled = {1e-3, 1e3, 1e3, 1e3, 1e3};
+    EXPECT_GT(std::abs(plain - 2), 0.4);
+    EXPECT_NEAR(observed_order(rates, e, w).order, 2, 1e-5);
+    EXPECT_NEAR(observed_order(rates, e, w).half_width, observed_order(rates, e, scaled).half_width, 1e-9);
+    EXPECT_NEAR(observed_order(rates, e, Signal{0, 1, 1, 1, 1}).order, 2, 1e-12);
+    EXPECT_EQ(observed_order(rates, e, Signal{0, 1, 1, 1, 1}).points, 4);
+}
+
+TEST(Order, RunsThatFailedOrWereExactAreLeftOut) {
+    Signal e = power_law(1, 1);
+    e[0] = inf, e[2] = nan, e[4] = 0;
+    Order o = observed_order(rates, e);
+    EXPECT_EQ(o.points, 2);
+    EXPECT_NEAR(o.order, 1, 1e-12);
+    EXPECT_EQ(o.half_width, inf);
+    e[1] = inf;
+    o = observed_order(rates, e);
+    EXPECT_EQ(o.points, 1);
+    EXPECT_TRUE(std::isnan(o.order));
+    EXPECT_TRUE(std::isnan(observed_order({}, {}).order));
+    EXPECT_TRUE(std::isnan(observed_order(Signal{2, 2}, Signal{1, 3}).order));  // the same rate twice
+    EXPECT_THROW(observed_order(rates, Signal{1}), std::invalid_argument);
+}
+
+TEST(Order, PerWindowAndPairwise) {
+    Signal windows = power_law(5, 1);
+    for (double v : power_law(5, 2)) windows.push_back(v);
+    const auto o = observed_orders(rates, windows);
+    ASSERT_EQ(o.size(), 2u);
+    EXPECT_NEAR(o[0].order, 1, 1e-12);
+    EXPECT_NEAR(o[1].order, 2, 1e-12);
+    EXPECT_THROW(observed_orders(rates, Signal{1, 2, 3}), std::invalid_argument);
+    const auto p = pairwise_orders(Signal{1, 2, 6, 12}, Signal{1, 0.25, 0.25 / 9, nan});
+    ASSERT_EQ(p.size(), 3u);
+    EXPECT_NEAR(p[0], 2, 1e-12);
+    EXPECT_NEAR(p[1], 2, 1e-12);
+    EXPECT_TRUE(std::isnan(p[2]));
+}
+
+TEST(Richardson, IsExactForOnePowerAndOneOrderBetterForASmoothMethod) {
+    EXPECT_NEAR(richardson(7 + 5.0, 7 + 5.0 / 9, 3, 2), 7, 1e-12);
+    // Midpoint rule for y' = y over [0, 1]: second order, the next term is of the third.
+    const auto midpoint = [](int steps) { return std::pow(1 + 1.0 / steps + 0.5 / (double(steps) * steps), steps); };
+    Signal error;
+    for (int n : {16, 32, 64, 128}) error.push_back(std::abs(richardson(midpoint(n), midpoint(2 * n), 2, 2) - std::exp(1.0)));
+    EXPECT_NEAR(observed_order(Signal{16, 32, 64, 128}, error).order, 3, 0.1);
+}
+
+TEST(Richardson, EstimatesOrderAndErrorWithoutAReference) {
+    Signal limit, a, b, c;
+    for (int n = 0; n < 200; ++n) {
+        limit.push_back(std::cos(0.1 * n));
+        const double d = 0.01 * std::sin(0.3 * n);
+        a.push_back(limit[n] + d), b.push_back(limit[n] + d / 4), c.push_back(limit[n] + d / 16);
+    }
+    EXPECT_NEAR(order_of_three(a, b, c, 2), 2, 1e-10);
+    const auto better = richardson(b, c, 2, 2);
+    double gap = 0, norm = 0;
+    for (int n = 0; n < 200; ++n) {
+        EXPECT_NEAR(better[n], limit[n], 1e-14);
+        gap += (c[n] - limit[n]) * (c[n] - limit[n]), norm += c[n] * c[n];
+    }
+    EXPECT_NEAR(richardson_error(b, c, 2, 2), std::sqrt(gap / norm), 1e-12);
+    EXPECT_EQ(richardson_error(c, c, 2, 2), 0);
+    EXPECT_TRUE(std::isnan(richardson_error({}, c, 2, 2)));
+    a[5] = nan;
+    EXPECT_EQ(richardson_error(a, c, 2, 2), inf);
+    EXPECT_TRUE(std::isnan(order_of_three(a, b, c, 2)));
+    EXPECT_TRUE(std::isnan(order_of_three(b, c, c, 2)));
+    EXPECT_EQ(richardson(Signal{}, c, 2, 2).size(), 0u);
+}
+
+}  // namespace
+}  // namespace jvari
