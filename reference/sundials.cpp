@@ -22,6 +22,8 @@ namespace {
 constexpr double unweighted = 1e-30;  // error weight of what is not controlled
 constexpr double settled = 1e-6;      // one Newton step moves a crossing by less than this part of the integrator's step
 
+constexpr int most_splits = 40;  // of steps that might have touched or left and come back, in one go
+
 bool multistep(Method m) {
     return m == Method::bdf || m == Method::adams;
 }
@@ -33,10 +35,16 @@ struct Integrator::Library {
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 
+    struct Depth {
+        double eta, speed;
+    };
+
     double* state() noexcept { return N_VGetArrayPointer(z); }
     bool reinit(double t) noexcept;
-    int step(double to) noexcept;           // one step of the library's own
-    bool run_again(double to) noexcept;     // from `before` to `to`, blind
+    int step(double to) noexcept;  // one step of the library's own
+    void look(std::vector<Depth>&) noexcept;
+    bool run_again(double to) noexcept;  // from `before` to `to`, blind
+    double turns_beyond() const noexcept;
     bool onto_surface(double to) noexcept;  // the crossing at `time`, no later than `to`
 
     static int slope(realtype t, N_Vector z, N_Vector dz, void* user);
@@ -59,6 +67,7 @@ struct Integrator::Library {
     std::vector<double> before, dz;  // the state one step ago; a slope
     int contact = -1;
     bool blind = false;  // root finding sees nothing
+    std::vector<Depth> depth, depth_before;
     std::vector<int> found, direction;
     Effort effort;
 };
@@ -118,6 +127,8 @@ Integrator::Library::Library(StringEquations& e, const Settings& s) : equations(
     dz.assign(size, 0.0);
     found.assign(e.contacts + 1, 0);
     direction.assign(e.contacts + 1, 0);
+    depth.assign(e.contacts + 1, {});
+    depth_before = depth;
     const bool implicit = s.method != Method::erk;
     if (implicit && s.solver == LinearSolver::dense) {
         need((matrix = SUNDenseMatrix(size, size, context)) != nullptr);
@@ -185,6 +196,23 @@ int Integrator::Library::step(double to) noexcept {
     return ARKStepEvolve(memory, to, z, &time, ARK_ONE_STEP);
 }
 
+void Integrator::Library::look(std::vector<Depth>& at) noexcept {
+    for (int a = 0; a < equations.contacts; ++a) at[a] = {equations.penetration(a, state()), equations.penetration_speed(a, state())};
+}
+
+// When, in the last step, a barrier's surface may have been crossed twice; -1 where it cannot. Between its turning point's two tangents a
+// convex penetration stays on its side of the surface if their intersection does.
+double Integrator::Library::turns_beyond() const noexcept {
+    for (int a = 0; a < equations.contacts; ++a) {
+        const double side = equations.touched[a] ? 1 : -1, h = time - time_before;
+        const Depth from{side * depth_before[a].eta, side * depth_before[a].speed}, to{side * depth[a].eta, side * depth[a].speed};
+        if (!(from.speed < 0 && to.speed > 0)) continue;
+        const double since = (to.eta - from.eta - to.speed * h) / (from.speed - to.speed);
+        if (from.eta + from.speed * since < 0 && since > 0.01 * h && since < 0.99 * h) return time_before + since;
+    }
+    return -1;
+}
+
 bool Integrator::Library::run_again(double to) noexcept {
     std::copy(before.begin(), before.end(), state());
     blind = true;
@@ -238,39 +266,57 @@ void Integrator::restart(double first_step, double longest_step) noexcept {
     for (int i = 0; i < 2 * l.equations.padded; ++i) sum += z[i] * z[i];
     l.floor = std::max(l.settings.floor * std::sqrt(sum / (2 * l.equations.padded)), 1e-30);  // [m/s]
     for (int a = 0; a < l.equations.contacts; ++a) l.direction[a] = l.equations.touched[a] ? -1 : 1;
+    l.look(l.depth);
     l.contact = l.reinit(0) ? -1 : -2;
 }
 
 Integrator::Stop Integrator::advance(double to) noexcept {
     Library& l = *library_;
     if (l.contact == -2) return Stop::failed;
+    const int contacts = l.equations.contacts;
+    double target = to;
+    int splits = 0;
     while (l.time < to) {
         if (to - l.time <= 8 * std::numeric_limits<double>::epsilon() * to) break;  // shorter than the library would step
         std::copy_n(l.state(), l.before.size(), l.before.begin());
         l.time_before = l.time;
-        const int result = l.step(to);
+        std::swap(l.depth, l.depth_before);
+        const int result = l.step(target);
         if (result < 0) return Stop::failed;
         l.contact = -1;
         if (result == CV_ROOT_RETURN) {
-            const int failed =
-                multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) : ARKStepGetRootInfo(l.memory, l.found.data());
+            const bool failed = multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) != CV_SUCCESS
+                                                             : ARKStepGetRootInfo(l.memory, l.found.data()) != ARK_SUCCESS;
             if (failed) return Stop::failed;
-            for (int a = l.equations.contacts - 1; a >= 0; --a)
+            for (int a = contacts - 1; a >= 0; --a)
                 if (l.found[a]) l.contact = a;
-            if (l.contact < 0) continue;
-            return l.onto_surface(to) ? Stop::crossed : Stop::failed;
+            if (l.contact >= 0) return l.onto_surface(to) ? Stop::crossed : Stop::failed;
         }
-        for (int a = 0; a < l.equations.contacts; ++a) {  // on the wrong side without a crossing: it started on the surface itself
-            const double eta = l.equations.penetration(a, l.state());
+        l.look(l.depth);
+        const double split = l.turns_beyond();
+        if (split > 0 && splits < most_splits) {
+            ++splits;
+            std::swap(l.depth, l.depth_before);
+            std::copy(l.before.begin(), l.before.end(), l.state());
+            if (!l.reinit(l.time_before)) return Stop::failed;
+            target = split;
+            continue;
+        }
+        for (int a = 0; a < contacts; ++a) {
+            const double eta = l.depth[a].eta;
             if (l.equations.touched[a]) {
                 l.effort.deepest = std::max(l.effort.deepest, eta);
                 l.effort.smallest_force = std::min(l.effort.smallest_force, l.equations.contact_force(a, l.state()));
             }
             if (l.equations.touched[a] ? eta >= 0 : eta <= 0) continue;
-            l.contact = a;
+            l.contact = a;  // on the wrong side without a crossing: it started on the surface itself
             std::copy(l.before.begin(), l.before.end(), l.state());
             l.time = l.time_before;
             return Stop::crossed;
+        }
+        if (l.time >= target) {
+            if (target == to) break;
+            target = to;
         }
     }
     l.time = to;
