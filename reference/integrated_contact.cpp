@@ -213,14 +213,15 @@ double IntegratedContact::stored() const noexcept {
 
 std::vector<Fact> IntegratedContact::facts() const {
     const auto effort = integrator_.effort();
-    return {{"events", events_, ""},
-            {"integrator_steps", effort.steps, ""},
-            {"slope_evaluations", effort.slopes, ""},
-            {"linear_solves", effort.solves, ""},
-            {"integrator_tolerance", choice_.integrator.tolerance, ""},
-            {"smallest_contact_force", effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force, "N"},
-            {"deepest_penetration", effort.deepest, "m"},
-            {"detection_tolerance", choice_.exact_flight ? flight_.tolerance() : HUGE_VAL, "m"}};
+    std::vector<Fact> facts = {{"events", events_, ""},
+                               {"integrator_steps", effort.steps, ""},
+                               {"slope_evaluations", effort.slopes, ""},
+                               {"linear_solves", effort.solves, ""},
+                               {"integrator_tolerance", choice_.integrator.tolerance, ""},
+                               {"smallest_contact_force", effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force, "N"},
+                               {"deepest_penetration", effort.deepest, "m"}};
+    if (choice_.exact_flight) facts.push_back({"detection_tolerance", flight_.tolerance(), "m"});
+    return facts;
 }
 
 template <class T>
@@ -234,25 +235,36 @@ T chosen(const Settings& settings, const char* name, const char* fallback, std::
     throw Refusal("option " + std::string(name) + ": found \"" + text + "\", expected one of " + known);
 }
 
+double above_zero(const Settings& settings, const char* name, double fallback) {
+    const double value = number_option(settings, name, fallback);
+    if (!(value > 0)) throw Refusal("option " + std::string(name) + ": expected a number above 0");
+    return value;
+}
+
 std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     refuse_missing(sundials, scene);
-    refuse_unknown_options(settings, {"method", "rtol", "linear_solver", "flight", "order", "floor", "first_step", "longest_step"});
+    refuse_unknown_options(settings, {"method", "order", "rtol", "floor", "linear_solver", "flight", "first_step", "longest_step"});
     Choice choice;
-    choice.integrator.method = chosen<Method>(
-        settings, "method", "erk", {{"bdf", Method::bdf}, {"adams", Method::adams}, {"erk", Method::erk}, {"esdirk", Method::esdirk}});
-    choice.integrator.solver =
+    Integrator::Settings& i = choice.integrator;
+    i.method = chosen<Method>(settings, "method", "erk",
+                              {{"bdf", Method::bdf}, {"adams", Method::adams}, {"erk", Method::erk}, {"esdirk", Method::esdirk}});
+    i.solver =
         chosen<LinearSolver>(settings, "linear_solver", "woodbury", {{"woodbury", LinearSolver::woodbury}, {"dense", LinearSolver::dense}});
-    // A force like eta^alpha is smooth on the surface only for alpha = 1: elsewhere a lower order errs as it estimates, from a small first
-    // step.
-    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
-    choice.integrator.tolerance = number_option(settings, "rtol", smooth ? 1e-10 : 1e-12);
-    choice.integrator.floor = number_option(settings, "floor", 1e-2);
-    choice.integrator.order = static_cast<int>(number_option(settings, "order", smooth || choice.integrator.method != Method::erk ? 0 : 6));
     choice.exact_flight = chosen<bool>(settings, "flight", "exact", {{"exact", true}, {"integrate", false}});
-    choice.first_step = number_option(settings, "first_step", smooth ? 0.1 : 1e-3);
-    choice.longest_step = number_option(settings, "longest_step", choice.exact_flight ? 3 : 0.2);
-    if (!(choice.integrator.tolerance > 0 && choice.integrator.tolerance < 1))
-        throw Refusal("option rtol: expected a tolerance between 0 and 1");
+    // A force like eta^alpha is smooth on the surface for alpha = 1 alone. Elsewhere a lower order errs as it estimates, from a small step
+    // on.
+    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
+    i.tolerance = above_zero(settings, "rtol", smooth ? 1e-10 : 1e-12);
+    if (i.tolerance >= 1) throw Refusal("option rtol: expected a tolerance between 0 and 1");
+    i.floor = above_zero(settings, "floor", smooth ? 1e-2 : 1e-3);
+    choice.first_step = above_zero(settings, "first_step", smooth ? 0.1 : 1e-3);
+    choice.longest_step = above_zero(settings, "longest_step", choice.exact_flight ? 3 : 1);
+    const int lowest = i.method == Method::bdf || i.method == Method::adams ? 1 : 3;
+    const int highest = i.method == Method::erk ? 8 : i.method == Method::adams ? 12 : 5;
+    const double order = number_option(settings, "order", i.method == Method::erk && !smooth ? 6 : highest);
+    if (order != std::floor(order) || order < lowest || order > highest)
+        throw Refusal("option order: expected a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
+    i.order = static_cast<int>(order);
     const String& s = scene.strings.at(0);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;

@@ -3,7 +3,8 @@
 // Multi-step (CVODE: BDF, Adams) and one-step methods (ARKODE: explicit and ESDIRK). A crossing is found by the library's own root finding
 // on the penetrations, from outside where a barrier is not touched and from inside where it is. The library interpolates the state there
 // with fifth degree at most, which is worse than a one-step method's own order: so the last step is made again to end at the crossing, and
-// one Newton step puts the state onto the surface. The error weights leave the equations' four sums out.
+// one Newton step puts the state onto the surface. A step whose ends' tangents meet beyond the surface is made again in two, so that no way
+// there and back is stepped over. The error weights leave the equations' four sums out.
 #pragma once
 
 #include <cmath>
@@ -23,7 +24,7 @@ public:
         double tolerance;  // relative, per step; absolute: this times `floor` times the state's root mean square at the restart
         double floor;
         LinearSolver solver;
-        int order;  // 0: the method's highest
+        int order;  // highest, of the multi-step methods
     };
     Integrator(StringEquations&, const Settings&);  // throws std::bad_alloc
     ~Integrator();

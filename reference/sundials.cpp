@@ -44,6 +44,7 @@ struct Integrator::Library {
     int step(double to) noexcept;  // one step of the library's own
     void look(std::vector<Depth>&) noexcept;
     bool run_again(double to) noexcept;  // from `before` to `to`, blind
+    double last_step() const noexcept;
     double turns_beyond() const noexcept;
     bool onto_surface(double to) noexcept;  // the crossing at `time`, no later than `to`
 
@@ -143,7 +144,7 @@ Integrator::Library::Library(StringEquations& e, const Settings& s) : equations(
         need((memory = CVodeCreate(s.method == Method::bdf ? CV_BDF : CV_ADAMS, context)) != nullptr);
         need(CVodeInit(memory, slope, 0, z) == CV_SUCCESS && CVodeSetUserData(memory, this) == CV_SUCCESS);
         need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS && CVodeWFtolerances(memory, weights) == CV_SUCCESS);
-        if (s.order > 0) need(CVodeSetMaxOrd(memory, s.order) == CV_SUCCESS);
+        need(CVodeSetMaxOrd(memory, s.order) == CV_SUCCESS);
         need(CVodeSetLinearSolver(memory, solver, matrix) == CV_SUCCESS);
         if (matrix) need(CVodeSetJacFn(memory, jacobian) == CV_SUCCESS);
         if (e.contacts > 0) need(CVodeRootInit(memory, e.contacts, penetrations) == CV_SUCCESS);
@@ -151,7 +152,7 @@ Integrator::Library::Library(StringEquations& e, const Settings& s) : equations(
         need((memory = ARKStepCreate(implicit ? nullptr : slope, implicit ? slope : nullptr, 0, z, context)) != nullptr);
         need(ARKStepSetUserData(memory, this) == ARK_SUCCESS);
         need(ARKStepSetErrHandlerFn(memory, quiet, nullptr) == ARK_SUCCESS && ARKStepWFtolerances(memory, weights) == ARK_SUCCESS);
-        need(ARKStepSetOrder(memory, s.order > 0 ? s.order : implicit ? 5 : 8) == ARK_SUCCESS);
+        need(ARKStepSetOrder(memory, s.order) == ARK_SUCCESS);
         if (implicit) need(ARKStepSetLinearSolver(memory, solver, matrix) == ARK_SUCCESS);
         if (matrix) need(ARKStepSetJacFn(memory, jacobian) == ARK_SUCCESS);
         if (e.contacts > 0) need(ARKStepRootInit(memory, e.contacts, penetrations) == ARK_SUCCESS);
@@ -211,6 +212,12 @@ double Integrator::Library::turns_beyond() const noexcept {
         if (from.eta + from.speed * since < 0 && since > 0.01 * h && since < 0.99 * h) return time_before + since;
     }
     return -1;
+}
+
+double Integrator::Library::last_step() const noexcept {
+    double h = 0;
+    multistep(settings.method) ? CVodeGetLastStep(memory, &h) : ARKStepGetLastStep(memory, &h);
+    return h;
 }
 
 bool Integrator::Library::run_again(double to) noexcept {
@@ -276,6 +283,7 @@ Integrator::Stop Integrator::advance(double to) noexcept {
     const int contacts = l.equations.contacts;
     double target = to;
     int splits = 0;
+    const auto inward = [&](int a, double speed) { return l.equations.touched[a] ? speed > 0 : speed < 0; };  // away from the surface
     while (l.time < to) {
         if (to - l.time <= 8 * std::numeric_limits<double>::epsilon() * to) break;  // shorter than the library would step
         std::copy_n(l.state(), l.before.size(), l.before.begin());
@@ -290,29 +298,37 @@ Integrator::Stop Integrator::advance(double to) noexcept {
             if (failed) return Stop::failed;
             for (int a = contacts - 1; a >= 0; --a)
                 if (l.found[a]) l.contact = a;
-            if (l.contact >= 0) return l.onto_surface(to) ? Stop::crossed : Stop::failed;
         }
         l.look(l.depth);
-        const double split = l.turns_beyond();
+        double split = -1;
+        const bool crosses = l.contact >= 0;
+        if (!crosses) {
+            split = l.turns_beyond();
+            for (int a = 0; a < contacts; ++a)
+                if (l.equations.touched[a] ? l.depth[a].eta < 0 : l.depth[a].eta > 0)
+                    l.contact = a;  // no crossing: it started on the surface
+        }
+        // From the surface inwards and back through it within one step: root finding mistakes the rounding at its start for the crossing.
+        if (l.contact >= 0 && inward(l.contact, (crosses ? l.depth : l.depth_before)[l.contact].speed))
+            split = l.time_before + 0.25 * l.last_step();
         if (split > 0 && splits < most_splits) {
             ++splits;
             std::swap(l.depth, l.depth_before);
             std::copy(l.before.begin(), l.before.end(), l.state());
             if (!l.reinit(l.time_before)) return Stop::failed;
-            target = split;
+            target = std::min(split, to);
             continue;
         }
-        for (int a = 0; a < contacts; ++a) {
-            const double eta = l.depth[a].eta;
-            if (l.equations.touched[a]) {
-                l.effort.deepest = std::max(l.effort.deepest, eta);
-                l.effort.smallest_force = std::min(l.effort.smallest_force, l.equations.contact_force(a, l.state()));
-            }
-            if (l.equations.touched[a] ? eta >= 0 : eta <= 0) continue;
-            l.contact = a;  // on the wrong side without a crossing: it started on the surface itself
+        if (crosses) return l.onto_surface(to) ? Stop::crossed : Stop::failed;
+        if (l.contact >= 0) {
             std::copy(l.before.begin(), l.before.end(), l.state());
             l.time = l.time_before;
             return Stop::crossed;
+        }
+        for (int a = 0; a < contacts; ++a) {
+            if (!l.equations.touched[a]) continue;
+            l.effort.deepest = std::max(l.effort.deepest, l.depth[a].eta);
+            l.effort.smallest_force = std::min(l.effort.smallest_force, l.equations.contact_force(a, l.state()));
         }
         if (l.time >= target) {
             if (target == to) break;
