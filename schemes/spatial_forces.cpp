@@ -65,12 +65,8 @@ double SpatialForces::thread() const {
 }
 
 void SpatialForces::begin() noexcept {
-    std::fill(force.begin(), force.end(), 0.0);
+    std::fill(force.begin(), force.end(), 0.0);  // a pluck begins from 0
     effort_ = {};
-    for (Finger& e : plucks_) {
-        force[e.port] = jvari::force(e.law, 0);
-        for (std::size_t z = 0; z < free.size(); ++z) free[z] += 0.5 * e.reach[z] * force[e.port];
-    }
     std::copy(free.begin(), free.end(), coming.begin());
     double recoil = 0;
     for (Coil& c : threads_) {
