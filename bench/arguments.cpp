@@ -27,7 +27,8 @@ constexpr const char* examples =
 std::string a_number(const std::string& text, bool whole) {
     double x = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (error == std::errc() && stop == text.data() + text.size() && std::isfinite(x) && x > 0 && (!whole || (x == std::floor(x) && x < 1e7)))
+    if (error == std::errc() && stop == text.data() + text.size() && std::isfinite(x) && x > 0 &&
+        (!whole || (x == std::floor(x) && x < 1e7)))
         return {};
     return fmt::format("found \"{}\", expected a {}number > 0", text, whole ? "whole " : "");
 }
@@ -43,13 +44,18 @@ void add_common(CLI::App& verb, Common& c) {
 void add_scene(CLI::App& verb, std::string& scene, std::vector<std::string>& set, int& modes, std::vector<std::string>& options) {
     verb.add_option("scene", scene, "a scene file, or a name that `jvari list scenes` shows")->required()->type_name("SCENE");
     verb.add_option("--set", set, "overrides a key of the scene, as string.0.barrier.0.stiffness=1e9 (repeatable)")
-        ->type_name("KEY.PATH=VALUE")->allow_extra_args(false);
-    verb.add_option("--modes", modes, "modes of each string, or interior nodes for a scheme on a grid; absent: every mode below min(20 kHz, rate/2)")
-        ->type_name("N")->check(counting);
-    verb.add_option("--option", options,
-                    "an option of a scheme, as NAME=VALUE or SCHEME:NAME=VALUE (repeatable). In compare the short form goes to every compared "
-                    "scheme that knows the name, never to the reference")
-        ->type_name("[SCHEME:]NAME=VALUE")->allow_extra_args(false);
+        ->type_name("KEY.PATH=VALUE")
+        ->allow_extra_args(false);
+    verb.add_option("--modes", modes,
+                    "modes of each string, or interior nodes for a scheme on a grid; absent: every mode below min(20 kHz, rate/2)")
+        ->type_name("N")
+        ->check(counting);
+    verb.add_option(
+            "--option", options,
+            "an option of a scheme, as NAME=VALUE or SCHEME:NAME=VALUE (repeatable). In compare the short form goes to every compared "
+            "scheme that knows the name, never to the reference")
+        ->type_name("[SCHEME:]NAME=VALUE")
+        ->allow_extra_args(false);
 }
 
 std::vector<SchemeOption> scheme_options(const std::vector<std::string>& texts) {
@@ -83,7 +89,9 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     ListRequest list;
     auto* list_verb = app.add_subcommand("list", "what exists, and which scheme represents which scene");
     list_verb->add_option("what", list.what, "schemes, scenes, references, taps or suites; absent: all, and the matrix")
-        ->check(CLI::IsMember({"schemes", "scenes", "references", "taps", "suites"}))->type_name("WHAT")->option_text("");
+        ->check(CLI::IsMember({"schemes", "scenes", "references", "taps", "suites"}))
+        ->type_name("WHAT")
+        ->option_text("");
     list_verb->add_flag("--markdown", list.markdown, "with `schemes`: the capability table of the README");
     list_verb->footer("Example: jvari list schemes --markdown");
     add_common(*list_verb, list);
@@ -96,11 +104,14 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     run_verb->add_option("--rate", run.rate, "sample rate; 44100 where absent")->type_name("HZ")->check(positive);
     run_verb->add_option("--duration", run.duration, "in place of the scene's")->type_name("S")->check(positive);
     run_verb->add_option("--tap-rate", run.tap_rate, "rows per second; 44100 where absent, or the rate where that is no multiple of it")
-        ->type_name("HZ")->check(positive);
+        ->type_name("HZ")
+        ->check(positive);
     run_verb->add_flag("--energy", run.energy, "probe the energy: three more columns, and the residuals of the balance");
     run_verb->add_option("--out", run.out, "writes the trace: .csv, .wav (one channel per tap) or .h5")->type_name("FILE");
     run_verb->add_option("--wav-format", run.wav_format, "float64 (default), float32, or pcm24, pcm16 (each channel brought to full scale)")
-        ->check(CLI::IsMember({"float64", "float32", "pcm24", "pcm16"}))->type_name("FORMAT")->option_text("FORMAT");
+        ->check(CLI::IsMember({"float64", "float32", "pcm24", "pcm16"}))
+        ->type_name("FORMAT")
+        ->option_text("FORMAT");
     run_verb->footer("Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration 0.2 --energy --out c3.csv");
     add_common(*run_verb, run);
 
@@ -108,18 +119,30 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     std::vector<std::string> compare_options;
     auto* compare_verb = app.add_subcommand("compare", "schemes at several rates against a reference: error and cost of each");
     add_scene(*compare_verb, compare.scene, compare.set, compare.modes, compare_options);
-    compare_verb->add_option("--schemes", compare.schemes, "absent: every scheme that represents the scene")->delimiter(',')->type_name("A,B,...");
-    compare_verb->add_option("--rates", compare.rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")->delimiter(',')->type_name("HZ,...")->check(positive);
-    compare_verb->add_option("--reference", compare.reference, "a reference or a scheme; absent: the highest reference that represents the scene")
+    compare_verb->add_option("--schemes", compare.schemes, "absent: every scheme that represents the scene")
+        ->delimiter(',')
+        ->type_name("A,B,...");
+    compare_verb->add_option("--rates", compare.rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")
+        ->delimiter(',')
+        ->type_name("HZ,...")
+        ->check(positive);
+    compare_verb
+        ->add_option("--reference", compare.reference, "a reference or a scheme; absent: the highest reference that represents the scene")
         ->type_name("NAME");
     compare_verb->add_option("--duration", compare.duration, "in place of the scene's")->type_name("S")->check(positive);
-    compare_verb->add_option("--tap-rate", compare.tap_rate, "rows per second that are compared; 44100 where all rates are multiples of it, else the lowest rate")
-        ->type_name("HZ")->check(positive);
+    compare_verb
+        ->add_option("--tap-rate", compare.tap_rate,
+                     "rows per second that are compared; 44100 where all rates are multiples of it, else the lowest rate")
+        ->type_name("HZ")
+        ->check(positive);
     compare_verb->add_option("--repeats", compare.repeats, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent")
-        ->type_name("N")->check(counting);
-    compare_verb->add_option("--out", compare.out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
+        ->type_name("N")
+        ->check(counting);
+    compare_verb
+        ->add_option("--out", compare.out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
         ->type_name("DIR");
-    compare_verb->footer("Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
+    compare_verb->footer(
+        "Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
     add_common(*compare_verb, compare);
 
     ReportRequest report;
@@ -139,7 +162,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         app.exit(asked);
         return std::nullopt;
     } catch (const CLI::ParseError& e) {
-        throw UsageError(std::string(e.what()) + " (see jvari " + (argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : "") + "--help)");
+        throw UsageError(std::string(e.what()) + " (see jvari " + (argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : "") +
+                         "--help)");
     }
     must_be_assignments(run.set);
     must_be_assignments(compare.set);

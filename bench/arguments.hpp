@@ -19,7 +19,7 @@ struct ListRequest : Common {
     bool markdown = false;
 };
 
-struct SchemeOption {  // --option [scheme:]name=value
+struct SchemeOption {                 // --option [scheme:]name=value
     std::string scheme, name, value;  // scheme "": every scheme that knows the name
 };
 

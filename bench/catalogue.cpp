@@ -38,7 +38,9 @@ const Descriptor& Catalogue::find(const std::string& name) const {
     throw UsageError(unknown("scheme or reference", name, names));
 }
 
-bool Catalogue::is_reference(const Descriptor& d) const { return std::find(references.begin(), references.end(), &d) != references.end(); }
+bool Catalogue::is_reference(const Descriptor& d) const {
+    return std::find(references.begin(), references.end(), &d) != references.end();
+}
 
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration) {
     Scene scene = read_scene(name, overrides);

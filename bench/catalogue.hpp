@@ -11,8 +11,8 @@ namespace jvari {
 
 struct Catalogue {
     explicit Catalogue(const std::vector<std::string>& plugins = {});  // throws UsageError
-    std::vector<const Descriptor*> schemes;     // in-tree, then those of plugins
-    std::vector<const Descriptor*> references;  // in order of authority
+    std::vector<const Descriptor*> schemes;                            // in-tree, then those of plugins
+    std::vector<const Descriptor*> references;                         // in order of authority
 
     const Descriptor& find(const std::string& name) const;  // a scheme or a reference; UsageError suggests the nearest name
     bool is_reference(const Descriptor&) const;
@@ -21,7 +21,7 @@ struct Catalogue {
 // A file or a library name, with overrides "key.path=value"; throws SceneFileError, BadScene or UsageError.
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration);
 
-const char* unit_of(Quantity);  // "N"
+const char* unit_of(Quantity);                // "N"
 std::vector<std::string> names_in(Features);  // one by one
 
 }  // namespace jvari

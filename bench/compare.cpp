@@ -17,9 +17,12 @@ Run accuracy_run(const Descriptor& d, const Scene& scene, const Settings& settin
                  bool energy) {
     RunOptions options;
     options.energy = energy;
-    const std::string what = std::isfinite(settings.sample_rate) && settings.sample_rate > 0 ? fmt::format("{} at {} Hz", d.name, settings.sample_rate)
-                                                                                             : std::string(d.name);
-    options.progress = [&](long done, long rows) { progress.show(from + (to - from) * static_cast<double>(done) / static_cast<double>(rows), what); };
+    const std::string what = std::isfinite(settings.sample_rate) && settings.sample_rate > 0
+                                 ? fmt::format("{} at {} Hz", d.name, settings.sample_rate)
+                                 : std::string(d.name);
+    options.progress = [&](long done, long rows) {
+        progress.show(from + (to - from) * static_cast<double>(done) / static_cast<double>(rows), what);
+    };
     return run(d, scene, settings, options);
 }
 
@@ -50,7 +53,8 @@ void measure(Cell& cell, const Scene& scene, const Trace& reference, Console::Pr
     cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
     cell.errors = errors_of(result.trace, reference);
     if (result.status.outcome != Outcome::ok)
-        cell.reason = fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
+        cell.reason =
+            fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
 }
 }  // namespace
 

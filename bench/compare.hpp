@@ -1,6 +1,7 @@
 // A comparison: schemes x rates on one scene, each against one reference on the same rows.
 //
-// Each cell is run once for its errors (energy probe on), then timed (cost.hpp). A cell that refuses or fails stays in the list with its reason.
+// Each cell is run once for its errors (energy probe on), then timed (cost.hpp). A cell that refuses or fails stays in the list with its
+// reason.
 #pragma once
 
 #include <string>
@@ -22,7 +23,7 @@ struct Cell {
     std::string reason;  // of a refusal or a failure
     Summary summary{};   // of the accuracy run; empty where refused
     Errors errors;
-    Spread wall{};       // of the timed runs [s], of the whole scene or up to the failure
+    Spread wall{};  // of the timed runs [s], of the whole scene or up to the failure
     int modes() const { return refused ? settings.modes : summary.modes; }
 };
 

@@ -25,7 +25,8 @@ Json json_of(const Table& table) {
             const std::string& name = table.columns[k];
             if (name == "scheme" || name == "status" || name == "reason" || name == "below_floor") j[name] = row[k];
             else if (name == "pareto") j[name] = row[k] == "1";
-            else if (row[k].find_first_not_of("0123456789") == std::string::npos && !row[k].empty() && row[k].size() < 18) j[name] = std::stol(row[k]);
+            else if (row[k].find_first_not_of("0123456789") == std::string::npos && !row[k].empty() && row[k].size() < 18)
+                j[name] = std::stol(row[k]);
             else j[name] = number_of(row[k]);  // "" and infinities become null
         }
         rows.push_back(std::move(j));
@@ -51,7 +52,8 @@ std::string floor_text(const Comparison& c) {
     for (std::size_t k = 0; k < measures().size(); ++k) {
         const Measure& m = measures()[k];
         const double floor = c.floor[c.headline.tap(m)][k];
-        if (m.less_is_better && !std::isnan(floor)) text += fmt::format("{}{} {:.1e}", text.empty() ? "noise floor: " : ", ", m.column, floor);
+        if (m.less_is_better && !std::isnan(floor))
+            text += fmt::format("{}{} {:.1e}", text.empty() ? "noise floor: " : ", ", m.column, floor);
     }
     return text;
 }
@@ -66,9 +68,10 @@ int compare_command(const CompareRequest& r) {
     const std::string manifest = manifest_of(c, r);
 
     const double rate = c.reference_summary.rate;
-    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene.name, c.reference->name,
-                              std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration, c.reference_settings.tap_rate,
-                              c.scene.taps.at(c.headline.nut).name, c.scene.taps.at(c.headline.bridge).name));
+    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene.name,
+                              c.reference->name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
+                              c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
+                              c.scene.taps.at(c.headline.bridge).name));
     console.print(headline_text(cells, headline_error(c)) + "\n" + floor_text(c));
     Json files = Json::array();
     if (!r.out.empty()) {
@@ -82,9 +85,15 @@ int compare_command(const CompareRequest& r) {
         console.print("written: " + folder.string());
     }
     const int code = exit_code(c);
-    console.print_json(Json{{"scene", c.scene.name}, {"reference", c.reference->name}, {"status", code == done ? "ok" : code == refused ? "refused" : "failed"},
-                            {"manifest", Json::parse(manifest)}, {"cells", json_of(cells)}, {"files", files}}
-                           .dump(2));
+    console.print_json(Json{
+        {"scene", c.scene.name},
+        {"reference", c.reference->name},
+        {"status", code == done      ? "ok"
+                   : code == refused ? "refused"
+                                     : "failed"},
+        {"manifest", Json::parse(manifest)},
+        {"cells", json_of(cells)},
+        {"files", files}}.dump(2));
     return code;
 }
 

@@ -1,5 +1,5 @@
-// Modes: every cell and the reference carry the same ones. Below 20 kHz they do so by themselves, each scheme taking its own default; where the
-// lowest rate is below 40 kHz the number of modes below half of it is set for all.
+// Modes: every cell and the reference carry the same ones. Below 20 kHz they do so by themselves, each scheme taking its own default; where
+// the lowest rate is below 40 kHz the number of modes below half of it is set for all.
 #include "bench/compare_plan.hpp"
 
 #include <fmt/core.h>
@@ -15,7 +15,9 @@ namespace jvari {
 namespace {
 double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
     if (r.tap_rate) return *r.tap_rate;
-    const auto divides_all = [&rates](double f) { return std::all_of(rates.begin(), rates.end(), [f](double rate) { return whole_multiple(rate, f); }); };
+    const auto divides_all = [&rates](double f) {
+        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return whole_multiple(rate, f); });
+    };
     const double lowest = *std::min_element(rates.begin(), rates.end());
     if (divides_all(44100)) return 44100;
     if (divides_all(lowest)) return lowest;
@@ -68,8 +70,8 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     return chosen;
 }
 
-std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene, const Settings& at_highest,
-                                            const Descriptor& first_scheme, std::vector<bool>& used) {
+std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene,
+                                            const Settings& at_highest, const Descriptor& first_scheme, std::vector<bool>& used) {
     std::vector<ReferenceChoice> choices;
     const auto add = [&](const Descriptor& d, const std::string& note) {
         Settings s = at_highest;
@@ -88,8 +90,9 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
     }
     for (const Descriptor* d : catalogue.references)
         if ((needed_by(scene) - d->represents).empty()) add(*d, "");
-    add(first_scheme, fmt::format("no reference represents scene {}: {} at {} Hz, 4 times the highest rate, stands in; its own error is not bounded",
-                                  scene.name, first_scheme.name, 4 * at_highest.sample_rate));
+    add(first_scheme,
+        fmt::format("no reference represents scene {}: {} at {} Hz, 4 times the highest rate, stands in; its own error is not bounded",
+                    scene.name, first_scheme.name, 4 * at_highest.sample_rate));
     return choices;
 }
 }  // namespace
@@ -127,7 +130,8 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
     }
     for (std::size_t k = 0; k < used.size(); ++k)
         if (!used[k])
-            throw UsageError(fmt::format("--option {}{}{}: {}", r.options[k].scheme, r.options[k].scheme.empty() ? "" : ":", r.options[k].name,
+            throw UsageError(fmt::format("--option {}{}{}: {}", r.options[k].scheme, r.options[k].scheme.empty() ? "" : ":",
+                                         r.options[k].name,
                                          r.options[k].scheme.empty() ? "no compared scheme has it" : "that scheme is not compared"));
     return plan;
 }

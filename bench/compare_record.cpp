@@ -16,12 +16,16 @@ namespace jvari {
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* cost_columns[] = {"cost_s_per_s",     "cost_lower",  "cost_upper",      "wall_seconds", "wall_seconds_lower",
+constexpr const char* cost_columns[] = {"cost_s_per_s",       "cost_lower",  "cost_upper",      "wall_seconds", "wall_seconds_lower",
                                         "wall_seconds_upper", "ns_per_step", "times_real_time", "repeats",      "pareto"};
 
-double error_in(const Cell& cell, int tap, int measure) { return cell.errors.empty() ? nan : cell.errors[tap][measure]; }
+double error_in(const Cell& cell, int tap, int measure) {
+    return cell.errors.empty() ? nan : cell.errors[tap][measure];
+}
 
-std::string status_of(const Cell& cell) { return cell.refused ? "refused" : name_of(cell.summary.status.outcome); }
+std::string status_of(const Cell& cell) {
+    return cell.refused ? "refused" : name_of(cell.summary.status.outcome);
+}
 
 // Facts of any cell, in the order in which they first come up.
 std::vector<std::string> fact_names(const Comparison& c) {
@@ -159,16 +163,34 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
             for (const auto& [name, value] : cell.settings.options) options[name] = value;
             schemes.push_back({{"name", cell.scheme->name}, {"source", cell.scheme->source}, {"options", options}});
         }
-    Json reference{{"name", c.reference->name}, {"source", c.reference->source}, {"rate", c.reference_summary.rate},
-                   {"modes", c.reference_summary.modes}, {"status", name_of(c.reference_summary.status.outcome)},
-                   {"valid_until_s", c.reference_summary.duration}, {"note", c.reference_note}, {"facts", facts}};
-    const Json scene{{"name", c.scene.name}, {"asked_as", r.scene}, {"set", r.set}, {"source", c.scene.source}, {"hash", scene_hash(c.scene)},
-                     {"duration", c.scene.duration}, {"taps", taps}};
-    return Json{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit}, {"compiler", m.compiler}, {"flags", m.flags},
-                {"build", m.build}, {"cpu", m.cpu}, {"cores", m.cores}, {"system", m.system}, {"date", now_utc()}, {"scene", scene},
-                {"tap_rate", c.reference_settings.tap_rate}, {"schemes", schemes}, {"reference", reference},
-                {"headline", {{"nut", c.scene.taps.at(c.headline.nut).name}, {"bridge", c.scene.taps.at(c.headline.bridge).name},
-                              {"error", headline_error(c)}}},
+    Json reference{{"name", c.reference->name},
+                   {"source", c.reference->source},
+                   {"rate", c.reference_summary.rate},
+                   {"modes", c.reference_summary.modes},
+                   {"status", name_of(c.reference_summary.status.outcome)},
+                   {"valid_until_s", c.reference_summary.duration},
+                   {"note", c.reference_note},
+                   {"facts", facts}};
+    const Json scene{{"name", c.scene.name},        {"asked_as", r.scene},          {"set", r.set}, {"source", c.scene.source},
+                     {"hash", scene_hash(c.scene)}, {"duration", c.scene.duration}, {"taps", taps}};
+    return Json{{"program", "jvari"},
+                {"version", m.version},
+                {"commit", m.commit},
+                {"compiler", m.compiler},
+                {"flags", m.flags},
+                {"build", m.build},
+                {"cpu", m.cpu},
+                {"cores", m.cores},
+                {"system", m.system},
+                {"date", now_utc()},
+                {"scene", scene},
+                {"tap_rate", c.reference_settings.tap_rate},
+                {"schemes", schemes},
+                {"reference", reference},
+                {"headline",
+                 {{"nut", c.scene.taps.at(c.headline.nut).name},
+                  {"bridge", c.scene.taps.at(c.headline.bridge).name},
+                  {"error", headline_error(c)}}},
                 {"noise_floor", floor}}
         .dump(2);
 }

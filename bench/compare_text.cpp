@@ -16,7 +16,8 @@ std::string cell_text(const Table& t, std::size_t row, const char* column, const
 
 // "x 1.3 %": half the distance of the quartiles over the median.
 std::string spread_text(const Table& t, std::size_t row) {
-    const double median = t.number(row, "wall_seconds"), half = 0.5 * (t.number(row, "wall_seconds_upper") - t.number(row, "wall_seconds_lower"));
+    const double median = t.number(row, "wall_seconds"),
+                 half = 0.5 * (t.number(row, "wall_seconds_upper") - t.number(row, "wall_seconds_lower"));
     return std::isnan(half / median) ? "" : fmt::format("+-{:.0f}%", 100 * half / median);
 }
 }  // namespace
@@ -24,8 +25,9 @@ std::string spread_text(const Table& t, std::size_t row) {
 std::string headline_text(const Table& t, const std::string& error_column) {
     std::size_t width = 6;
     for (std::size_t i = 0; i < t.rows.size(); ++i) width = std::max(width, t.at(i, "scheme").size());
-    std::string text = fmt::format("  {:<{}}  {:>9} {:>6}  {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n", "scheme", width, "rate", "modes",
-                                   "L2 10ms", "L2 50ms", "L2 whole", "horizon", "1/3 oct", "residual", "s per s", "", "real time", "ns/step");
+    std::string text =
+        fmt::format("  {:<{}}  {:>9} {:>6}  {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n", "scheme", width, "rate",
+                    "modes", "L2 10ms", "L2 50ms", "L2 whole", "horizon", "1/3 oct", "residual", "s per s", "", "real time", "ns/step");
     std::string missing;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         const std::string rate = t.at(i, "rate").empty() ? "contin." : t.at(i, "rate");
@@ -34,12 +36,13 @@ std::string headline_text(const Table& t, const std::string& error_column) {
             continue;
         }
         if (t.at(i, "status") != "ok") missing += fmt::format("  {:<{}}  {:>9}  {}\n", t.at(i, "scheme"), width, rate, t.at(i, "reason"));
-        text += fmt::format("{} {:<{}}  {:>9} {:>6}  {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n", t.at(i, "pareto") == "1" ? "*" : " ",
-                            t.at(i, "scheme"), width, rate, t.at(i, "modes"), cell_text(t, i, "error_l2_10ms", "{:.2e}"),
-                            cell_text(t, i, "error_l2_50ms", "{:.2e}"), cell_text(t, i, "error_l2_whole", "{:.2e}"),
-                            cell_text(t, i, "horizon_s", "{:.4f} s"), cell_text(t, i, "third_octave_db", "{:.2f} dB"),
-                            cell_text(t, i, "energy_residual_accumulated", "{:.1e}"), cell_text(t, i, "cost_s_per_s", "{:.3g}"), spread_text(t, i),
-                            cell_text(t, i, "times_real_time", "{:.3g}"), cell_text(t, i, "ns_per_step", "{:.1f}"));
+        text += fmt::format("{} {:<{}}  {:>9} {:>6}  {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n",
+                            t.at(i, "pareto") == "1" ? "*" : " ", t.at(i, "scheme"), width, rate, t.at(i, "modes"),
+                            cell_text(t, i, "error_l2_10ms", "{:.2e}"), cell_text(t, i, "error_l2_50ms", "{:.2e}"),
+                            cell_text(t, i, "error_l2_whole", "{:.2e}"), cell_text(t, i, "horizon_s", "{:.4f} s"),
+                            cell_text(t, i, "third_octave_db", "{:.2f} dB"), cell_text(t, i, "energy_residual_accumulated", "{:.1e}"),
+                            cell_text(t, i, "cost_s_per_s", "{:.3g}"), spread_text(t, i), cell_text(t, i, "times_real_time", "{:.3g}"),
+                            cell_text(t, i, "ns_per_step", "{:.1f}"));
     }
     text += fmt::format("* on the Pareto front of {} and cost; +- is half the distance of the quartiles", error_column);
     return missing.empty() ? text : text + "\nfailed or refused\n" + missing.substr(0, missing.size() - 1);

@@ -26,7 +26,10 @@ void Console::print_json(const std::string& text) const {
 }
 
 Console::Progress::Progress(const Console& console, std::string label)
-    : label_(std::move(label)), start_(std::chrono::steady_clock::now()), last_(start_), shown_(false),
+    : label_(std::move(label)),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_),
+      shown_(false),
       terminal_(!console.quiet_ && isatty(STDERR_FILENO) != 0) {}
 
 Console::Progress::~Progress() {
@@ -46,7 +49,9 @@ void Console::Progress::show(double fraction, const std::string& what) {
 std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
     const std::string near = nearest(word, known);
     return "unknown " + kind + " " + found_text(word) + "; " +
-           (!near.empty() ? "did you mean " + quote(near) + "?" : known.empty() ? "there is none" : "there is " + list_of(known));
+           (!near.empty()   ? "did you mean " + quote(near) + "?"
+            : known.empty() ? "there is none"
+                            : "there is " + list_of(known));
 }
 
 }  // namespace jvari

@@ -19,8 +19,8 @@ class Console {
 public:
     Console(bool json, bool quiet) : json_(json), quiet_(quiet) {}
     bool json() const { return json_; }
-    void note(const std::string&) const;   // standard error, unless --quiet
-    void print(const std::string&) const;  // standard output, unless --json: the result as text
+    void note(const std::string&) const;        // standard error, unless --quiet
+    void print(const std::string&) const;       // standard output, unless --json: the result as text
     void print_json(const std::string&) const;  // standard output, with --json only: one object
 
     // Shows how far a job of several parts is, on a terminal and once it has taken 2 s.

@@ -15,8 +15,8 @@ constexpr double budget = 30;             // of one cell [s]
 
 struct Timed {
     Cell* cell;
-    int runs;     // back to back in one sample
-    int repeats;  // samples
+    int runs;                     // back to back in one sample
+    int repeats;                  // samples
     std::vector<double> samples;  // [s] of one run
 };
 
@@ -40,12 +40,14 @@ void time_cells(std::vector<Cell>& cells, const Scene& scene, int repeats, const
         work += once * runs * timed.back().repeats;
     }
     // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike
-    std::stable_sort(timed.begin(), timed.end(), [](const Timed& a, const Timed& b) { return a.cell->settings.sample_rate < b.cell->settings.sample_rate; });
+    std::stable_sort(timed.begin(), timed.end(),
+                     [](const Timed& a, const Timed& b) { return a.cell->settings.sample_rate < b.cell->settings.sample_rate; });
     Console::Progress progress(console, "cost");
     for (int round = 0; round < repeats; ++round)
         for (Timed& t : timed) {
             if (round >= t.repeats) continue;
-            progress.show(finished / work, fmt::format("round {}: {} at {} Hz", round + 1, t.cell->scheme->name, t.cell->settings.sample_rate));
+            progress.show(finished / work,
+                          fmt::format("round {}: {} at {} Hz", round + 1, t.cell->scheme->name, t.cell->settings.sample_rate));
             t.samples.push_back(sample(t, scene));
             finished += t.cell->summary.wall_seconds * t.runs;
         }

@@ -1,4 +1,5 @@
-// What a cell costs. Timed runs go one at a time, interleaved between competitors, energy probe off; the median is quoted with its quartiles.
+// What a cell costs. Timed runs go one at a time, interleaved between competitors, energy probe off; the median is quoted with its
+// quartiles.
 #pragma once
 
 #include <vector>
@@ -7,8 +8,8 @@
 
 namespace jvari {
 
-// Fills Cell::wall of every cell that was run. A sample of a short run is the mean of as many runs back to back as last 20 ms; a cell that takes
-// longer than 30 s for all its repeats gets fewer, two at least.
+// Fills Cell::wall of every cell that was run. A sample of a short run is the mean of as many runs back to back as last 20 ms; a cell that
+// takes longer than 30 s for all its repeats gets fewer, two at least.
 void time_cells(std::vector<Cell>&, const Scene&, int repeats, const Console&);
 
 }  // namespace jvari

@@ -18,8 +18,10 @@ namespace fs = std::filesystem;
 void must_be_writable(const fs::path& path) {
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!path.has_filename() || fs::is_directory(path, error)) throw UsageError(fmt::format("cannot write {}: it is a folder", path.string()));
-    if (!fs::is_directory(folder, error)) throw UsageError(fmt::format("cannot write {}: there is no folder {}", path.string(), folder.string()));
+    if (!path.has_filename() || fs::is_directory(path, error))
+        throw UsageError(fmt::format("cannot write {}: it is a folder", path.string()));
+    if (!fs::is_directory(folder, error))
+        throw UsageError(fmt::format("cannot write {}: there is no folder {}", path.string(), folder.string()));
     if (access(folder.c_str(), W_OK) != 0) throw UsageError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
     if (fs::exists(path, error) && !fs::is_regular_file(path, error))
         throw UsageError(fmt::format("cannot write {}: something that is no file stands there", path.string()));

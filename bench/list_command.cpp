@@ -16,14 +16,16 @@ using Json = nlohmann::ordered_json;
 
 struct Shelf {  // what is listed
     Catalogue catalogue;
-    std::vector<std::pair<std::string, Scene>> scenes;           // library name, scene
+    std::vector<std::pair<std::string, Scene>> scenes;            // library name, scene
     std::vector<std::pair<std::string, std::string>> unreadable;  // library name, why
 };
 
-constexpr Quantity quantities[] = {Quantity::displacement, Quantity::velocity, Quantity::nut_force,
+constexpr Quantity quantities[] = {Quantity::displacement, Quantity::velocity,     Quantity::nut_force,
                                    Quantity::bridge_force, Quantity::thread_force, Quantity::driving_force};
 
-const char* name_of(Balance b) { return b == Balance::exact ? "exact" : b == Balance::to_tolerance ? "to tolerance" : "none"; }
+const char* name_of(Balance b) {
+    return b == Balance::exact ? "exact" : b == Balance::to_tolerance ? "to tolerance" : "none";
+}
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
@@ -34,7 +36,10 @@ std::string joined(const std::vector<std::string>& words) {
 Json json_of(const std::vector<const Descriptor*>& list) {
     Json all = Json::array();
     for (const Descriptor* d : list)
-        all.push_back({{"name", d->name}, {"source", d->source}, {"represents", names_in(d->represents)}, {"balance", name_of(d->balance)},
+        all.push_back({{"name", d->name},
+                       {"source", d->source},
+                       {"represents", names_in(d->represents)},
+                       {"balance", name_of(d->balance)},
                        {"clock", d->clock == Clock::continuous ? "continuous" : "stepped"}});
     return all;
 }
@@ -43,9 +48,14 @@ Json scenes_json(const Shelf& shelf) {
     Json all = Json::array();
     for (const auto& [name, scene] : shelf.scenes) {
         Json taps = Json::array();
-        for (const Tap& tap : scene.taps) taps.push_back({{"name", tap.name}, {"quantity", name_of(tap.quantity)}, {"unit", unit_of(tap.quantity)}});
-        all.push_back({{"name", name}, {"source", scene.source}, {"duration", scene.duration}, {"strings", scene.strings.size()},
-                       {"needs", names_in(needed_by(scene))}, {"taps", taps}});
+        for (const Tap& tap : scene.taps)
+            taps.push_back({{"name", tap.name}, {"quantity", name_of(tap.quantity)}, {"unit", unit_of(tap.quantity)}});
+        all.push_back({{"name", name},
+                       {"source", scene.source},
+                       {"duration", scene.duration},
+                       {"strings", scene.strings.size()},
+                       {"needs", names_in(needed_by(scene))},
+                       {"taps", taps}});
     }
     for (const auto& [name, why] : shelf.unreadable) all.push_back({{"name", name}, {"error", why}});
     return all;
@@ -73,8 +83,8 @@ std::string descriptors_text(const char* title, const std::vector<const Descript
     for (const Descriptor* d : list) width = std::max(width, std::string(d->name).size());
     std::string text = fmt::format("{}\n", title);
     for (const Descriptor* d : list)
-        text += fmt::format("  {:<{}}  {}\n  {:<{}}  energy balance {}{}; represents {}\n", d->name, width, d->source, "", width, name_of(d->balance),
-                            d->clock == Clock::continuous ? "; continuous time" : "", joined(names_in(d->represents)));
+        text += fmt::format("  {:<{}}  {}\n  {:<{}}  energy balance {}{}; represents {}\n", d->name, width, d->source, "", width,
+                            name_of(d->balance), d->clock == Clock::continuous ? "; continuous time" : "", joined(names_in(d->represents)));
     return text + (list.empty() ? "  none\n" : "");
 }
 
@@ -85,8 +95,8 @@ std::string scenes_text(const Shelf& shelf) {
     for (const auto& [name, scene] : shelf.scenes) {
         std::vector<std::string> taps;
         for (const Tap& tap : scene.taps) taps.push_back(tap.name);
-        text += fmt::format("  {:<{}}  {}\n  {:<{}}  {} s; taps {}; needs {}\n", name, width, scene.source, "", width, scene.duration, joined(taps),
-                            joined(names_in(needed_by(scene))));
+        text += fmt::format("  {:<{}}  {}\n  {:<{}}  {} s; taps {}; needs {}\n", name, width, scene.source, "", width, scene.duration,
+                            joined(taps), joined(names_in(needed_by(scene))));
     }
     for (const auto& [name, why] : shelf.unreadable) text += fmt::format("  {}  cannot be read: {}\n", name, why);
     return text;
@@ -97,7 +107,8 @@ std::string matrix_text(const Shelf& shelf) {  // schemes down, scenes across
     std::string text = "which represents which scene\n";
     for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
         for (const Descriptor* d : *list) width = std::max(width, std::string(d->name).size());
-    for (std::size_t k = 0; k < shelf.scenes.size(); ++k) text += fmt::format("  {:<{}}  {}{}\n", "", width, std::string(3 * k, ' '), shelf.scenes[k].first);
+    for (std::size_t k = 0; k < shelf.scenes.size(); ++k)
+        text += fmt::format("  {:<{}}  {}{}\n", "", width, std::string(3 * k, ' '), shelf.scenes[k].first);
     for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
         for (const Descriptor* d : *list) {
             text += fmt::format("  {:<{}}  ", d->name, width);

@@ -25,8 +25,8 @@ std::string system_name() {
 }  // namespace
 
 const Machine& machine() {
-    static const Machine m{JVARI_VERSION, JVARI_COMMIT, JVARI_COMPILER, JVARI_FLAGS, JVARI_BUILD, cpu_name(), system_name(),
-                           static_cast<int>(std::thread::hardware_concurrency())};
+    static const Machine m{JVARI_VERSION, JVARI_COMMIT, JVARI_COMPILER, JVARI_FLAGS,
+                           JVARI_BUILD,   cpu_name(),   system_name(),  static_cast<int>(std::thread::hardware_concurrency())};
     return m;
 }
 

@@ -6,8 +6,8 @@
 namespace jvari {
 
 struct Machine {
-    std::string version, commit;           // commit: git describe when built, "unknown" outside git
-    std::string compiler, flags, build;    // build: CMake's build type
+    std::string version, commit;         // commit: git describe when built, "unknown" outside git
+    std::string compiler, flags, build;  // build: CMake's build type
     std::string cpu, system;
     int cores;
 };

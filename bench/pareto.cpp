@@ -6,8 +6,12 @@
 namespace jvari {
 
 namespace {
-bool sound(const Point& p) { return std::isfinite(p.cost) && std::isfinite(p.error); }
-bool tie(const Point& a, const Point& b) { return a.cost_lower <= b.cost_upper && b.cost_lower <= a.cost_upper; }
+bool sound(const Point& p) {
+    return std::isfinite(p.cost) && std::isfinite(p.error);
+}
+bool tie(const Point& a, const Point& b) {
+    return a.cost_lower <= b.cost_upper && b.cost_lower <= a.cost_upper;
+}
 bool beats(const Point& a, const Point& b) {
     if (!sound(a)) return false;
     return a.error < b.error ? a.cost <= b.cost || tie(a, b) : a.error == b.error && a.cost < b.cost && !tie(a, b);

@@ -14,10 +14,10 @@ struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
 
-    int column(const std::string& name) const;                          // -1: absent
+    int column(const std::string& name) const;                              // -1: absent
     const std::string& at(std::size_t row, const std::string& name) const;  // "" where the column is absent
     double number(std::size_t row, const std::string& name) const { return number_of(at(row, name)); }
-    Table only(const std::vector<std::string>& names) const;            // those columns, in that order; absent ones are left out
+    Table only(const std::vector<std::string>& names) const;  // those columns, in that order; absent ones are left out
 };
 
 std::string quoted(const std::string& field);  // as CSV writes it

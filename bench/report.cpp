@@ -30,13 +30,16 @@ WorkPrecision work_precision_of(const Table& cells, const Json& manifest) {
     double lowest = HUGE_VAL;
     for (std::size_t i = 0; i < cells.rows.size(); ++i) lowest = std::fmin(lowest, cells.number(i, "rate"));
     w.title = fmt::format("{}: error and cost", scene.at("name").get<std::string>());
-    w.subtitle = fmt::format("against {}, {} s; nut tap {}, bridge tap {}{}", reference.at("name").get<std::string>(), scene.at("duration").get<double>(),
-                             headline.at("nut").get<std::string>(), headline.at("bridge").get<std::string>(),
-                             std::isfinite(lowest) ? fmt::format("; \u00d71 = {:.6g} kHz", lowest / 1000) : "");
+    w.subtitle =
+        fmt::format("against {}, {} s; nut tap {}, bridge tap {}{}", reference.at("name").get<std::string>(),
+                    scene.at("duration").get<double>(), headline.at("nut").get<std::string>(), headline.at("bridge").get<std::string>(),
+                    std::isfinite(lowest) ? fmt::format("; \u00d71 = {:.6g} kHz", lowest / 1000) : "");
     return w;
 }
 
-Json table_json(const Table& t) { return {{"columns", t.columns}, {"rows", t.rows}}; }
+Json table_json(const Table& t) {
+    return {{"columns", t.columns}, {"rows", t.rows}};
+}
 }  // namespace
 
 std::vector<std::string> write_report(const fs::path& folder, const Console& console) {

@@ -88,7 +88,7 @@ else {
     const ink = dark.matches ? "#e6eaee" : "#1d2329", grid = dark.matches ? "#3a424a" : "#dfe3e7";
     const config = {background: "transparent", axis: {labelColor: ink, gridColor: grid, domainColor: ink, tickColor: ink},
                     legend: {labelColor: ink}, title: {color: ink, subtitleColor: ink}, text: {color: ink}};
-    const {view} = await vegaEmbed("#chart", spec, {config, renderer: "svg", actions: {export: true, source: false, compiled: false, editor: false},
+    const {view} = await vegaEmbed("#chart", spec, {config, renderer: "svg", logLevel: 1, actions: {export: true, source: false, compiled: false, editor: false},
                                                      tooltip: {theme: dark.matches ? "dark" : "light"}});
     const choose = () => view.signal("error_field", $("error").value).signal("cost_field", $("cost").value).runAsync();
     $("error").onchange = $("cost").onchange = choose;

@@ -43,10 +43,12 @@ std::string text_for(const Summary& s) {
     line("rate", std::isnan(s.rate) ? "continuous time" : fmt::format("{} Hz", s.rate));
     line("modes", fmt::format("{}  ({} doubles of state)", s.modes, s.dofs));
     line("rows", fmt::format("{}  ({:.6g} s, {} steps)", s.rows, s.duration, s.steps));
-    line("wall time", fmt::format("{:.4g} s{}{}", s.wall_seconds, std::isnan(s.ns_per_step) ? "" : fmt::format(", {:.1f} ns per step", s.ns_per_step),
-                                  std::isnan(s.times_real_time) ? "" : fmt::format(", {:.4g} times real time", s.times_real_time)));
+    line("wall time",
+         fmt::format("{:.4g} s{}{}", s.wall_seconds, std::isnan(s.ns_per_step) ? "" : fmt::format(", {:.1f} ns per step", s.ns_per_step),
+                     std::isnan(s.times_real_time) ? "" : fmt::format(", {:.4g} times real time", s.times_real_time)));
     if (!std::isnan(s.energy_residual_per_step))
-        line("energy residual", fmt::format("{:.2e} of one row, {:.2e} accumulated", s.energy_residual_per_step, s.energy_residual_accumulated));
+        line("energy residual",
+             fmt::format("{:.2e} of one row, {:.2e} accumulated", s.energy_residual_per_step, s.energy_residual_accumulated));
     if (!std::isnan(s.smallest_contact_force)) line("smallest contact force", fmt::format("{:.6g} N", s.smallest_contact_force));
     if (!std::isnan(s.deepest_penetration)) line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
     for (const Fact& f : s.facts) line(f.name.c_str(), fmt::format("{:.6g} {}", f.value, f.unit));
@@ -75,9 +77,16 @@ Json json_of(const Summary& s) {
 }
 
 TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene, const Settings& s) {
-    return {r.out, r.wav_format, {{"scene", scene.name}, {"source", scene.source}, {"scene_hash", scene_hash(scene)}, {"scheme", d.name},
-                                  {"scheme_source", d.source}, {"sample_rate", text_of(s.sample_rate)}, {"program", "jvari " + machine().version},
-                                  {"commit", machine().commit}}};
+    return {r.out,
+            r.wav_format,
+            {{"scene", scene.name},
+             {"source", scene.source},
+             {"scene_hash", scene_hash(scene)},
+             {"scheme", d.name},
+             {"scheme_source", d.source},
+             {"sample_rate", text_of(s.sample_rate)},
+             {"program", "jvari " + machine().version},
+             {"commit", machine().commit}}};
 }
 }  // namespace
 

@@ -9,11 +9,11 @@ namespace jvari {
 
 struct Summary {
     std::string scheme, scene;
-    double rate;        // [Hz]; NaN for a continuous-time reference
-    int modes;          // of the first string; interior nodes for a scheme on a grid
+    double rate;  // [Hz]; NaN for a continuous-time reference
+    int modes;    // of the first string; interior nodes for a scheme on a grid
     int dofs;
     long steps, rows;
-    double duration;    // simulated [s]: up to the last valid row
+    double duration;                                    // simulated [s]: up to the last valid row
     double wall_seconds, ns_per_step, times_real_time;  // NaN where there is nothing to divide
     Status status;
     double energy_residual_per_step, energy_residual_accumulated;  // relative to the largest stored energy; NaN unless probed

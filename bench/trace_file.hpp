@@ -13,7 +13,7 @@ namespace jvari {
 
 struct TraceFile {
     std::filesystem::path path;
-    std::string wav_format;                                      // "" = "float64", "float32", "pcm24", "pcm16"
+    std::string wav_format;                                       // "" = "float64", "float32", "pcm24", "pcm16"
     std::vector<std::pair<std::string, std::string>> attributes;  // of the run as a whole (.h5)
 };
 

@@ -11,6 +11,7 @@
 
 namespace jvari {
 
-void write_hdf5(const std::filesystem::path&, const std::vector<std::pair<std::string, std::string>>& attributes, const Scene&, const Trace&);
+void write_hdf5(const std::filesystem::path&, const std::vector<std::pair<std::string, std::string>>& attributes, const Scene&,
+                const Trace&);
 
 }  // namespace jvari

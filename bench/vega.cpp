@@ -5,11 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <strings.h>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <strings.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -72,7 +72,8 @@ Vega find_vega() {
     Vega v{set && *set ? set : JVARI_NODE_MODULES_FOLDER, ""};
     for (const char* library : libraries)
         if (!fs::exists(fs::path(v.folder) / library))
-            v.missing = "no charts: " + (fs::path(v.folder) / library).string() + " is missing; `npm ci` at the root of the sources installs it";
+            v.missing =
+                "no charts: " + (fs::path(v.folder) / library).string() + " is missing; `npm ci` at the root of the sources installs it";
     return v;
 }
 

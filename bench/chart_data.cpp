@@ -1,0 +1,116 @@
+#include "bench/chart_data.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/errors.hpp"
+#include "bench/pareto.hpp"
+#include "bench/rates.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+// "x4" where all rates are multiples of the lowest, else "96k".
+std::string rate_label(double rate, double lowest, bool multiples) {
+    if (std::isnan(rate)) return "";
+    if (multiples) return fmt::format("\u00d7{}", std::lround(rate / lowest));
+    return fmt::format("{:.4g}k", rate / 1000);
+}
+
+std::vector<Point> points_of(const WorkPrecision& w, const Axis& error, const Axis& cost) {
+    const Table& t = w.cells;
+    const bool clock = cost.column == "cost_s_per_s" || cost.column == "ns_per_step";
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        const double c = t.at(i, "status") == "ok" ? t.number(i, cost.column) : std::nan(""), median = t.number(i, "cost_s_per_s");
+        const double lower = clock ? t.number(i, "cost_lower") / median : 1, upper = clock ? t.number(i, "cost_upper") / median : 1;
+        const double e = t.number(i, error.column);
+        points.push_back({c, c * lower, c * upper, std::isnan(e) ? e : std::fmax(e, floor_of(w, error.column))});
+    }
+    return points;
+}
+}  // namespace
+
+double floor_of(const WorkPrecision& w, const std::string& error) {
+    for (const auto& [name, value] : w.floors)
+        if (name == error) return value;
+    return std::nan("");
+}
+
+std::vector<std::string> drawn_schemes(const Table& cells) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < cells.rows.size(); ++i)
+        if (cells.at(i, "status") != "refused" && std::find(names.begin(), names.end(), cells.at(i, "scheme")) == names.end())
+            names.push_back(cells.at(i, "scheme"));
+    return names;
+}
+
+std::string chart_cells(const WorkPrecision& w) {
+    const Table& t = w.cells;
+    double lowest = HUGE_VAL;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) lowest = std::fmin(lowest, t.number(i, "rate"));
+    bool multiples = true;
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (const double rate = t.number(i, "rate"); !std::isnan(rate)) multiples = multiples && whole_multiple(rate, lowest);
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        if (t.at(i, "status") == "refused") continue;  // it has neither cost nor error: the table says why
+        const double rate = t.number(i, "rate");
+        Json j{{"scheme", t.at(i, "scheme")},    {"rate", rate},
+               {"modes", t.number(i, "modes")},  {"status", t.at(i, "status")},
+               {"reason", t.at(i, "reason")},    {"label", rate_label(rate, lowest, multiples)},
+               {"below", t.at(i, "below_floor")}};
+        for (const auto* axes : {&w.errors, &w.costs})
+            for (const Axis& a : *axes) j[a.column] = t.number(i, a.column);  // not finite: null
+        rows.push_back(std::move(j));
+    }
+    return rows.dump();
+}
+
+std::string chart_fronts(const WorkPrecision& w) {
+    const Table& t = w.cells;
+    Json rows = Json::array();
+    for (const Axis& error : w.errors)
+        for (const Axis& cost : w.costs) {
+            const auto points = points_of(w, error, cost);
+            const auto front = pareto_front(points);
+            for (std::size_t i = 0; i < front.size(); ++i) {
+                if (!front[i]) continue;
+                const double rate = t.number(i, "rate");
+                const std::string key = fmt::format("{}|{}|{}|{}", error.column, cost.column, t.at(i, "scheme"),
+                                                    std::isnan(rate) ? "null" : fmt::format("{}", rate));
+                rows.push_back({{"error", error.column},
+                                {"cost", cost.column},
+                                {"x", points[i].cost},
+                                {"y", t.number(i, error.column)},
+                                {"key", key}});
+            }
+        }
+    return rows.dump();
+}
+
+std::vector<Axis> error_axes(const Table& cells, const std::vector<std::string>& taps, const std::string& first) {
+    std::vector<Axis> axes;
+    for (const std::string& tap : taps)
+        for (const Measure& m : measures()) {
+            const Axis axis{m.column + (tap.empty() ? "" : "_" + tap), m.title + (tap.empty() ? "" : ", tap " + tap)};
+            bool finite = false;
+            for (std::size_t i = 0; i < cells.rows.size(); ++i) finite = finite || std::isfinite(cells.number(i, axis.column));
+            if (m.less_is_better && finite) axes.insert(axis.column == first ? axes.begin() : axes.end(), axis);
+        }
+    return axes;
+}
+
+std::vector<Axis> cost_axes() {
+    return {{"cost_s_per_s", "computing time per second of sound [s/s]"},
+            {"ns_per_step", "time per step [ns]"},
+            {"rate", "sample rate [Hz]"},
+            {"dofs", "state carried [doubles]"}};
+}
+
+}  // namespace jvari

@@ -1,0 +1,52 @@
+// The built program as its users meet it: arguments in; exit code, standard output and standard error out.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace jvari::test {
+
+inline std::string content(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+struct Scratch {  // a folder for one test
+    Scratch() {
+        std::string name = (std::filesystem::temp_directory_path() / "jvari-test-XXXXXX").string();
+        if (mkdtemp(name.data())) path = name;
+    }
+    ~Scratch() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    std::filesystem::path path;
+    std::string operator/(const std::string& name) const { return (path / name).string(); }
+    int files() const {
+        int n = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(path))
+            n += entry.path().filename() != "stdout" && entry.path().filename() != "stderr";
+        return n;
+    }
+};
+
+struct Outcome {
+    int code;
+    std::string out, err;
+};
+
+inline Outcome jvari(const Scratch& scratch, const std::string& arguments, const std::string& environment = "") {
+    const std::string out = scratch / "stdout", err = scratch / "stderr";
+    const int status = std::system((environment + " " JVARI_PROGRAM " " + arguments + " >" + out + " 2>" + err + " </dev/null").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+}
+
+}  // namespace jvari::test

@@ -1,0 +1,262 @@
+// The command line's contract: exit codes, what stands on which stream, and files that are whole or absent.
+#include "command_line.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/records.hpp"
+
+namespace jvari::test {
+namespace {
+
+const std::string plugin = std::string(" --plugin ") + JVARI_STUMBLING_PLUGIN;
+
+TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
+    const Scratch scratch;
+    const std::pair<const char*, const char*> cases[] = {
+        {"", "subcommand"},
+        {"rum", "did you mean \"run\""},
+        {"run", "scene"},
+        {"run free_string", "--scheme"},
+        {"run free_string --scheme modal_two_pont", "did you mean \"modal_two_point\""},
+        {"run free_strin --scheme modal_two_point", "did you mean \"free_string\""},
+        {"run nowhere/at_all.toml --scheme modal_two_point", "nowhere/at_all.toml"},
+        {"run free_string --scheme modal_two_point --rate -1", "number > 0"},
+        {"run free_string --scheme modal_two_point --rate nan", "number > 0"},
+        {"run free_string --scheme modal_two_point --rate inf", "number > 0"},
+        {"run free_string --scheme modal_two_point --rate 44100x", "number > 0"},
+        {"run free_string --scheme modal_two_point --duration 0", "number > 0"},
+        {"run free_string --scheme modal_two_point --duration nan", "number > 0"},
+        {"run free_string --scheme modal_two_point --duration 1e12", "memory"},
+        {"run free_string --scheme modal_two_point --tap-rate -5", "number > 0"},
+        {"run free_string --scheme modal_two_point --tap-rate 30000", "whole multiple"},
+        {"run free_string --scheme modal_two_point --modes 0", "whole number > 0"},
+        {"run free_string --scheme modal_two_point --modes 1.5", "whole number > 0"},
+        {"run free_string --scheme modal_two_point --set tension", "KEY.PATH=VALUE"},
+        {"run free_string --scheme modal_two_point --set string.0.tensoin=1", "tension"},
+        {"run free_string --scheme modal_two_point --set string.0.tension=-3", "tension"},
+        {"run free_string --scheme modal_two_point --option none=1", "unknown option none"},
+        {"run free_string --scheme modal_two_point --option none", "NAME=VALUE"},
+        {"run free_string --scheme modal_two_point --option other:a=1", "this run is of modal_two_point"},
+        {"run free_string --scheme modal_two_point --out trace.mp3", ".csv, .wav or .h5"},
+        {"run free_string --scheme modal_two_point --out nowhere/trace.csv", "no folder"},
+        {"run free_string --scheme modal_two_point --out /tmp", "extension"},
+        {"run free_string --scheme modal_two_point --wav-format pcm16", "--out FILE.wav"},
+        {"run free_string --scheme modal_two_point --wav-format mp3 --out a.wav", "float64"},
+        {"run free_string --scheme modal_two_point --frobnicate", "--frobnicate"},
+        {"run free_string --scheme modal_two_point --plugin nowhere.so", "nowhere.so"},
+        {"list everything", "schemes"},
+        {"list scenes --markdown", "list schemes"},
+        {"compare free_string --rates 44100,-1", "number > 0"},
+        {"compare free_string --rates 44100,48000", "--tap-rate"},
+        {"compare free_string --schemes modal_two_pont", "did you mean"},
+        {"compare free_string --reference exact_liner", "did you mean \"exact_linear\""},
+        {"compare free_string --option none=1 --duration 0.01", "no compared scheme has it"},
+        {"compare free_string --repeats 0", "whole number > 0"},
+        {"compare free_string --out /proc/nowhere", "/proc/nowhere"},
+        {"report nowhere", "nowhere/cells.csv"},
+    };
+    for (const auto& [arguments, expected] : cases) {
+        const Outcome o = jvari(scratch, arguments);
+        EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+        EXPECT_EQ(o.out, "") << arguments;
+        EXPECT_NE(o.err.find(expected), std::string::npos) << arguments << "\n" << o.err;
+    }
+}
+
+TEST(CommandLine, HelpTeachesWithExamplesAndEndsWith0) {
+    const Scratch scratch;
+    for (const char* arguments : {"--help", "run --help", "compare --help", "list --help", "report --help"}) {
+        const Outcome o = jvari(scratch, arguments);
+        EXPECT_EQ(o.code, 0) << arguments;
+        EXPECT_NE(o.out.find("Example"), std::string::npos) << arguments;
+    }
+    EXPECT_EQ(jvari(scratch, "--version").code, 0);
+}
+
+TEST(CommandLine, ARefusalEndsWith3AndNamesWhatIsMissing) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "run sitar_parabola --scheme modal_two_point --json");
+    EXPECT_EQ(o.code, 3);
+    EXPECT_NE(o.err.find("profile barrier"), std::string::npos) << o.err;
+    const auto json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json.at("status"), "refused");
+}
+
+TEST(CommandLine, AFailedRunEndsWith4AndWhatWasWrittenSoFarStaysValid) {
+    const Scratch scratch;
+    const Outcome o =
+        jvari(scratch, "run free_string --scheme stumbling --option fail_at=0.1 --json --out " + (scratch / "t.csv") + plugin);
+    EXPECT_EQ(o.code, 4) << o.err;
+    const auto json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json.at("status"), "diverged");
+    EXPECT_EQ(json.at("step"), 4410);
+    const Table t = read_csv(content(scratch / "t.csv"));
+    EXPECT_EQ(static_cast<long>(t.rows.size()), json.at("rows").get<long>());
+    EXPECT_EQ(json.at("rows"), 4411);
+    EXPECT_EQ(json.at("facts").at("stumbles"), 1);
+    EXPECT_EQ(json.at("smallest_contact_force"), -0.5);
+    EXPECT_TRUE(json.at("deepest_penetration").is_null());
+    EXPECT_EQ(scratch.files(), 1) << "a file was left half-written";
+}
+
+TEST(CommandLine, RunReportsEveryKeyOfTheContract) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.01 --json --quiet");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    const auto json = nlohmann::json::parse(o.out);
+    for (const char* key :
+         {"scheme", "scene", "rate", "modes", "dofs", "steps", "rows", "wall_seconds", "ns_per_step", "times_real_time", "status",
+          "energy_residual_per_step", "energy_residual_accumulated", "smallest_contact_force", "deepest_penetration", "facts"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json.at("rows"), 442);
+    EXPECT_EQ(json.at("modes"), 133);
+    EXPECT_TRUE(json.at("energy_residual_per_step").is_null());
+    const auto probed =
+        nlohmann::json::parse(jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.01 --json --energy").out);
+    EXPECT_LT(probed.at("energy_residual_accumulated").get<double>(), 1e-11);
+    EXPECT_GE(probed.at("energy_residual_accumulated").get<double>(), 0);
+}
+
+TEST(CommandLine, TapRateIs44100OrTheRateWhereThatIsNoMultiple) {
+    const Scratch scratch;
+    const auto rows = [&scratch](const std::string& arguments) {
+        return nlohmann::json::parse(jvari(scratch, "run free_string --duration 0.01 --json --modes 20 " + arguments).out)
+            .at("rows")
+            .get<long>();
+    };
+    EXPECT_EQ(rows("--scheme modal_two_point"), 442);
+    EXPECT_EQ(rows("--scheme modal_two_point --rate 88200"), 442);
+    EXPECT_EQ(rows("--scheme modal_two_point --rate 48000"), 481);
+    EXPECT_EQ(rows("--scheme modal_two_point --rate 48000 --tap-rate 24000"), 241);
+    EXPECT_EQ(rows("--scheme exact_linear"), 442);
+}
+
+TEST(CommandLine, TheTraceAsCsvHasItsColumnsItsTimesAndReadsBackExactly) {
+    const Scratch scratch;
+    ASSERT_EQ(jvari(scratch, "run free_string --scheme stumbling --energy --duration 0.01 --out " + (scratch / "t.csv") + plugin).code, 0);
+    const Table t = read_csv(content(scratch / "t.csv"));
+    const std::vector<std::string> columns{"time_s", "nut", "y03", "energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
+    EXPECT_EQ(t.columns, columns);
+    ASSERT_EQ(t.rows.size(), 442u);
+    for (std::size_t n : {0u, 1u, 7u, 441u}) {
+        EXPECT_EQ(t.number(n, "time_s"), n / 44100.0);
+        EXPECT_EQ(t.number(n, "y03"), 2 * t.number(n, "nut"));
+        EXPECT_EQ(t.number(n, "energy_stored_J"), 1);
+    }
+    const double y = std::cos(200 * M_PI * (7 / 44100.0)) * std::exp(-3 * (7 / 44100.0)) * (1 + 100 / 44100.0);
+    EXPECT_EQ(t.number(7, "nut"), y);
+}
+
+TEST(CommandLine, WavAndHdf5AreWrittenWholeAndPcmSaysThatItWasScaled) {
+    const Scratch scratch;
+    const std::string run = "run free_string --scheme stumbling --duration 0.1" + plugin + " --out ";
+    ASSERT_EQ(jvari(scratch, run + (scratch / "t.wav")).code, 0);
+    EXPECT_EQ(std::filesystem::file_size(scratch / "t.wav") / (4411 * 2 * 8), 1u);  // two taps, 64 bits, and a header
+    EXPECT_EQ(content(scratch / "t.wav").substr(0, 4), "RIFF");
+    const Outcome pcm = jvari(scratch, run + (scratch / "p.wav") + " --wav-format pcm16");
+    EXPECT_NE(pcm.out.find("level-normalised"), std::string::npos);
+    EXPECT_EQ(std::filesystem::file_size(scratch / "p.wav") / (4411 * 2 * 2), 1u);
+    ASSERT_EQ(jvari(scratch, run + (scratch / "t.h5")).code, 0);
+    EXPECT_EQ(content(scratch / "t.h5").substr(1, 3), "HDF");
+    EXPECT_EQ(scratch.files(), 3);
+}
+
+TEST(CommandLine, ListShowsWhatExistsAndWhichSchemeRepresentsWhichScene) {
+    const Scratch scratch;
+    const auto json = nlohmann::json::parse(jvari(scratch, "list --json" + plugin).out);
+    for (const char* key : {"schemes", "references", "scenes", "taps", "suites", "matrix"}) EXPECT_TRUE(json.contains(key)) << key;
+    bool seen = false;
+    for (const auto& entry : json.at("matrix"))
+        if (entry.at("scheme") == "stumbling" && entry.at("scene") == "tanpura_c3") {
+            seen = true;
+            EXPECT_FALSE(entry.at("represents").get<bool>());
+            EXPECT_EQ(entry.at("missing"), nlohmann::json::array({"thread"}));
+        }
+    EXPECT_TRUE(seen);
+    EXPECT_NE(jvari(scratch, "list schemes --markdown").out.find("| `modal_two_point` |"), std::string::npos);
+    EXPECT_EQ(jvari(scratch, "list schemes --markdown").out.find("modal_two_pointt"), std::string::npos);
+}
+
+TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
+    const Scratch scratch;
+    const std::string out = scratch / "cmp";
+    const Outcome o = jvari(
+        scratch,
+        "compare free_string --schemes stumbling,modal_two_point --rates 44100,88200,176400 --duration 0.06 --repeats 2 --json --out " +
+            out + plugin);
+    ASSERT_EQ(o.code, 0) << o.err;
+    const auto json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json.at("cells").size(), 6u);
+    EXPECT_EQ(json.at("reference"), "exact_linear");
+    const Table cells = read_csv(content(out + "/cells.csv"));
+    ASSERT_EQ(cells.rows.size(), 6u);
+    EXPECT_EQ(cells.at(2, "status"), "refused");
+    EXPECT_EQ(cells.at(2, "reason"), "stumbling has no rates above 150 kHz, only walks");
+    EXPECT_EQ(cells.at(2, "error_l2_10ms"), "");
+    for (std::size_t i = 3; i < 6; ++i) {
+        EXPECT_LT(cells.number(i, "error_l2_50ms"), 0.1);
+        EXPECT_EQ(cells.number(i, "error_l2_50ms"), cells.number(i, "error_l2_50ms_nut"));
+        EXPECT_EQ(cells.number(i, "modes"), 133);
+        EXPECT_GT(cells.number(i, "cost_s_per_s"), 0);
+    }
+    const Table errors = read_csv(content(out + "/errors.csv")), cost = read_csv(content(out + "/cost.csv"));
+    for (const char* clock : {"wall_seconds", "ns_per_step", "times_real_time", "cost_s_per_s", "pareto"}) {
+        EXPECT_LT(errors.column(clock), 0) << clock;
+        EXPECT_GE(cost.column(clock), 0) << clock;
+    }
+    for (const std::string& name : cost.columns) EXPECT_EQ(name.find("error"), std::string::npos) << name;
+    const auto manifest = nlohmann::json::parse(content(out + "/manifest.json"));
+    for (const char* key : {"commit", "compiler", "flags", "cpu", "date", "scene", "reference", "noise_floor"})
+        EXPECT_TRUE(manifest.contains(key)) << key;
+    EXPECT_EQ(manifest.at("scene").at("hash").get<std::string>().size(), 16u);
+
+    const std::string page = content(out + "/report.html");
+    EXPECT_NE(page.find("free_string"), std::string::npos);
+    EXPECT_EQ(page.find("<script src"), std::string::npos);
+    EXPECT_EQ(page.find("<link"), std::string::npos);
+    std::filesystem::remove(out + "/report.html");
+    ASSERT_EQ(jvari(scratch, "report " + out).code, 0);
+    EXPECT_EQ(content(out + "/report.html"), page);
+}
+
+TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigit) {
+    const Scratch scratch;
+    const std::string arguments =
+        "compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.02 --repeats 1 --out ";
+    ASSERT_EQ(jvari(scratch, arguments + (scratch / "a")).code, 0);
+    ASSERT_EQ(jvari(scratch, arguments + (scratch / "b")).code, 0);
+    EXPECT_EQ(content(scratch / "a/errors.csv"), content(scratch / "b/errors.csv"));
+}
+
+TEST(CommandLine, ComparedSchemesThatFailOrRefuseAreRowsAndDecideTheExitCodeOnlyTogether) {
+    const Scratch scratch;
+    const std::string common = "compare free_string --duration 0.06 --repeats 1 --rates 44100 --json" + plugin;
+    const auto failed = jvari(scratch, common + " --schemes stumbling --option stumbling:fail_at=0.03");
+    EXPECT_EQ(failed.code, 4) << failed.err;
+    const auto cell = nlohmann::json::parse(failed.out).at("cells").at(0);
+    EXPECT_EQ(cell.at("status"), "diverged");
+    EXPECT_EQ(cell.at("failed_step"), 1323);
+    EXPECT_TRUE(cell.at("error_l2_50ms").is_null());  // infinite
+    EXPECT_GT(cell.at("error_l2_10ms").get<double>(), 0);
+    const auto one_of_two =
+        jvari(scratch, common + " --schemes stumbling,modal_two_point --option fail_at=0.03");  // the other does not know it
+    EXPECT_EQ(one_of_two.code, 0) << one_of_two.err;
+    EXPECT_EQ(jvari(scratch, "compare tanpura_c3 --schemes stumbling --duration 0.01 --rates 44100 --repeats 1" + plugin).code, 3);
+}
+
+TEST(CommandLine, WithoutNodePackagesTheTablesStillComeAndALineSaysWhatIsMissing) {
+    const Scratch scratch;
+    const std::string out = scratch / "cmp";
+    const Outcome o = jvari(scratch, "compare free_string --schemes modal_two_point --rates 44100 --duration 0.01 --repeats 1 --out " + out,
+                            "JVARI_NODE_MODULES=/nowhere");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("npm ci"), std::string::npos) << o.err;
+    EXPECT_TRUE(std::filesystem::exists(out + "/report.html"));
+    EXPECT_FALSE(std::filesystem::exists(out + "/work_precision.svg"));
+    EXPECT_NE(content(out + "/report.html").find("npm ci"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace jvari::test
