@@ -16,7 +16,9 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-bool serves(double rate, double error) { return std::isfinite(rate) && rate > 0 && std::isfinite(error) && error > 0; }
+bool serves(double rate, double error) {
+    return std::isfinite(rate) && rate > 0 && std::isfinite(error) && error > 0;
+}
 
 double distance(std::span<const double> a, std::span<const double> b) {
     double sum = 0;

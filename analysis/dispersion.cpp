@@ -20,8 +20,10 @@ using std::numbers::pi;
 constexpr double kaiser_shape = 20;        // side lobes at -150 dB, first zero at 6.45/T for a window of T seconds
 constexpr double main_lobe = 6.45;         // sqrt(1 + (shape/pi)^2)
 constexpr long most_rows = 320;            // of the thinned signal: the pencil costs their cube
-constexpr double noise_margin = 10;        // singular values below this many medians are noise
-constexpr double rounding_margin = 1e-13;  // and below this share of the largest, rounding
+constexpr double rounding_margin = 1e-13;  // singular values below this share of the largest are rounding
+constexpr double noise_margin = 350;  // and below this many medians noise: white noise takes the lobe's shape, 70 from the lobe's top to
+                                      // its median over the thinned band (5 half widths), times the scatter of the largest of them
+constexpr double leakage = 1e-7;      // a partial below this share of the signal's largest value may be what the side lobes let in
 
 std::vector<double> kaiser(long n) {
     std::vector<double> w(n);
@@ -37,7 +39,8 @@ Eigen::VectorXcd zoom(std::span<const double> x, const std::vector<double>& w, d
     Eigen::VectorXcd z(rows);
     for (long m = 0; m < rows; ++m) {
         Complex sum = 0;
-        for (std::size_t j = 0; j < w.size(); ++j) sum += w[j] * x[m * step + j] * std::polar(1.0, -centre * static_cast<double>(m * step + j));
+        for (std::size_t j = 0; j < w.size(); ++j)
+            sum += w[j] * x[m * step + j] * std::polar(1.0, -centre * static_cast<double>(m * step + j));
         z[m] = sum;
     }
     return z;
@@ -69,9 +72,9 @@ Eigen::VectorXcd amplitudes_of(const Eigen::VectorXcd& z, const Eigen::VectorXcd
 std::vector<Partial> partials_between(std::span<const double> signal, double rate, double from, double to) {
     if (!std::all_of(signal.begin(), signal.end(), [](double v) { return std::isfinite(v); })) return {};
     if (!(to > from) || !(rate > 0)) return {};
-    const double centre = pi * (from + to) / rate, half_width = 0.5 * (to - from);                          // [rad/row], [Hz]
-    const long taps = static_cast<long>(std::ceil(main_lobe * rate / (2 * half_width)));                    // the window's zero at twice the half width
-    const long step = std::max(1L, static_cast<long>(rate / (5 * half_width)));                             // the lobe is 4 half widths wide
+    const double centre = pi * (from + to) / rate, half_width = 0.5 * (to - from);        // [rad/row], [Hz]
+    const long taps = static_cast<long>(std::ceil(main_lobe * rate / (2 * half_width)));  // the window's zero at twice the half width
+    const long step = std::max(1L, static_cast<long>(rate / (5 * half_width)));           // the lobe is 4 half widths wide
     const long rows = std::min(most_rows, (static_cast<long>(signal.size()) - taps) / step + 1);
     if (static_cast<long>(signal.size()) < taps || rows < 8) return {};
 
@@ -81,6 +84,8 @@ std::vector<Partial> partials_between(std::span<const double> signal, double rat
     if (poles.size() == 0) return {};
     const Eigen::VectorXcd amplitudes = amplitudes_of(z, poles);
 
+    double largest = 0;
+    for (double v : signal) largest = std::max(largest, std::abs(v));
     std::vector<Partial> partials;
     for (long k = 0; k < poles.size(); ++k) {
         const Complex exponent = std::log(poles[k]) / static_cast<double>(step);  // per row, relative to the centre
@@ -88,7 +93,8 @@ std::vector<Partial> partials_between(std::span<const double> signal, double rat
         for (long j = 0; j < taps; ++j) gain += w[j] * std::exp(exponent * static_cast<double>(j));
         const Complex amplitude = 2.0 * amplitudes[k] / gain;  // a real partial shows one of its two exponentials
         const double frequency = (centre + exponent.imag()) * rate / (2 * pi);
-        if (frequency > from && frequency < to) partials.push_back({frequency, -exponent.real() * rate, std::abs(amplitude), std::arg(amplitude)});
+        if (frequency <= from || frequency >= to || std::abs(amplitude) < leakage * largest) continue;
+        partials.push_back({frequency, -exponent.real() * rate, std::abs(amplitude), std::arg(amplitude)});
     }
     std::sort(partials.begin(), partials.end(), [](const Partial& a, const Partial& b) { return a.frequency < b.frequency; });
     return partials;
@@ -97,11 +103,18 @@ std::vector<Partial> partials_between(std::span<const double> signal, double rat
 Partial partial_near(std::span<const double> signal, double rate, double guess, double half_width) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const auto partials = partials_between(signal, rate, guess - half_width, guess + half_width);
-    const auto louder = [](const Partial& a, const Partial& b) { return a.amplitude < b.amplitude; };
-    const auto loudest = std::max_element(partials.begin(), partials.end(), louder);
+    const double seconds = static_cast<double>(signal.size()) / rate;
+    const auto energy = [&](const Partial& p) {  // a^2 times the integral of exp(-2 sigma t) over the record
+        const double u = 2 * p.decay * seconds;
+        return p.amplitude * p.amplitude * (std::abs(u) < 1e-8 ? 1.0 : -std::expm1(-u) / u);
+    };
+    const auto quieter = [&](const Partial& a, const Partial& b) { return energy(a) < energy(b); };
+    const auto loudest = std::max_element(partials.begin(), partials.end(), quieter);
     return loudest == partials.end() ? Partial{nan, nan, nan, nan} : *loudest;
 }
 
-double cents(double frequency, double reference) { return 1200 * std::log2(frequency / reference); }
+double cents(double frequency, double reference) {
+    return 1200 * std::log2(frequency / reference);
+}
 
 }  // namespace jvari

@@ -19,12 +19,13 @@ struct Partial {
     double phase;      // [rad], at the first row
 };
 
-// The partials with from < f < to [Hz] that stand out of the noise, by ascending frequency; none where the record is too short
-// for the band (it needs about 6.5/(to - from) seconds for the filter alone), is not finite, or is zero.
+// The partials with from < f < to [Hz] that stand out of the noise and are no more than 140 dB below the signal's largest value, by
+// ascending frequency; none where the record is too short for the band (it needs about 6.5/(to - from) seconds for the filter alone),
+// is not finite, or is zero.
 // The band wants to be as wide as twice the decay rate in Hz (sigma/pi) or more, and to hold fewer than about 40 partials.
 std::vector<Partial> partials_between(std::span<const double> signal, double rate, double from, double to);
 
-// The strongest partial within `half_width` [Hz] of `guess`; all NaN where there is none. A good half width is 0.4 of the
+// The partial with the most energy within `half_width` [Hz] of `guess`; all NaN where there is none. A good half width is 0.4 of the
 // distance to the next partial.
 Partial partial_near(std::span<const double> signal, double rate, double guess, double half_width);
 

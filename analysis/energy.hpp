@@ -1,4 +1,5 @@
-// The energy ledger of a run: stored[n] - stored[n-1] = supplied[n] - dissipated[n] (design of the seam; van Walstijn et al. 2016, eqs 49-52).
+// The energy ledger of a run: stored[n] - stored[n-1] = supplied[n] - dissipated[n] (design of the seam; van Walstijn et al. 2016, eqs
+// 49-52).
 //
 // All columns [J], one row per tap interval; supplied and dissipated are sums over the interval that ends at the row.
 // A balance that closes is necessary, never sufficient: a scheme can keep an energy of its own exactly and still be wrong.
@@ -11,12 +12,12 @@
 namespace jvari {
 
 struct EnergyBalance {
-    double largest_stored;   // [J]; what the residuals are relative to
-    double smallest_stored;  // [J]; negative: the scheme's energy is no norm of its state
-    double step;             // max_n |stored[n] - stored[n-1] - supplied[n] + dissipated[n]| / largest_stored
-    long step_row;           // the row where it is reached; 0 where there is but one
-    double accumulated;      // max_n |stored[n] - stored[0] - sum_{1..n} (supplied - dissipated)| / largest_stored
-    double drift;            // (stored[last] - stored[0]) / largest_stored, the ledger's entries not taken off: for lossless runs
+    double largest_stored;       // [J]; what the residuals are relative to
+    double smallest_stored;      // [J]; negative: the scheme's energy is no norm of its state
+    double step;                 // max_n |stored[n] - stored[n-1] - supplied[n] + dissipated[n]| / largest_stored
+    long step_row;               // the row where it is reached; 0 where there is but one
+    double accumulated;          // max_n |stored[n] - stored[0] - sum_{1..n} (supplied - dissipated)| / largest_stored
+    double drift;                // (stored[last] - stored[0]) / largest_stored, the ledger's entries not taken off: for lossless runs
     double smallest_dissipated;  // [J] of one row; negative: a loss that feeds energy in
 };
 

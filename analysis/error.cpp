@@ -25,7 +25,9 @@ void same_taps(const Trace& a, const Trace& b) {
 }
 }  // namespace
 
-long row_at(double seconds, double rate) { return std::max(0L, static_cast<long>(std::ceil(seconds * rate - 1e-6))); }
+long row_at(double seconds, double rate) {
+    return std::max(0L, static_cast<long>(std::ceil(seconds * rate - 1e-6)));
+}
 
 double relative_l2(std::span<const double> candidate, std::span<const double> reference, double rate, Window window) {
     const long have = static_cast<long>(reference.size());

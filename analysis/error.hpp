@@ -15,7 +15,7 @@
 
 namespace jvari {
 
-struct Window {  // the rows with from <= t < to
+struct Window {                                           // the rows with from <= t < to
     double from = 0;                                      // [s]
     double to = std::numeric_limits<double>::infinity();  // [s]; infinity: to the end of the reference
 };

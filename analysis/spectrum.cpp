@@ -27,8 +27,7 @@ struct Free {
 // |X|^2 of real frames of n rows, scaled to one-sided mean squares.
 class Transform {
 public:
-    Transform(int n, Taper taper)
-        : n_(n), window_(n, 1.0), in_(fftw_alloc_real(n)), out_(fftw_alloc_complex(n / 2 + 1)) {
+    Transform(int n, Taper taper) : n_(n), window_(n, 1.0), in_(fftw_alloc_real(n)), out_(fftw_alloc_complex(n / 2 + 1)) {
         if (taper == Taper::hann)
             for (int i = 0; i < n; ++i) window_[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * i / n);
         for (double w : window_) weight_ += w * w;
@@ -62,7 +61,9 @@ private:
     fftw_plan plan_ = nullptr;
 };
 
-double decibel(double power) { return 10 * std::log10(power); }
+double decibel(double power) {
+    return 10 * std::log10(power);
+}
 
 // 0: compare; else the answer that the signals themselves give (see the top of spectrum.hpp).
 double verdict(std::span<const double>& candidate, std::span<const double> reference) {
@@ -115,11 +116,12 @@ Spectrogram spectrogram(std::span<const double> signal, double rate, int window,
     return s;
 }
 
-Bands third_octaves(std::span<const double> signal, double rate, Taper taper) {
-    const PowerSpectrum spectrum = power_spectrum(signal, rate, taper);
+Bands third_octaves(std::span<const double> signal, double rate, const BandChoice& choice) {
+    const PowerSpectrum spectrum = power_spectrum(signal, rate, choice.taper);
     const double flank = std::pow(10.0, 0.05);
     Bands bands;
-    for (int n = -10; n <= 13; ++n) {
+    const auto number = [](double hertz) { return 10 * std::log10(hertz / 1000); };
+    for (int n = static_cast<int>(std::ceil(number(choice.lowest / 1.02))); n <= number(choice.highest * 1.02); ++n) {
         const double centre = 1000 * std::pow(10.0, 0.1 * n);
         if (spectrum.power.empty() || centre >= 0.5 * rate || centre * (flank - 1 / flank) < spectrum.bin_hz) continue;
         bands.centre.push_back(centre);
@@ -128,12 +130,12 @@ Bands third_octaves(std::span<const double> signal, double rate, Taper taper) {
     return bands;
 }
 
-double third_octave_difference(std::span<const double> candidate, std::span<const double> reference, double rate, Taper taper,
-                               double range) {
+double third_octave_difference(std::span<const double> candidate, std::span<const double> reference, double rate,
+                               const BandChoice& choice) {
     if (const double v = verdict(candidate, reference); v != 0) return v;
-    const Bands c = third_octaves(candidate, rate, taper), r = third_octaves(reference, rate, taper);
+    const Bands c = third_octaves(candidate, rate, choice), r = third_octaves(reference, rate, choice);
     if (r.level.empty()) return nan;  // too short for any band
-    const double floor = *std::max_element(r.level.begin(), r.level.end()) - range;
+    const double floor = *std::max_element(r.level.begin(), r.level.end()) - choice.range;
     double squares = 0;
     int bands = 0;
     for (std::size_t i = 0; i < r.level.size(); ++i) {

@@ -37,15 +37,23 @@ struct Bands {
     std::vector<double> centre;  // exact centre frequencies, 1000 x 10^(n/10) [Hz]
     std::vector<double> level;   // 10 log10 of the mean square in the band [dB re the unit squared]; -inf for none
 };
-// Third octaves, base ten (IEC 61260-1, ISO 266), edges at 10^(+-1/20) of the centre, ideal flanks: the power of the bins between the
-// edges, a bin that straddles an edge shared by its width. Bands from 100 Hz to 20 kHz (n = -10 ... 13) that are at least a bin wide and
-// whose centre lies below half the rate; the last is cut there. The taper is rectangular: the whole record counts alike, also the attack.
-Bands third_octaves(std::span<const double> signal, double rate, Taper = Taper::rectangular);
+// What a comparison of bands looks at.
+struct BandChoice {
+    double lowest = 100, highest = 20e3;  // exact centres from here to here, both with 2 % to spare for their nominal names [Hz]
+    Taper taper = Taper::rectangular;     // the whole record counts alike, also the attack
+    double range = 100;                   // energy: within so much of the reference's strongest band [dB]
+};
 
-// Root mean square over bands of candidate level - reference level [dB]. The bands are those where the reference has energy: within
-// `range` of its strongest; below that floor the candidate's level is set to the floor.
-double third_octave_difference(std::span<const double> candidate, std::span<const double> reference, double rate,
-                               Taper = Taper::rectangular, double range = 100);
+// Third octaves, base ten (IEC 61260-1, ISO 266), edges at 10^(+-1/20) of the centre, ideal flanks: the power of the bins between the
+// edges, a bin that straddles an edge shared by its width. Left out: bands narrower than a bin, and those whose centre is at half the rate
+// or above; the last is cut there.
+Bands third_octaves(std::span<const double> signal, double rate, const BandChoice& = {});
+
+// Root mean square over bands of candidate level - reference level [dB]. The bands are those where the reference has energy; below the
+// floor of that range the candidate's level is set to the floor. The choice matters: the rectangular taper's leakage (the jump from the
+// last row to the first) fills bands far below their neighbours, the Hann one shows them, and with it a low band between two partials,
+// or below the first, weighs as much as one that sounds.
+double third_octave_difference(std::span<const double> candidate, std::span<const double> reference, double rate, const BandChoice& = {});
 
 // ---- Time and frequency.
 

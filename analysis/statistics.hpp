@@ -6,8 +6,8 @@
 namespace jvari {
 
 struct Spread {
-    int count = 0;                 // values that are finite; the rest are left out
-    double median, lower, upper;   // median and quartiles (linear between order statistics), in the unit of the values; NaN where count is 0
+    int count = 0;                // values that are finite; the rest are left out
+    double median, lower, upper;  // median and quartiles (linear between order statistics), in the unit of the values; NaN where count is 0
     double smallest, largest;
 };
 Spread spread_of(std::span<const double> values);

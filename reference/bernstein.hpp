@@ -1,17 +1,17 @@
-// Where a polynomial first turns negative, by its Bernstein coefficients: on a piece of the unit interval the values lie between the smallest
-// and the largest coefficient, and one sign change means one root (variation diminishing). So nothing is sampled and nothing can be
-// missed, except dips that stay above -bound.
+// Where a polynomial first turns negative, by its Bernstein coefficients: on a piece of the unit interval the values lie between the
+// smallest and the largest coefficient, and one sign change means one root (variation diminishing). So nothing is sampled and nothing can
+// be missed, except dips that stay above -bound.
 #pragma once
 
 namespace jvari {
 
 constexpr int longest_series = 56;  // coefficients of any series here
 
-double value(const double* c, int count, double x);              // sum c_n x^n
-double slope(const double* c, int count, double x);              // sum n c_n x^(n-1)
+double value(const double* c, int count, double x);  // sum c_n x^n
+double slope(const double* c, int count, double x);  // sum n c_n x^(n-1)
 
-// The first x in [0, 1] from which sum c_n x^n is negative, or 2 if there is none. Exactly zero leading coefficients are a root at 0 that is
-// known already: what follows it is decided by the first coefficient that is not zero.
+// The first x in [0, 1] from which sum c_n x^n is negative, or 2 if there is none. Exactly zero leading coefficients are a root at 0 that
+// is known already: what follows it is decided by the first coefficient that is not zero.
 double first_negative(const double* c, int count, double bound);
 
 }  // namespace jvari

@@ -1,8 +1,8 @@
 // The exact reference for strings against one-sided linear springs: event-driven, no step size in it.
 //
-// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck), as the piecewise linear system that exponent 1 makes of them.
-// Between two events the modes are free oscillators under the forces of thread, touching barriers and pluck, and those forces follow a
-// Volterra equation of a few unknowns (springs.hpp). One window:
+// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck), as the piecewise linear system that exponent 1 makes of
+// them. Between two events the modes are free oscillators under the forces of thread, touching barriers and pluck, and those forces follow
+// a Volterra equation of a few unknowns (springs.hpp). One window:
 //   1. Taylor series of the points' free motion from the modal state              (one pass over the modes)
 //   2. series of displacements and forces by recurrence, with a rigorous remainder
 //   3. the first sign change of any gap by Bernstein isolation: no contact deeper than 2 x the bound is missed
@@ -25,10 +25,10 @@
 namespace jvari {
 
 namespace {
-constexpr double reach_of_window = 4.5;   // window x growth rate at window = 1; 30 terms
-constexpr double truncation = 1e-18;      // of every series, relative
-constexpr double rounding = 16 * 2.3e-16; // of a gap, relative to sum |g_i| (|y_i| + |v_i|/rate)
-constexpr int nodes = 8;                  // Gauss-Legendre nodes per window, of the energy probe
+constexpr double reach_of_window = 4.5;    // window x growth rate at window = 1; 30 terms
+constexpr double truncation = 1e-18;       // of every series, relative
+constexpr double rounding = 16 * 2.3e-16;  // of a gap, relative to sum |g_i| (|y_i| + |v_i|/rate)
+constexpr int nodes = 8;                   // Gauss-Legendre nodes per window, of the energy probe
 
 const std::vector<double> inverse_factorial = [] {
     std::vector<double> f{1.0};
@@ -49,8 +49,8 @@ public:
     std::vector<Fact> facts() const override;
 
 private:
-    bool interval(bool probe) noexcept;                                      // to the next row
-    bool stretch(double from, double to, bool plucked, bool probe) noexcept;  // within one interval
+    bool interval(bool probe) noexcept;                                                 // to the next row
+    bool stretch(double from, double to, bool plucked, bool probe) noexcept;            // within one interval
     double window(double left, bool plucked, double since_pluck, bool probe) noexcept;  // how far it came
     double resolve(double longest, bool plucked, double since_pluck, int p_terms) noexcept;
     double bound(int point, double z, int p_terms, double growth) const noexcept;
@@ -72,7 +72,7 @@ private:
     std::vector<char> touching_, known_zero_;
     long row_ = 0;
     double bridge_impulse_ = 0, thread_impulse_ = 0, supplied_ = 0, dissipated_ = 0;  // of the interval that ends here
-    int idle_ = 0;                                                                       // windows in a row that came nowhere
+    int idle_ = 0;                                                                    // windows in a row that came nowhere
     Extremes extremes_;
 
     // one window
@@ -84,7 +84,12 @@ private:
 };
 
 ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double window)
-    : modes_(std::move(modes)), osc_(modes_), springs_(modes_, osc_, s), readout_(scene, modes_), tap_rate_(tap_rate), window_(window),
+    : modes_(std::move(modes)),
+      osc_(modes_),
+      springs_(modes_, osc_, s),
+      readout_(scene, modes_),
+      tap_rate_(tap_rate),
+      window_(window),
       interval_(osc_.rate / tap_rate) {
     if (s.pluck) pluck_.push_back(*s.pluck);
     start_ = osc_.pad(initial_displacement(modes_, s));
@@ -253,7 +258,8 @@ double ExactContact::bound(int a, double z, int p_terms, double growth) const no
 void ExactContact::measure(int a, double end, bool leaves) noexcept {
     const double* depth = gap_.data() + a * longest_series;  // touching: the gap's sign is turned, so this is the penetration
     double deepest = std::max(depth[0], value(depth, terms_, end));
-    extremes_.smallest_force = std::min(extremes_.smallest_force, springs_.k[a] * (leaves ? depth[0] : std::min(depth[0], value(depth, terms_, end))));
+    extremes_.smallest_force =
+        std::min(extremes_.smallest_force, springs_.k[a] * (leaves ? depth[0] : std::min(depth[0], value(depth, terms_, end))));
     if (depth[1] > 0 && slope(depth, terms_, end) < 0) {
         double low = 0, high = end;
         for (int i = 0; i < 30; ++i) {
@@ -335,7 +341,7 @@ double ExactContact::stored() const noexcept {
 std::vector<Fact> ExactContact::facts() const {
     return {{"events", extremes_.events, ""},
             {"windows", extremes_.windows, ""},
-            {"smallest_contact_force", extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force, "N"},
+            {"smallest_contact_force", extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0, "N"},
             {"deepest_penetration", extremes_.deepest, "m"},
             {"detection_tolerance", extremes_.tolerance, "m"}};
 }
@@ -352,14 +358,14 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-const Descriptor exact_contact = {
-    "exact_contact",
-    "piecewise linear system of van Walstijn et al. 2016, eqs 1-22, exact between events",
-    Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
-        Features(Feature::lumped_barrier) | Features(Feature::several_barriers) | Features(Feature::thread) |
-        Features(Feature::initial_shape) | Features(Feature::pluck),
-    Balance::to_tolerance,
-    Clock::continuous,
-    make};
+const Descriptor exact_contact = {"exact_contact",
+                                  "piecewise linear system of van Walstijn et al. 2016, eqs 1-22, exact between events",
+                                  Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                                      Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
+                                      Features(Feature::several_barriers) | Features(Feature::thread) | Features(Feature::initial_shape) |
+                                      Features(Feature::pluck),
+                                  Balance::to_tolerance,
+                                  Clock::continuous,
+                                  make};
 
 }  // namespace jvari

@@ -58,7 +58,7 @@ private:
     void next_row(bool probe) noexcept;
     void fly(const State& from, long double t, State& to) const noexcept;
     void push(State&, double from, double to) const noexcept;  // free flight and the pluck's force, one panel
-    void ledger(double from, double to) noexcept;               // from state_, energies of one panel by quadrature
+    void ledger(double from, double to) noexcept;              // from state_, energies of one panel by quadrature
     double stored() const noexcept;
     int panels(double length) const noexcept { return std::max(1, static_cast<int>(std::ceil(length * rate_ / 3))); }
 

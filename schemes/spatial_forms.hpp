@@ -1,0 +1,102 @@
+// Three forms of one linear update, which modal_spatial_newton steps through   (Issanchou et al. 2016, eqs 13-15).
+//
+// Per mode  y+ = C y - C~ y- + (dt^2/m) F  (14) is carried as displacement and increment, d+ = C~ d - kappa y + (dt^2/m) F, y+ = y + d+,
+// kappa = 1 + C~ - C: the same recursion, but a rounding error in C (which is 2 - O(omega dt)^2) would detune low modes at high rates.
+//
+//   DenseForm       nodal displacements, the paper's full matrices D~ and 1 + D~ - D         2 (N-1)^2 multiply-adds a step
+//   RestrictedForm  modal displacements, synthesis at the ports that are read alone          about (N-1)(3 + reads)
+//   SineForm        modal displacements, all nodes by a fast sine transform (FFTW RODFT00)
+//
+// All have the members of RestrictedForm. A port is a place where a force enters the string or a displacement is read, by modal weights.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "schemes/aligned.hpp"
+
+namespace jvari {
+
+struct Port {
+    std::vector<double> weights;  // g_j: displacement is sum_j g_j y_j, force on mode j is g_j F
+    int node = 0;                 // 1 .. N-1 where the weights are those of a node, sin(j pi node/N); else 0
+};
+
+struct LinearUpdate {
+    int intervals = 0;              // N: modes 1 .. N-1, nodes x_i = i L/N
+    std::vector<double> Ct, kappa;  // C~ and 1 + C~ - C of each mode
+    double gain = 0;                // dt^2/m [s^2/kg]
+    std::vector<Port> ports;
+    int reads = 0;  // the first `reads` ports are read, every one can be pushed
+    int modes() const { return intervals - 1; }
+};
+
+// sin(j pi node/N), j = 1 .. N-1, its argument reduced in integers.
+std::vector<double> node_weights(int intervals, int node);
+
+// The two levels that a form carries, in its own coordinates, and a copy of the increment taken when asked for.
+struct Levels {
+    AlignedVector displacement;  // y^n [m]
+    AlignedVector increment;     // y^{n+1} - y^n without the force of step n [m]
+    AlignedVector kept;          // an earlier increment
+};
+double dot(const AlignedVector& weights, const AlignedVector& level);
+
+class RestrictedForm {
+public:
+    explicit RestrictedForm(const LinearUpdate&);
+    ~RestrictedForm();
+    void start(const double* y, const double* free_increment);  // modal values at t = 0
+    void read(double* free) const;                              // displacement of the reads at n+1 without the force of step n
+    void advance(const double* force, double* free);            // applies the forces of step n, n -> n+1, then reads
+    void to_modal(const AlignedVector& level, double* modal) const;
+    AlignedVector reading(const std::vector<double>& modal_weights) const;   // weights of the same quantity in own coordinates
+    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
+    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
+    Levels levels;
+
+private:
+    struct Plan;
+    std::unique_ptr<Plan> plan_;
+};
+
+class DenseForm {
+public:
+    explicit DenseForm(const LinearUpdate&);
+    void start(const double* y, const double* free_increment);
+    void read(double* free) const;
+    void advance(const double* force, double* free);
+    void to_modal(const AlignedVector& level, double* modal) const;
+    AlignedVector reading(const std::vector<double>& modal_weights) const;
+    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
+    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
+    Levels levels;
+
+private:
+    int size_, reads_;
+    std::vector<double> S_, Dt_, Kappa_;         // column-major, size x size
+    std::vector<AlignedVector> push_, reading_;  // per port: dt^2/m S g and the reading of g
+    std::vector<double> applied_;
+};
+
+class SineTransform;
+class SineForm {
+public:
+    explicit SineForm(const LinearUpdate&);
+    ~SineForm();
+    void start(const double* y, const double* free_increment);
+    void read(double* free) const;
+    void advance(const double* force, double* free);
+    void to_modal(const AlignedVector& level, double* modal) const;
+    AlignedVector reading(const std::vector<double>& modal_weights) const;
+    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
+    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
+    Levels levels;
+
+private:
+    LinearUpdate update_;
+    std::unique_ptr<SineTransform> transform_;
+};
+
+}  // namespace jvari

@@ -1,0 +1,74 @@
+// The sitar scenes of the tests and the benchmark: C5 on a fretted string, the paper's pitch and loss; its other figures are ours
+// (scenes/sitar_c5.toml says which).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari {
+
+inline String sitar_string_at(double f0) {
+    String s;
+    s.length = 0.25;
+    s.linear_density = 4.8828125e-4;
+    s.tension = s.linear_density * (2 * s.length * f0) * (2 * s.length * f0);
+    s.initial = TriangleInitial{0.5 * s.length, 2e-3, 0};
+    return s;
+}
+
+inline Scene sitar_scene(double f0 = 523.25) {
+    Scene scene;
+    scene.name = "sitar";
+    scene.duration = 1;
+    scene.strings = {sitar_string_at(f0)};
+    return scene;
+}
+
+inline ProfileBarrier bridge(Curve curve, double to = 0.025) {
+    ProfileBarrier b;
+    b.curve = std::move(curve);
+    b.to = to;
+    b.stiffness = {1e10};
+    return b;
+}
+
+inline Tap tap(Quantity q, double position = 0) {
+    Tap t;
+    t.name = name_of(q) + std::string("_") + std::to_string(position);
+    t.quantity = q;
+    t.string = 0;
+    t.position = position;
+    return t;
+}
+
+inline const Descriptor& scheme_named(const std::string& name) {
+    for (const Descriptor& d : schemes())
+        if (name == d.name) return d;
+    throw std::runtime_error("no scheme " + name);
+}
+
+using SchemeOptions = std::vector<std::pair<std::string, std::string>>;
+
+inline Run run_sitar(const char* name, const Scene& scene, const SchemeOptions& options = {}, double sample_rate = 44100,
+                     double tap_rate = 44100) {
+    Settings settings;
+    settings.sample_rate = sample_rate;
+    settings.tap_rate = tap_rate;
+    settings.options = options;
+    RunOptions run_options;
+    run_options.energy = true;
+    return run(scheme_named(name), scene, settings, run_options);
+}
+
+inline std::optional<double> fact(const std::vector<Fact>& facts, const std::string& name) {
+    for (const Fact& f : facts)
+        if (f.name == name) return f.value;
+    return std::nullopt;
+}
+
+}  // namespace jvari
