@@ -37,11 +37,11 @@ struct Bands {
     std::vector<double> centre;  // exact centre frequencies, 1000 x 10^(n/10) [Hz]
     std::vector<double> level;   // 10 log10 of the mean square in the band [dB re the unit squared]; -inf for none
 };
-// What a comparison of bands looks at.
+// What a comparison of bands looks at: all third octaves that are whole below half of 44.1 kHz, and the lowest ones that a second resolves.
 struct BandChoice {
-    double lowest = 100, highest = 20e3;  // exact centres from here to here, both with 2 % to spare for their nominal names [Hz]
-    Taper taper = Taper::rectangular;     // the whole record counts alike, also the attack
-    double range = 100;                   // energy: within so much of the reference's strongest band [dB]
+    double lowest = 50, highest = 16e3;  // centres from here to here, with 2 % to spare for their nominal names [Hz]
+    Taper taper = Taper::hann;
+    double range = 100;  // energy: within so much of the reference's strongest band [dB]
 };
 
 // Third octaves, base ten (IEC 61260-1, ISO 266), edges at 10^(+-1/20) of the centre, ideal flanks: the power of the bins between the
@@ -50,9 +50,11 @@ struct BandChoice {
 Bands third_octaves(std::span<const double> signal, double rate, const BandChoice& = {});
 
 // Root mean square over bands of candidate level - reference level [dB]. The bands are those where the reference has energy; below the
-// floor of that range the candidate's level is set to the floor. The choice matters: the rectangular taper's leakage (the jump from the
-// last row to the first) fills bands far below their neighbours, the Hann one shows them, and with it a low band between two partials,
-// or below the first, weighs as much as one that sounds.
+// floor of that range the candidate's level is set to the floor. The choice matters. The Hann taper resolves weak bands beside strong
+// ones, and with it a band between two partials, or below the first, weighs as much as one that sounds. The rectangular one weighs the
+// attack like the rest, and the jump from the last row to the first leaks into bands far below their neighbours.
+// Bridge force of the released C3 string over 1 s, two-point scheme at 44.1 kHz x1, x4, x16, x64 against the exact reference:
+// 7.4, 2.9, 1.2, 0.6 dB as chosen here; 5.5, 2.4, 0.5, 0.2 dB rectangular from 100 Hz to 20 kHz.
 double third_octave_difference(std::span<const double> candidate, std::span<const double> reference, double rate, const BandChoice& = {});
 
 // ---- Time and frequency.

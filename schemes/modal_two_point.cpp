@@ -49,21 +49,20 @@ public:
         m_.size = (m_.modes + two_point_padding - 1) / two_point_padding * two_point_padding;
 
         const double xi = m_.dt * m_.dt / (2 * modes.mass);
-        std::vector<double> A, B, a, c, inverse_J, scale;  // scale = sqrt(J/xi)
+        std::vector<double> A, B, c, loss, inverse_J, scale;  // scale = sqrt(J/xi)
         for (int i = 0; i < m_.modes; ++i) {
             const auto [Ai, Bi] = law(modes.omega0[i], modes.sigma[i], m_.dt);
             const double J = 1 + Ai + Bi;
             A.push_back(Ai);
             B.push_back(Bi);
-            a.push_back((1 + Ai - Bi) / J);  // R^2 for exact coefficients
-            c.push_back(4 * Ai / J);         // 1 - 2 R Omega + R^2
+            c.push_back(4 * Ai / J);
+            loss.push_back(2 * Bi / J);
             inverse_J.push_back(1 / J);
             scale.push_back(std::sqrt(J / xi));
         }
         m_.A = keep(A);
-        m_.B = keep(B);
-        m_.a = keep(a);
         m_.c = keep(c);
+        m_.loss = keep(loss);
         m_.inverse_J = keep(inverse_J);
 
         y_ = AlignedVector(m_.size);

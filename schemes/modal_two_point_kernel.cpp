@@ -34,7 +34,7 @@ HWY_INLINE void pass(TwoPoint& m, double F_b, double F_c, double F_e) {
     const int N = static_cast<int>(hn::Lanes(d));
     const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
     double *HWY_RESTRICT y = m.y, *HWY_RESTRICT u = m.u;
-    const double *HWY_RESTRICT a = m.a, *HWY_RESTRICT c = m.c;
+    const double *HWY_RESTRICT c = m.c, *HWY_RESTRICT loss = m.loss;
     const double *HWY_RESTRICT gb = m.g_b, *HWY_RESTRICT gc = m.g_c, *HWY_RESTRICT ge = m.g_e;
     V yb[2], yc[2], ub[2], uc[2];
     for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
@@ -54,7 +54,7 @@ HWY_INLINE void pass(TwoPoint& m, double F_b, double F_c, double F_e) {
             }
             const V s = hn::Add(u0, forced);  // (41)
             const V y1 = hn::Add(y0, s);      // (40)
-            const V u1 = hn::NegMulAdd(hn::Load(d, c + j), y1, hn::MulAdd(hn::Load(d, a + j), s, forced));
+            const V u1 = hn::NegMulAdd(hn::Load(d, c + j), y1, hn::NegMulAdd(hn::Load(d, loss + j), s, hn::Add(s, forced)));
             hn::Store(u1, d, u + j);
             hn::Store(y1, d, y + j);
             if constexpr (barrier) {
@@ -89,10 +89,10 @@ HWY_INLINE void ledger(TwoPoint& m, double F_b, double F_c, double F_e, double s
         if constexpr (pluck) s = hn::MulAdd(hn::Load(d, m.g_e + j), hn::Set(d, F_e), s);
         if constexpr (thread) s = hn::MulAdd(hn::Load(d, m.g_c + j), hn::Set(d, F_c), s);
         if constexpr (barrier) s = hn::MulAdd(hn::Load(d, m.g_b + j), hn::Set(d, F_b), s);
-        lost = hn::MulAdd(hn::Mul(hn::Load(d, m.B + j), hn::Load(d, m.inverse_J + j)), hn::Mul(s, s), lost);
+        lost = hn::MulAdd(hn::Load(d, m.loss + j), hn::Mul(s, s), lost);
         if constexpr (pluck) given = hn::MulAdd(hn::Load(d, m.g_e + j), s, given);
     }
-    m.dissipated += hn::GetLane(hn::SumOfLanes(d, lost));
+    m.dissipated += 0.5 * hn::GetLane(hn::SumOfLanes(d, lost));  // B/J = loss/2
     if constexpr (thread) m.dissipated += m.r_c / m.dt * s_c * s_c;
     if constexpr (pluck) m.supplied += F_e * hn::GetLane(hn::SumOfLanes(d, given));
 }

@@ -2,9 +2,9 @@
 //
 // Each mode is scaled by sqrt(J/xi), so that one vector g both reads a contact point's displacement and receives its force
 // (e = g), and is carried as (y, u), u the free increment of the step to come. One step is one pass over the modes:
-//     f = sum_z g_z F_z,   s = u + f,   y <- y + s,   u <- a s + f - c y,      a = (1 + A - B)/J, c = 4A/J
-// (eqs 40-42 with q eliminated), which also gathers the dots g_z.y and g_z.u that the next step's contact forces need. The small number c
-// carries the frequency, to full relative precision at any rate; without losses a is exactly 1.
+//     f = sum_z g_z F_z,   s = u + f,   y <- y + s,   u <- s + f - loss s - c y,      c = 4A/J, loss = 2B/J
+// (eqs 40-42 with q eliminated), which also gathers the dots g_z.y and g_z.u that the next step's contact forces need. The small numbers
+// c = 1 - 2 R Omega + R^2 and loss = 1 - R^2 carry frequency and decay to full relative precision at any rate.
 #pragma once
 
 #include <vector>
@@ -24,9 +24,9 @@ struct TwoPoint {
     int modes = 0;
     int size = 0;  // modes padded with zeros to a multiple of two_point_padding
     double *y = nullptr, *u = nullptr;
-    const double *a = nullptr, *c = nullptr;
-    const double *g_b = nullptr, *g_c = nullptr, *g_e = nullptr;    // barrier, thread, pluck; nullptr where the scene has none
-    const double *inverse_J = nullptr, *A = nullptr, *B = nullptr;  // energy only
+    const double *c = nullptr, *loss = nullptr;
+    const double *g_b = nullptr, *g_c = nullptr, *g_e = nullptr;  // barrier, thread, pluck; nullptr where the scene has none
+    const double *inverse_J = nullptr, *A = nullptr;              // energy only
 
     ContactLaw barrier;
     double h_b = 0;

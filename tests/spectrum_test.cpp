@@ -18,6 +18,7 @@ namespace {
 using Signal = std::vector<double>;
 using std::numbers::pi;
 constexpr double rate = 44100;
+const BandChoice audible = {.lowest = 100, .highest = 20e3, .taper = Taper::rectangular, .range = 100};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -76,12 +77,12 @@ TEST(PowerSpectrum, DoesNotChangeWhenAPeriodicSignalIsShifted) {
     std::rotate(y.begin(), y.begin() + 137, y.end());
     const auto a = power_spectrum(x, rate, Taper::rectangular), b = power_spectrum(y, rate, Taper::rectangular);
     for (std::size_t k = 0; k < a.power.size(); ++k) EXPECT_NEAR(a.power[k], b.power[k], 1e-14);
-    EXPECT_LT(third_octave_difference(y, x, rate), 1e-10);
+    EXPECT_LT(third_octave_difference(y, x, rate, audible), 1e-10);
 }
 
 TEST(ThirdOctaves, AToneIsInItsBandWithItsLevel) {
     for (double hertz : {100.0, 800.0, 1000.0, 5010.0, 15850.0}) {
-        const auto b = third_octaves(tone(44100, hertz, 0.2), rate);
+        const auto b = third_octaves(tone(44100, hertz, 0.2), rate, audible);
         ASSERT_EQ(b.centre.size(), 24u);
         for (std::size_t i = 0; i < b.centre.size(); ++i) {
             const bool mine = hertz > b.centre[i] * std::pow(10, -0.05) && hertz < b.centre[i] * std::pow(10, 0.05);
@@ -92,7 +93,7 @@ TEST(ThirdOctaves, AToneIsInItsBandWithItsLevel) {
             }
         }
     }
-    const auto b = third_octaves(tone(44100, 440, 1), rate);
+    const auto b = third_octaves(tone(44100, 440, 1), rate, audible);
     EXPECT_NEAR(b.centre[0], 100, 1e-9);
     EXPECT_NEAR(b.centre[10], 1000, 1e-9);
     EXPECT_NEAR(b.centre[23], 19952.6, 0.1);
@@ -102,7 +103,7 @@ TEST(ThirdOctaves, AnImpulseRisesOneDecibelPerBandWhereverTheEdgesFallBetweenBin
     for (long rows : {44100, 44101, 5000}) {
         Signal x(rows, 0.0);
         x[rows / 3] = 1;
-        const auto b = third_octaves(x, rate);
+        const auto b = third_octaves(x, rate, audible);
         for (std::size_t i = 0; i + 1 < b.centre.size(); ++i) {  // the last band is cut at half the rate
             const double width = b.centre[i] * (std::pow(10, 0.05) - std::pow(10, -0.05));
             EXPECT_NEAR(b.level[i], 10 * std::log10(2 * width / (rate * rows)), 1e-9) << rows << " " << b.centre[i];
@@ -112,12 +113,16 @@ TEST(ThirdOctaves, AnImpulseRisesOneDecibelPerBandWhereverTheEdgesFallBetweenBin
 }
 
 TEST(ThirdOctaves, BandsNarrowerThanABinAndAboveHalfTheRateAreLeftOut) {
-    const auto b = third_octaves(noise(441, 2), rate);  // bins of 100 Hz; the band at 501 Hz is 116 Hz wide, that at 398 Hz 92 Hz
+    const auto b = third_octaves(noise(441, 2), rate);  // bins of 100 Hz; the band at 501 Hz is 116 Hz audible, that at 398 Hz 92 Hz
     EXPECT_NEAR(b.centre.front(), 501.19, 0.01);
     EXPECT_NEAR(third_octaves(noise(8000, 2), 8000).centre.back(), 3981.07, 0.01);
     EXPECT_NEAR(third_octaves(noise(44100, 2), rate, {.lowest = 20, .highest = 16e3}).centre.front(), 19.953, 1e-3);  // by nominal names
     EXPECT_NEAR(third_octaves(noise(44100, 2), rate, {.lowest = 20, .highest = 16e3}).centre.back(), 15848.9, 0.1);
     EXPECT_NEAR(third_octaves(noise(44100, 2), rate, {.lowest = 31.5, .highest = 12.5e3}).centre.front(), 31.623, 1e-3);
+    EXPECT_EQ(third_octaves(noise(44100, 2), rate).centre.size(), 26u);  // as chosen where nothing is said: 50 Hz ... 16 kHz, Hann
+    EXPECT_NEAR(third_octaves(noise(44100, 2), rate).centre.front(), 50.119, 1e-3);
+    EXPECT_LT(third_octaves(tone(44100, 1000.5, 1), rate).level[19], -150);  // 4 kHz, beside a tone between two bins
+    EXPECT_GT(third_octaves(tone(44100, 1000.5, 1), rate, audible).level[16], -70);
     EXPECT_TRUE(third_octaves({}, rate).centre.empty());
     EXPECT_TRUE(third_octaves(Signal{1}, rate).centre.empty());
 }
@@ -127,7 +132,7 @@ TEST(ThirdOctaves, AScaledCopyDiffersByItsGainForEitherTaper) {
     for (double gain : {0.1, 0.9, 2.0}) {
         const double level = std::abs(20 * std::log10(gain));
         EXPECT_NEAR(third_octave_difference(times(x, gain), x, rate), level, 1e-9);
-        EXPECT_NEAR(third_octave_difference(times(x, -gain), x, rate, {.taper = Taper::hann}), level, 1e-9);
+        EXPECT_NEAR(third_octave_difference(times(x, -gain), x, rate, audible), level, 1e-9);
     }
     EXPECT_EQ(third_octave_difference(x, x, rate), 0);
 }
