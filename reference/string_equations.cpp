@@ -17,7 +17,8 @@ namespace {
 constexpr int lanes = 8;  // partial sums in a fixed order: every instruction set gives the same bits
 typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
 
-double total(Lanes s) {
+double total(const Lanes& lane) {  // by reference: a vector argument would depend on the instruction set
+    const double* s = reinterpret_cast<const double*>(&lane);
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
 
