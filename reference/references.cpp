@@ -6,6 +6,7 @@ std::span<const Descriptor> references() {
     static const Descriptor table[] = {
         exact_linear,
         exact_contact,
+        sundials,
     };
     return table;
 }

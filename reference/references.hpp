@@ -7,7 +7,7 @@
 
 namespace jvari {
 
-extern const Descriptor exact_linear, exact_contact;
+extern const Descriptor exact_linear, exact_contact, sundials;
 
 std::span<const Descriptor> references();
 

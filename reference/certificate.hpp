@@ -1,0 +1,54 @@
+// Which references agree on a scene, until when, to how much, and at what cost: what a reference may be trusted with.
+//
+// Every reference that represents the scene runs at two settings of its own accuracy; all pairs are compared tap by tap. The noise floor is
+// the first of them against itself, started a relative 1e-12 apart: no two programs can agree better for long.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "reference/agreement.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari {
+
+struct Certificate {
+    struct Entry {
+        std::string reference;  // its name, "oversampled modal_two_point" for a scheme at a multiple of a rate
+        std::vector<std::pair<std::string, std::string>> options;  // as given to it
+        double sample_rate = 0;                                    // [Hz], 0 in continuous time
+        Status status;
+        double reached = 0;            // [s], last valid row
+        double wall_seconds = 0;       // of the stepping
+        std::vector<double> estimate;  // its own estimate of its error, whole run, by tap; empty where it has none
+        std::string reason;            // of a refusal; then nothing else is set
+    };
+    struct Pair {
+        int first, second;  // entries; relative to the second
+        std::vector<Agreement> taps;
+    };
+    std::string scene;
+    int modes = 0;
+    double tap_rate = 0, duration = 0;  // [Hz], [s]
+    std::vector<std::string> taps;
+    std::vector<Entry> entries;    // in order of authority
+    std::vector<Pair> pairs;       // of the entries that ran
+    std::vector<Agreement> floor;  // by tap
+};
+
+struct CertifySettings {
+    int modes = 0;            // 0: every mode below 20 kHz
+    double tap_rate = 44100;  // [Hz]
+    double oversampled_rate =
+        0;  // also the stand-in scheme at this rate [Hz]; 0: only where no reference represents the scene, at 64 tap rates
+    std::function<void(const std::string& reference, int done, int of)> progress = {};  // before each run
+};
+
+// Throws BadScene, or Refusal where nothing at all represents the scene.
+Certificate certify(const Scene&, const CertifySettings& = {});
+
+// The scene with every initial shape and every pluck scaled.
+Scene moved(Scene, double factor);
+
+}  // namespace jvari

@@ -1,0 +1,285 @@
+// The reference for any contact law: an adaptive integrator with event location, and exact flight between contacts.
+//
+// Sources: string_equations.hpp (van Walstijn et al. 2016, eqs 5-22, with any exponent; Issanchou et al. 2016, eq 24). While no barrier is
+// touched the motion is linear and flies exactly, its next contact isolated rigorously (flight.hpp); while one is, SUNDIALS integrates to a
+// stated tolerance and finds the crossings (integrator.hpp). With flight = integrate everything is integrated, by steps short enough for
+// root finding to see contacts, which is a belief and not a bound: it is there to be compared with.
+// Leaves out: profiles, several strings, polarisation.
+#include <algorithm>
+#include <cmath>
+
+#include "reference/flight.hpp"
+#include "reference/integrator.hpp"
+#include "reference/readout.hpp"
+#include "reference/references.hpp"
+
+namespace jvari {
+
+namespace {
+struct Choice {
+    Integrator::Settings integrator;
+    bool exact_flight;
+    double first_step, longest_step;  // x 1/growth rate of the springs that act
+};
+
+class IntegratedContact final : public Scheme {
+public:
+    IntegratedContact(const String&, const Scene&, Modes, double tap_rate, const Choice&);
+    void reset() noexcept override;
+    Status advance(const Block& out) noexcept override;
+    int dofs() const override { return 2 * modes_.count(); }
+    std::vector<Fact> facts() const override;
+
+private:
+    bool interval(bool probe) noexcept;                                        // to the next row
+    bool stretch(double from, double to, bool plucked, bool probe) noexcept;   // within one interval
+    double integrate(double left, bool plucked, double since_pluck) noexcept;  // no further than the next crossing; how far [1/rate]
+    void start(bool plucked, double since_pluck) noexcept;                     // y, u -> the integrator's state
+    void toggle(int contact) noexcept;
+    double pace() noexcept;  // of the fastest motion [1/s]
+    double stored() const noexcept;
+    bool exact_flight() const noexcept {
+        return choice_.exact_flight && std::find(equations_.touched.begin(), equations_.touched.end(), 1) == equations_.touched.end();
+    }
+
+    Modes modes_;
+    StringEquations equations_;
+    Flight flight_;
+    Integrator integrator_;
+    Readout readout_;
+    Choice choice_;
+    std::vector<Pluck> pluck_;  // none or one
+    double tap_rate_, interval_;
+    std::vector<double> start_;
+    std::vector<char> untouched_;
+
+    std::vector<double> y_, u_;
+    long row_ = 0;
+    int leaving_ = -1;  // the barrier just left
+    int idle_ = 0;
+    Flight::Sums sums_;
+    bool running_ = false;                     // the integrator's state is the present one
+    double seen_[StringEquations::sums] = {};  // of its sums, by sums_
+    double events_ = 0;
+};
+
+IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes modes, double tap_rate, const Choice& choice)
+    : modes_(std::move(modes)),
+      equations_(modes_, s),
+      flight_(modes_, s),
+      integrator_(equations_, choice.integrator),
+      readout_(scene, modes_),
+      choice_(choice),
+      tap_rate_(tap_rate),
+      interval_(flight_.osc.rate / tap_rate) {
+    if (s.pluck) pluck_.push_back(*s.pluck);
+    start_ = flight_.osc.pad(initial_displacement(modes_, s));
+    untouched_.assign(equations_.contacts + 1, 0);
+    y_ = u_ = start_;
+    reset();
+}
+
+void IntegratedContact::reset() noexcept {
+    std::copy(start_.begin(), start_.end(), y_.begin());
+    std::fill(u_.begin(), u_.end(), 0.0);
+    std::fill(equations_.touched.begin(), equations_.touched.end(), 0);
+    flight_.reset();
+    integrator_.forget_effort();
+    row_ = idle_ = 0;
+    leaving_ = -1;
+    running_ = false;
+    sums_ = {};
+    events_ = 0;
+    if (choice_.exact_flight) return;  // it finds what is touched from the start
+    start(false, 0);
+    for (int a = 0; a < equations_.contacts; ++a) equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
+    running_ = false;
+}
+
+Status IntegratedContact::advance(const Block& out) noexcept {
+    for (int row = 0; row < out.rows; ++row) {
+        readout_.write(out, row, y_.data(), u_.data(), flight_.osc.rate, sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
+        if (out.energy) {
+            out.energy[row] = stored();
+            out.energy[out.stride + row] = sums_.supplied;
+            out.energy[2 * out.stride + row] = sums_.dissipated;
+        }
+        if (!interval(out.energy != nullptr)) return {Outcome::not_converged, row_};
+        ++row_;
+    }
+    return {};
+}
+
+bool IntegratedContact::interval(bool probe) noexcept {
+    sums_ = {};
+    double from = interval_, to = interval_;  // of the pluck within this interval
+    if (!pluck_.empty()) {
+        const double start = pluck_[0].start - row_ / tap_rate_;
+        from = std::clamp(start * flight_.osc.rate, 0.0, interval_);
+        to = std::clamp((start + pluck_[0].duration) * flight_.osc.rate, 0.0, interval_);
+    }
+    return stretch(0, from, false, probe) && stretch(from, to, true, probe) && stretch(to, interval_, false, probe);
+}
+
+bool IntegratedContact::stretch(double from, double to, bool plucked, bool probe) noexcept {
+    for (double at = from; at < to;) {
+        const double left = to - at;
+        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.osc.rate) : 0;
+        double step;
+        if (exact_flight()) {
+            const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(), u_.data(), sums_, probe);
+            step = landing.length;
+            leaving_ = -1;
+            if (landing.contact >= 0) toggle(landing.contact);
+        } else step = integrate(left, plucked, since_pluck);
+        if (!(step >= 0)) return false;
+        idle_ = step > 1e-15 * interval_ ? 0 : idle_ + 1;
+        if (idle_ > 1000) return false;
+        at = step == left ? to : at + step;
+    }
+    return true;
+}
+
+double IntegratedContact::integrate(double left, bool plucked, double since_pluck) noexcept {
+    if (!running_ || plucked != equations_.plucked) start(plucked, since_pluck);
+    const double before = integrator_.time();
+    const auto stop = integrator_.advance(before + left / flight_.osc.rate);
+    if (stop == Integrator::Stop::failed) return -1;
+    const double* z = integrator_.state();
+    for (int i = 0; i < modes_.count(); ++i) {
+        y_[i] = z[i] / modes_.omega0[i];
+        u_[i] = z[equations_.padded + i] / flight_.osc.rate;
+    }
+    const double* sum = z + 2 * equations_.padded;
+    double since[StringEquations::sums];
+    for (int k = 0; k < StringEquations::sums; ++k) {
+        since[k] = sum[k] - seen_[k];
+        seen_[k] = sum[k];
+    }
+    sums_.bridge += since[StringEquations::bridge_impulse];
+    sums_.thread += since[StringEquations::thread_impulse];
+    sums_.supplied += since[StringEquations::supplied];
+    sums_.dissipated += since[StringEquations::dissipated];
+    if (stop == Integrator::Stop::reached) return left;
+    toggle(integrator_.crossed());
+    return std::min((integrator_.time() - before) * flight_.osc.rate, left);
+}
+
+void IntegratedContact::toggle(int contact) noexcept {
+    char& touched = equations_.touched[contact];
+    touched = !touched;
+    leaving_ = touched ? -1 : contact;
+    running_ = false;
+    ++events_;
+}
+
+void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
+    double* z = integrator_.state();
+    std::fill_n(z, equations_.size(), 0.0);
+    for (int i = 0; i < modes_.count(); ++i) {
+        z[i] = modes_.omega0[i] * y_[i];
+        z[equations_.padded + i] = flight_.osc.rate * u_[i];
+    }
+    std::fill(std::begin(seen_), std::end(seen_), 0.0);
+    equations_.plucked = plucked;
+    equations_.pluck_time = since_pluck;
+    const double scale = 1 / pace();
+    integrator_.restart(choice_.first_step * scale, choice_.longest_step * scale);
+    running_ = true;
+}
+
+double IntegratedContact::pace() noexcept {
+    double fastest = flight_.springs.growth(untouched_.data()) * flight_.osc.rate;
+    for (int a = 0; a < equations_.contacts; ++a)
+        if (equations_.touched[a]) fastest = std::max(fastest, equations_.pace(a, integrator_.state()));
+    return fastest;
+}
+
+double IntegratedContact::stored() const noexcept {
+    double kinetic = 0, energy = 0;
+    for (int i = 0; i < modes_.count(); ++i) {
+        const double v = flight_.osc.rate * u_[i], p = modes_.omega0[i] * y_[i];
+        kinetic += v * v + p * p;
+    }
+    energy = 0.5 * modes_.mass * kinetic;
+    for (int a = 0; a < equations_.points; ++a) {
+        const double* g = flight_.springs.weights.data() + static_cast<long>(a) * flight_.osc.padded;
+        double y = 0;
+        for (int i = 0; i < modes_.count(); ++i) y += g[i] * y_[i];
+        energy += equations_.potential(a, y);
+    }
+    return energy;
+}
+
+std::vector<Fact> IntegratedContact::facts() const {
+    const auto effort = integrator_.effort();
+    std::vector<Fact> facts = {{"events", events_, ""},
+                               {"integrator_steps", effort.steps, ""},
+                               {"slope_evaluations", effort.slopes, ""},
+                               {"linear_solves", effort.solves, ""},
+                               {"integrator_tolerance", choice_.integrator.tolerance, ""},
+                               {"smallest_contact_force", effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force, "N"},
+                               {"deepest_penetration", effort.deepest, "m"}};
+    if (choice_.exact_flight) facts.push_back({"detection_tolerance", flight_.tolerance(), "m"});
+    return facts;
+}
+
+template <class T>
+T chosen(const Settings& settings, const char* name, const char* fallback, std::initializer_list<std::pair<const char*, T>> values) {
+    const std::string text = option(settings, name, fallback);
+    std::string known;
+    for (const auto& [word, value] : values) {
+        if (text == word) return value;
+        known += (known.empty() ? "" : ", ") + std::string(word);
+    }
+    throw Refusal("option " + std::string(name) + ": found \"" + text + "\", expected one of " + known);
+}
+
+double above_zero(const Settings& settings, const char* name, double fallback) {
+    const double value = number_option(settings, name, fallback);
+    if (!(value > 0)) throw Refusal("option " + std::string(name) + ": expected a number above 0");
+    return value;
+}
+
+std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
+    refuse_missing(sundials, scene);
+    refuse_unknown_options(settings, {"method", "order", "rtol", "floor", "linear_solver", "flight", "first_step", "longest_step"});
+    Choice choice;
+    Integrator::Settings& i = choice.integrator;
+    i.method = chosen<Method>(settings, "method", "erk",
+                              {{"bdf", Method::bdf}, {"adams", Method::adams}, {"erk", Method::erk}, {"esdirk", Method::esdirk}});
+    i.solver =
+        chosen<LinearSolver>(settings, "linear_solver", "woodbury", {{"woodbury", LinearSolver::woodbury}, {"dense", LinearSolver::dense}});
+    choice.exact_flight = chosen<bool>(settings, "flight", "exact", {{"exact", true}, {"integrate", false}});
+    // A force like eta^alpha is smooth on the surface for alpha = 1 alone. Elsewhere a lower order errs as it estimates, from a small step
+    // on.
+    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
+    i.tolerance = above_zero(settings, "rtol", smooth ? 1e-10 : 1e-12);
+    if (i.tolerance >= 1) throw Refusal("option rtol: expected a tolerance between 0 and 1");
+    i.floor = above_zero(settings, "floor", smooth ? 1e-2 : 1e-3);
+    choice.first_step = above_zero(settings, "first_step", smooth ? 0.1 : 1e-3);
+    choice.longest_step = above_zero(settings, "longest_step", choice.exact_flight ? 3 : 1);
+    const int lowest = i.method == Method::bdf || i.method == Method::adams ? 1 : 3;
+    const int highest = i.method == Method::erk ? 8 : i.method == Method::adams ? 12 : 5;
+    const double order = number_option(settings, "order", i.method == Method::erk && !smooth ? 6 : highest);
+    if (order != std::floor(order) || order < lowest || order > highest)
+        throw Refusal("option order: expected a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
+    i.order = static_cast<int>(order);
+    const String& s = scene.strings.at(0);
+    Settings unsampled = settings;
+    unsampled.sample_rate = 0;
+    return std::make_unique<IntegratedContact>(s, scene, modes_of(s, modes_for(s, unsampled)), settings.tap_rate, choice);
+}
+}  // namespace
+
+const Descriptor sundials = {
+    "sundials",
+    "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
+    Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
+        Features(Feature::lumped_barrier) | Features(Feature::several_barriers) | Features(Feature::power_law_contact) |
+        Features(Feature::contact_loss) | Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck),
+    Balance::to_tolerance,
+    Clock::continuous,
+    make};
+
+}  // namespace jvari

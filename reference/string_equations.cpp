@@ -1,0 +1,271 @@
+#include "reference/string_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/excitation.hpp"
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define JVARI_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define JVARI_CLONES
+#endif
+
+namespace jvari {
+
+namespace {
+constexpr int lanes = 8;  // partial sums in a fixed order: every instruction set gives the same bits
+typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
+
+double total(Lanes s) {
+    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}
+
+JVARI_CLONES
+double dot(const double* g, const double* x, int n) {
+    Lanes sum = {};
+    for (int i = 0; i < n; i += lanes) sum += *reinterpret_cast<const Lanes*>(g + i) * *reinterpret_cast<const Lanes*>(x + i);
+    return total(sum);
+}
+
+JVARI_CLONES
+double square(const double* g, const double* x, int n) {  // sum g x^2
+    Lanes sum = {};
+    for (int i = 0; i < n; i += lanes) {
+        const Lanes v = *reinterpret_cast<const Lanes*>(x + i);
+        sum += *reinterpret_cast<const Lanes*>(g + i) * v * v;
+    }
+    return total(sum);
+}
+
+JVARI_CLONES
+void oscillate(const double* omega, const double* damping, const double* p, const double* v, double* dp, double* dv, int n) {
+    for (int i = 0; i < n; ++i) {
+        dp[i] = omega[i] * v[i];
+        dv[i] = -(omega[i] * p[i] + damping[i] * v[i]);
+    }
+}
+
+JVARI_CLONES
+void add(const double* d, double F, double* dv, int n) {
+    for (int i = 0; i < n; ++i) dv[i] += F * d[i];
+}
+}  // namespace
+
+StringEquations::StringEquations(const Modes& modes, const String& s)
+    : padded((modes.count() + lanes - 1) / lanes * lanes), mass_(modes.mass) {
+    const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
+    const auto fill = [&](std::vector<double>& rows) { rows.resize((rows.size() + padded - 1) / padded * padded, 0.0); };
+    for (int i = 0; i < modes.count(); ++i) {
+        pad(omega_, modes.omega0[i]);
+        pad(damping_, 2 * modes.sigma[i]);
+        pad(loss_, 2 * modes.mass * modes.sigma[i]);
+    }
+    for (auto* rows : {&omega_, &damping_, &loss_}) fill(*rows);
+    const auto add_point = [&](const std::vector<double>& g) {
+        for (int i = 0; i < modes.count(); ++i) {
+            pad(reads_, g[i] / modes.omega0[i]);
+            pad(weights_, g[i]);
+            pad(gains_, g[i] / modes.mass);
+        }
+        for (auto* rows : {&reads_, &weights_, &gains_}) fill(*rows);
+    };
+    for (const Barrier& barrier : s.barriers) {
+        const auto& b = std::get<LumpedBarrier>(barrier);
+        add_point(footprint_weights(modes, b.position, b.width));
+        point_.push_back({b.stiffness.k, b.exponent, b.contact_loss, 0, b.height});
+    }
+    contacts = static_cast<int>(point_.size());
+    if (s.thread) {
+        add_point(footprint_weights(modes, s.thread->position, s.thread->width));
+        point_.push_back({s.thread->stiffness, 1, 0, s.thread->damping, s.thread->height});
+    }
+    points = static_cast<int>(point_.size());
+    if (s.pluck) {
+        pluck_.push_back(*s.pluck);
+        add_point(footprint_weights(modes, s.pluck->position, s.pluck->width));
+    }
+    touched.assign(contacts, 0);
+    inverse_.assign(padded, 0.0);
+    compliance_.assign(static_cast<std::size_t>(points) * points, 0.0);
+    small_.assign(static_cast<std::size_t>(points) * (points + 1), 0.0);
+    force_.assign(points, 0.0);
+    motion_.resize(points);
+    pull_.resize(points);
+}
+
+StringEquations::Motion StringEquations::motion(int a, const double* z) const noexcept {
+    return {dot(row(reads_, a), z, padded), dot(row(weights_, a), z + padded, padded)};
+}
+
+StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
+    const Point& q = point_[a];
+    const double eta = q.height - m.y;
+    if (a >= contacts) return {q.k * eta - q.r * m.v, q.k, q.r, q.r, 0};
+    if (q.alpha == 1) {
+        const double f = q.k * eta, give = 1 - q.beta * m.v;
+        return {f * give, q.k * give, q.beta * f, q.beta * f, q.beta * q.k};
+    }
+    const double slope = q.k * std::pow(std::abs(eta), q.alpha - 1), f = slope * eta, give = 1 - q.beta * m.v;
+    return {f * give, q.alpha * slope * give, q.beta * f, q.beta * f, q.beta * q.alpha * slope};
+}
+
+double StringEquations::penetration(int a, const double* z) const noexcept {
+    return point_[a].height - dot(row(reads_, a), z, padded);
+}
+double StringEquations::penetration_speed(int a, const double* z) const noexcept {
+    return -dot(row(weights_, a), z + padded, padded);
+}
+double StringEquations::contact_force(int a, const double* z) const noexcept {
+    return pull(a, motion(a, z)).F;
+}
+
+void StringEquations::slope(double t, const double* z, double* dz) const noexcept {
+    const double *p = z, *v = z + padded;
+    double *dp = dz, *dv = dz + padded, *sum = dz + 2 * padded;
+    std::fill_n(sum, sums, 0.0);
+    oscillate(omega_.data(), damping_.data(), p, v, dp, dv, padded);
+    sum[dissipated] = square(loss_.data(), v, padded);
+    for (int a = 0; a < points; ++a) {
+        if (!acts(a)) continue;
+        const Motion m = motion(a, z);
+        const Pull f = pull(a, m);
+        add(row(gains_, a), f.F, dv, padded);
+        sum[a < contacts ? bridge_impulse : thread_impulse] += f.F;
+        sum[dissipated] += f.drag * m.v * m.v;
+    }
+    if (plucked) {
+        const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
+        add(row(gains_, points), F, dv, padded);
+        sum[supplied] = F * dot(row(weights_, points), v, padded);
+    }
+}
+
+double StringEquations::potential(int a, double y) const noexcept {
+    const double eta = point_[a].height - y;
+    if (a < contacts && eta <= 0) return 0;
+    return point_[a].k * std::pow(std::abs(eta), point_[a].alpha + 1) / (point_[a].alpha + 1);
+}
+
+// An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/sum(g^2/m_i) what the modes have there.
+double StringEquations::pace(int a, const double* z) const noexcept {
+    const Point& q = point_[a];
+    const double give = dot(row(weights_, a), row(gains_, a), padded), v = penetration_speed(a, z);
+    const double depth = std::max(penetration(a, z), std::pow(v * v * (q.alpha + 1) / (2 * q.k * give), 1 / (q.alpha + 1)));
+    return std::sqrt(q.k * std::pow(depth, q.alpha - 1) * give);
+}
+
+void StringEquations::solve(double t, double gamma, const double* z, const double* b, double* x) noexcept {
+    if (gamma != gamma_) {
+        gamma_ = gamma;
+        for (int i = 0; i < padded; ++i) {
+            const double w = gamma * omega_[i];
+            inverse_[i] = 1 / (1 + gamma * damping_[i] + w * w);
+        }
+        for (int a = 0; a < points; ++a)
+            for (int c = 0; c < points; ++c) {
+                double sum = 0;
+                for (int i = 0; i < padded; ++i) sum += row(weights_, a)[i] * row(gains_, c)[i] * inverse_[i];
+                compliance_[a * points + c] = sum;
+            }
+    }
+    const double *bp = b, *bv = b + padded;
+    double *xp = x, *xv = x + padded;
+    for (int i = 0; i < padded; ++i) {  // the blocks [1, -gamma w; gamma w, 1 + 2 gamma sigma]
+        const double w = gamma * omega_[i], p = bp[i], v = bv[i];
+        xp[i] = ((1 + gamma * damping_[i]) * p + w * v) * inverse_[i];
+        xv[i] = (v - w * p) * inverse_[i];
+    }
+    // dF_a = -K_a dy_a - R_a dv_a,   dy_a = (block solution) + gamma^2 S_ab dF_b,   dv_a = (block solution) + gamma S_ab dF_b
+    const int wide = points + 1;
+    for (int a = 0; a < points; ++a) {
+        double* equation = small_.data() + a * wide;
+        std::fill_n(equation, wide, 0.0);
+        equation[a] = 1;
+        if (!acts(a)) continue;
+        motion_[a] = motion(a, z);
+        const Pull f = pull_[a] = pull(a, motion_[a]);
+        const Motion d = motion(a, x);
+        for (int c = 0; c < points; ++c)
+            if (acts(c)) equation[c] += (gamma * f.K + f.R) * gamma * compliance_[a * points + c];
+        equation[points] = -f.K * d.y - f.R * d.v;
+    }
+    for (int c = 0; c < points; ++c) {  // elimination; the matrix is I + (positive diagonal) x (Gram matrix): pivots on the diagonal hold
+        const double* top = small_.data() + c * wide;
+        for (int a = c + 1; a < points; ++a) {
+            double* equation = small_.data() + a * wide;
+            const double factor = equation[c] / top[c];
+            if (factor != 0)
+                for (int j = c; j < wide; ++j) equation[j] -= factor * top[j];
+        }
+    }
+    for (int a = points - 1; a >= 0; --a) {
+        const double* equation = small_.data() + a * wide;
+        double F = equation[points];
+        for (int c = a + 1; c < points; ++c) F -= equation[c] * force_[c];
+        force_[a] = F / equation[a];
+    }
+    for (int a = 0; a < points; ++a) {
+        if (!acts(a)) continue;
+        const double* d = row(gains_, a);
+        const double F = gamma * force_[a];
+        for (int i = 0; i < padded; ++i) {
+            const double v = F * d[i] * inverse_[i];
+            xv[i] += v;
+            xp[i] += gamma * omega_[i] * v;
+        }
+    }
+    // the sums' rows
+    double* sum = x + 2 * padded;
+    std::copy_n(b + 2 * padded, sums, sum);
+    const double* v = z + padded;
+    double lost = 0;
+    for (int i = 0; i < padded; ++i) lost += 2 * loss_[i] * v[i] * xv[i];
+    for (int a = 0; a < points; ++a) {
+        if (!acts(a)) continue;
+        const Motion d = motion(a, x);
+        sum[a < contacts ? bridge_impulse : thread_impulse] += gamma * force_[a];
+        lost += 2 * pull_[a].drag * motion_[a].v * d.v - pull_[a].drag_slope * motion_[a].v * motion_[a].v * d.y;
+    }
+    sum[dissipated] += gamma * lost;
+    if (plucked) {
+        const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
+        sum[supplied] += gamma * F * dot(row(weights_, points), xv, padded);
+    }
+}
+
+void StringEquations::jacobian(double t, const double* z, double* J) const noexcept {
+    const int n = size();
+    std::fill_n(J, static_cast<long>(n) * n, 0.0);
+    const auto at = [&](int i, int j) -> double& { return J[static_cast<long>(j) * n + i]; };
+    const double* v = z + padded;
+    for (int i = 0; i < padded; ++i) {
+        at(i, padded + i) = omega_[i];
+        at(padded + i, i) = -omega_[i];
+        at(padded + i, padded + i) = -damping_[i];
+        at(2 * padded + dissipated, padded + i) = 2 * loss_[i] * v[i];
+    }
+    for (int a = 0; a < points; ++a) {
+        if (!acts(a)) continue;
+        const Motion m = motion(a, z);
+        const Pull f = pull(a, m);
+        const double *y = row(reads_, a), *g = row(weights_, a), *d = row(gains_, a);
+        const int impulse = 2 * padded + (a < contacts ? bridge_impulse : thread_impulse);
+        for (int j = 0; j < padded; ++j) {
+            for (int i = 0; i < padded; ++i) {
+                at(padded + i, j) -= d[i] * f.K * y[j];
+                at(padded + i, padded + j) -= d[i] * f.R * g[j];
+            }
+            at(impulse, j) -= f.K * y[j];
+            at(impulse, padded + j) -= f.R * g[j];
+            at(2 * padded + dissipated, j) -= f.drag_slope * m.v * m.v * y[j];
+            at(2 * padded + dissipated, padded + j) += 2 * f.drag * m.v * g[j];
+        }
+    }
+    if (plucked) {
+        const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
+        for (int j = 0; j < padded; ++j) at(2 * padded + supplied, padded + j) += F * row(weights_, points)[j];
+    }
+}
+
+}  // namespace jvari

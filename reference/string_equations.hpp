@@ -1,0 +1,69 @@
+// The motion of one string in its modes, as first-order equations for an integrator (van Walstijn et al. 2016, eqs 5-18; contact loss of
+// Issanchou et al. 2016, eq 24). With p = omega0 y, so that every component is a velocity and energy is m/2 times their squares,
+//
+//     p_i' = omega0_i v_i,    v_i' = -omega0_i p_i - 2 sigma_i v_i + sum_a d_ai F_a,      d_ai = g_ai/m
+//     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c) - r_c v_c of the thread, F_e(t) of the pluck.
+//
+// Which barriers are touched is given, not decided here: between two events the equations are smooth, and odd beyond the barrier's surface
+// so that a trial step may overshoot. Four sums ride along: impulses of barriers and thread, energy supplied and dissipated. The Jacobian
+// is 2x2 blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's formula.
+#pragma once
+
+#include <vector>
+
+#include "scenes/modes.hpp"
+
+namespace jvari {
+
+struct StringEquations {
+    enum Sum { bridge_impulse, thread_impulse, supplied, dissipated, sums };  // [N s], [N s], [J], [J]
+
+    StringEquations(const Modes&, const String&);
+
+    int padded = 0;    // modes in whole vectors; what is beyond the last stays zero
+    int contacts = 0;  // points 0 ... contacts - 1 are barriers; a thread is the last point
+    int points = 0;
+    std::vector<char> touched;  // [contact]
+    double pluck_time = 0;      // since the pluck's start, at t = 0 of the integrator [s]
+    bool plucked = false;
+
+    int size() const { return 2 * padded + sums; }  // p, v, sums
+    void slope(double t, const double* z, double* dz) const noexcept;
+    double penetration(int contact, const double* z) const noexcept;        // eta [m]
+    double penetration_speed(int contact, const double* z) const noexcept;  // [m/s]
+    double contact_force(int contact, const double* z) const noexcept;      // [N], whether touched or not
+    double potential(int point, double y) const noexcept;                   // [J], of a barrier or the thread
+    double pace(int contact, const double* z) const noexcept;  // of the motion in a contact that is this deep and this fast [1/s]
+
+    void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept;  // (I - gamma J(z)) x = b
+    void jacobian(double t, const double* z, double* J) const noexcept;                        // dense, column by column
+
+private:
+    struct Point {
+        double k, alpha, beta, r, height;
+    };
+    struct Pull {  // force of a point, F, and its derivatives -K to y, -R to v; drag: its loss is drag v^2
+        double F, K, R, drag, drag_slope;
+    };
+    struct Motion {
+        double y, v;
+    };
+    bool acts(int a) const noexcept { return a >= contacts || touched[a]; }
+    Motion motion(int a, const double* z) const noexcept;
+    Pull pull(int a, Motion) const noexcept;
+    const double* row(const std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * padded; }
+
+    double mass_;
+    std::vector<Point> point_;
+    std::vector<Pluck> pluck_;                     // none or one
+    std::vector<double> omega_, damping_, loss_;   // omega0, 2 sigma, 2 m sigma
+    std::vector<double> reads_, weights_, gains_;  // g/omega0, g, g/m [point, then the pluck][mode]
+
+    double gamma_ = 0;                          // of what follows
+    std::vector<double> inverse_, compliance_;  // 1/(1 + 2 gamma sigma + (gamma omega0)^2); S_ab = sum_i g_a d_b/that
+    std::vector<double> small_, force_;         // [point][point + 1], [point]
+    mutable std::vector<Motion> motion_;
+    mutable std::vector<Pull> pull_;
+};
+
+}  // namespace jvari

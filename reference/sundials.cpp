@@ -1,0 +1,342 @@
+// The only file that sees SUNDIALS (6.4): CVODE and ARKODE behind integrator.hpp.
+#include <arkode/arkode_arkstep.h>
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <type_traits>
+
+#include "reference/integrator.hpp"
+
+namespace jvari {
+
+static_assert(std::is_same_v<realtype, double>, "SUNDIALS in double precision");
+
+namespace {
+constexpr double unweighted = 1e-30;  // error weight of what is not controlled
+constexpr double settled = 1e-6;      // one Newton step moves a crossing by less than this part of the integrator's step
+
+constexpr int most_splits = 40;  // of steps that might have touched or left and come back, in one go
+
+bool multistep(Method m) {
+    return m == Method::bdf || m == Method::adams;
+}
+}  // namespace
+
+struct Integrator::Library {
+    Library(StringEquations&, const Settings&);
+    ~Library();
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+
+    struct Depth {
+        double eta, speed;
+    };
+
+    double* state() noexcept { return N_VGetArrayPointer(z); }
+    bool reinit(double t) noexcept;
+    int step(double to) noexcept;  // one step of the library's own
+    void look(std::vector<Depth>&) noexcept;
+    bool run_again(double to) noexcept;  // from `before` to `to`, blind
+    double last_step() const noexcept;
+    double turns_beyond() const noexcept;
+    bool onto_surface(double to) noexcept;  // the crossing at `time`, no later than `to`
+
+    static int slope(realtype t, N_Vector z, N_Vector dz, void* user);
+    static int penetrations(realtype t, N_Vector z, realtype* out, void* user);
+    static int weights(N_Vector z, N_Vector w, void* user);
+    static int jacobian(realtype t, N_Vector z, N_Vector f, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector);
+    static SUNLinearSolver_Type type(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
+    static int solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype);
+    static void quiet(int, const char*, const char*, char*, void*) {}
+
+    StringEquations& equations;
+    const Settings settings;
+    SUNContext context = nullptr;
+    N_Vector z = nullptr;
+    SUNMatrix matrix = nullptr;
+    SUNLinearSolver solver = nullptr;
+    void* memory = nullptr;
+    double time = 0, first_step = 0, longest_step = 0, floor = 0;
+    double time_before = 0;
+    std::vector<double> before, dz;  // the state one step ago; a slope
+    int contact = -1;
+    bool blind = false;  // root finding sees nothing
+    std::vector<Depth> depth, depth_before;
+    std::vector<int> found, direction;
+    Effort effort;
+};
+
+int Integrator::Library::slope(realtype t, N_Vector z, N_Vector dz, void* user) {
+    auto& l = *static_cast<Library*>(user);
+    ++l.effort.slopes;
+    l.equations.slope(t, N_VGetArrayPointer(z), N_VGetArrayPointer(dz));
+    return 0;
+}
+
+int Integrator::Library::penetrations(realtype, N_Vector z, realtype* out, void* user) {
+    auto& l = *static_cast<Library*>(user);
+    for (int a = 0; a < l.equations.contacts; ++a) out[a] = l.blind ? 1 : l.equations.penetration(a, N_VGetArrayPointer(z));
+    return 0;
+}
+
+int Integrator::Library::weights(N_Vector z, N_Vector w, void* user) {
+    auto& l = *static_cast<Library*>(user);
+    const double* x = N_VGetArrayPointer(z);
+    double* weight = N_VGetArrayPointer(w);
+    const int controlled = 2 * l.equations.padded;
+    for (int i = 0; i < controlled; ++i) weight[i] = 1 / (l.settings.tolerance * (std::abs(x[i]) + l.floor));
+    std::fill(weight + controlled, weight + l.equations.size(), unweighted);
+    return 0;
+}
+
+int Integrator::Library::jacobian(realtype t, N_Vector z, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
+    static_cast<Library*>(user)->equations.jacobian(t, N_VGetArrayPointer(z), SUNDenseMatrix_Data(J));
+    return 0;
+}
+
+// A matrix-free direct solver: the Newton matrix I - gamma J at the iterate itself, so Newton's own order of convergence holds.
+int Integrator::Library::solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+    auto& l = *static_cast<Library*>(s->content);
+    double t = 0, gamma = 0, rl1 = 0;
+    N_Vector predicted = nullptr, current = nullptr, f = nullptr, other = nullptr;
+    void* user = nullptr;
+    const int failed = multistep(l.settings.method)
+                           ? CVodeGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f, &gamma, &rl1, &other, &user)
+                           : ARKStepGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f, &gamma, &other, &user);
+    if (failed) return failed;
+    ++l.effort.solves;
+    l.equations.solve(t, gamma, N_VGetArrayPointer(current), N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+    return 0;
+}
+
+Integrator::Library::Library(StringEquations& e, const Settings& s) : equations(e), settings(s) {
+    const int size = e.size();
+    const auto need = [](bool ok) {
+        if (!ok) throw std::bad_alloc();
+    };
+    need(SUNContext_Create(nullptr, &context) == 0);
+    need((z = N_VNew_Serial(size, context)) != nullptr);
+    N_VConst(0, z);
+    before.assign(size, 0.0);
+    dz.assign(size, 0.0);
+    found.assign(e.contacts + 1, 0);
+    direction.assign(e.contacts + 1, 0);
+    depth.assign(e.contacts + 1, {});
+    depth_before = depth;
+    const bool implicit = s.method != Method::erk;
+    if (implicit && s.solver == LinearSolver::dense) {
+        need((matrix = SUNDenseMatrix(size, size, context)) != nullptr);
+        need((solver = SUNLinSol_Dense(z, matrix, context)) != nullptr);
+    } else if (implicit) {
+        need((solver = SUNLinSolNewEmpty(context)) != nullptr);
+        solver->ops->gettype = type;
+        solver->ops->solve = solve;
+        solver->content = this;
+    }
+    if (multistep(s.method)) {
+        need((memory = CVodeCreate(s.method == Method::bdf ? CV_BDF : CV_ADAMS, context)) != nullptr);
+        need(CVodeInit(memory, slope, 0, z) == CV_SUCCESS && CVodeSetUserData(memory, this) == CV_SUCCESS);
+        need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS && CVodeWFtolerances(memory, weights) == CV_SUCCESS);
+        need(CVodeSetMaxOrd(memory, s.order) == CV_SUCCESS);
+        need(CVodeSetLinearSolver(memory, solver, matrix) == CV_SUCCESS);
+        if (matrix) need(CVodeSetJacFn(memory, jacobian) == CV_SUCCESS);
+        if (e.contacts > 0) need(CVodeRootInit(memory, e.contacts, penetrations) == CV_SUCCESS);
+    } else {
+        need((memory = ARKStepCreate(implicit ? nullptr : slope, implicit ? slope : nullptr, 0, z, context)) != nullptr);
+        need(ARKStepSetUserData(memory, this) == ARK_SUCCESS);
+        need(ARKStepSetErrHandlerFn(memory, quiet, nullptr) == ARK_SUCCESS && ARKStepWFtolerances(memory, weights) == ARK_SUCCESS);
+        need(ARKStepSetOrder(memory, s.order) == ARK_SUCCESS);
+        if (implicit) need(ARKStepSetLinearSolver(memory, solver, matrix) == ARK_SUCCESS);
+        if (matrix) need(ARKStepSetJacFn(memory, jacobian) == ARK_SUCCESS);
+        if (e.contacts > 0) need(ARKStepRootInit(memory, e.contacts, penetrations) == ARK_SUCCESS);
+    }
+    floor = 1;
+    first_step = longest_step = 1e-9;
+    blind = true;  // one step from rest: what the library allocates late, it allocates now
+    need(reinit(0) && step(1e-9) >= 0);
+    blind = false;
+    N_VConst(0, z);
+    effort = {};
+}
+
+Integrator::Library::~Library() {
+    if (memory) multistep(settings.method) ? CVodeFree(&memory) : ARKStepFree(&memory);
+    if (solver && !matrix) solver->content = nullptr;  // it is this object
+    if (solver) SUNLinSolFree(solver);
+    if (matrix) SUNMatDestroy(matrix);
+    if (z) N_VDestroy(z);
+    if (context) SUNContext_Free(&context);
+}
+
+bool Integrator::Library::reinit(double t) noexcept {
+    time = t;
+    if (multistep(settings.method))
+        return CVodeReInit(memory, t, z) == CV_SUCCESS && CVodeSetInitStep(memory, 0) == CV_SUCCESS &&
+               CVodeSetMaxStep(memory, longest_step) == CV_SUCCESS &&
+               (equations.contacts == 0 || CVodeSetRootDirection(memory, direction.data()) == CV_SUCCESS);
+    const bool implicit = settings.method == Method::esdirk;
+    return ARKStepReInit(memory, implicit ? nullptr : slope, implicit ? slope : nullptr, t, z) == ARK_SUCCESS &&
+           ARKStepSetInitStep(memory, first_step) == ARK_SUCCESS && ARKStepSetMaxStep(memory, longest_step) == ARK_SUCCESS &&
+           (equations.contacts == 0 || ARKStepSetRootDirection(memory, direction.data()) == ARK_SUCCESS);
+}
+
+int Integrator::Library::step(double to) noexcept {
+    ++effort.steps;
+    if (multistep(settings.method)) {
+        if (CVodeSetStopTime(memory, to) != CV_SUCCESS) return -1;
+        return CVode(memory, to, z, &time, CV_ONE_STEP);
+    }
+    if (ARKStepSetStopTime(memory, to) != ARK_SUCCESS) return -1;
+    return ARKStepEvolve(memory, to, z, &time, ARK_ONE_STEP);
+}
+
+void Integrator::Library::look(std::vector<Depth>& at) noexcept {
+    for (int a = 0; a < equations.contacts; ++a) at[a] = {equations.penetration(a, state()), equations.penetration_speed(a, state())};
+}
+
+// When, in the last step, a barrier's surface may have been crossed twice; -1 where it cannot. Between its turning point's two tangents a
+// convex penetration stays on its side of the surface if their intersection does.
+double Integrator::Library::turns_beyond() const noexcept {
+    for (int a = 0; a < equations.contacts; ++a) {
+        const double side = equations.touched[a] ? 1 : -1, h = time - time_before;
+        const Depth from{side * depth_before[a].eta, side * depth_before[a].speed}, to{side * depth[a].eta, side * depth[a].speed};
+        if (!(from.speed < 0 && to.speed > 0)) continue;
+        const double since = (to.eta - from.eta - to.speed * h) / (from.speed - to.speed);
+        if (from.eta + from.speed * since < 0 && since > 0.01 * h && since < 0.99 * h) return time_before + since;
+    }
+    return -1;
+}
+
+double Integrator::Library::last_step() const noexcept {
+    double h = 0;
+    multistep(settings.method) ? CVodeGetLastStep(memory, &h) : ARKStepGetLastStep(memory, &h);
+    return h;
+}
+
+bool Integrator::Library::run_again(double to) noexcept {
+    std::copy(before.begin(), before.end(), state());
+    blind = true;
+    bool ok = reinit(time_before);
+    while (ok && time < to) ok = step(to) >= 0;
+    blind = false;
+    return ok;
+}
+
+bool Integrator::Library::onto_surface(double to) noexcept {
+    if (!multistep(settings.method) && time > time_before && !run_again(time)) return false;
+    for (int tries = 0;; ++tries) {
+        const double speed = equations.penetration_speed(contact, state());
+        const double room = time - time_before;
+        if (speed == 0) return true;
+        const double shift = std::clamp(-equations.penetration(contact, state()) / speed, -0.5 * room, std::min(0.5 * room, to - time));
+        if (multistep(settings.method) || std::abs(shift) <= settled * room || tries == 3) {
+            equations.slope(time, state(), dz.data());
+            for (int i = 0; i < equations.size(); ++i) state()[i] += shift * dz[i];
+            time += shift;
+            return true;
+        }
+        if (!run_again(time + shift)) return false;
+    }
+}
+
+Integrator::Integrator(StringEquations& e, const Settings& s) : library_(std::make_unique<Library>(e, s)) {}
+Integrator::~Integrator() = default;
+double* Integrator::state() noexcept {
+    return library_->state();
+}
+double Integrator::time() const noexcept {
+    return library_->time;
+}
+int Integrator::crossed() const noexcept {
+    return library_->contact;
+}
+Integrator::Effort Integrator::effort() const noexcept {
+    return library_->effort;
+}
+void Integrator::forget_effort() noexcept {
+    library_->effort = {};
+}
+
+void Integrator::restart(double first_step, double longest_step) noexcept {
+    Library& l = *library_;
+    l.first_step = first_step;
+    l.longest_step = longest_step;
+    const double* z = l.state();
+    double sum = 0;
+    for (int i = 0; i < 2 * l.equations.padded; ++i) sum += z[i] * z[i];
+    l.floor = std::max(l.settings.floor * std::sqrt(sum / (2 * l.equations.padded)), 1e-30);  // [m/s]
+    for (int a = 0; a < l.equations.contacts; ++a) l.direction[a] = l.equations.touched[a] ? -1 : 1;
+    l.look(l.depth);
+    l.contact = l.reinit(0) ? -1 : -2;
+}
+
+Integrator::Stop Integrator::advance(double to) noexcept {
+    Library& l = *library_;
+    if (l.contact == -2) return Stop::failed;
+    const int contacts = l.equations.contacts;
+    double target = to;
+    int splits = 0;
+    const auto inward = [&](int a, double speed) { return l.equations.touched[a] ? speed > 0 : speed < 0; };  // away from the surface
+    while (l.time < to) {
+        if (to - l.time <= 8 * std::numeric_limits<double>::epsilon() * to) break;  // shorter than the library would step
+        std::copy_n(l.state(), l.before.size(), l.before.begin());
+        l.time_before = l.time;
+        std::swap(l.depth, l.depth_before);
+        const int result = l.step(target);
+        if (result < 0) return Stop::failed;
+        l.contact = -1;
+        if (result == CV_ROOT_RETURN) {
+            const bool failed = multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) != CV_SUCCESS
+                                                             : ARKStepGetRootInfo(l.memory, l.found.data()) != ARK_SUCCESS;
+            if (failed) return Stop::failed;
+            for (int a = contacts - 1; a >= 0; --a)
+                if (l.found[a]) l.contact = a;
+        }
+        l.look(l.depth);
+        double split = -1;
+        const bool crosses = l.contact >= 0;
+        if (!crosses) {
+            split = l.turns_beyond();
+            for (int a = 0; a < contacts; ++a)
+                if (l.equations.touched[a] ? l.depth[a].eta < 0 : l.depth[a].eta > 0)
+                    l.contact = a;  // no crossing: it started on the surface
+        }
+        // From the surface inwards and back through it within one step: root finding mistakes the rounding at its start for the crossing.
+        if (l.contact >= 0 && inward(l.contact, (crosses ? l.depth : l.depth_before)[l.contact].speed))
+            split = l.time_before + 0.25 * l.last_step();
+        if (split > 0 && splits < most_splits) {
+            ++splits;
+            std::swap(l.depth, l.depth_before);
+            std::copy(l.before.begin(), l.before.end(), l.state());
+            if (!l.reinit(l.time_before)) return Stop::failed;
+            target = std::min(split, to);
+            continue;
+        }
+        if (crosses) return l.onto_surface(to) ? Stop::crossed : Stop::failed;
+        if (l.contact >= 0) {
+            std::copy(l.before.begin(), l.before.end(), l.state());
+            l.time = l.time_before;
+            return Stop::crossed;
+        }
+        for (int a = 0; a < contacts; ++a) {
+            if (!l.equations.touched[a]) continue;
+            l.effort.deepest = std::max(l.effort.deepest, l.depth[a].eta);
+            l.effort.smallest_force = std::min(l.effort.smallest_force, l.equations.contact_force(a, l.state()));
+        }
+        if (l.time >= target) {
+            if (target == to) break;
+            target = to;
+        }
+    }
+    l.time = to;
+    return Stop::reached;
+}
+
+}  // namespace jvari

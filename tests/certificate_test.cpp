@@ -1,0 +1,143 @@
+// What references are certified by: agreement of two traces, Richardson's estimate of a scheme's own error, the table over all references.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "reference/certificate.hpp"
+#include "reference/oversampled.hpp"
+#include "reference/references.hpp"
+#include "schemes/registry.hpp"
+#include "tests/c3.hpp"
+
+namespace jvari {
+namespace {
+
+const Descriptor& scheme(std::string_view name) {
+    for (const Descriptor& d : schemes())
+        if (name == d.name) return d;
+    throw std::runtime_error("no such scheme");
+}
+
+// A sine of 1 V and a difference that grows tenfold every 100 rows: sum d^2 = d_n^2/(1 - 10^-0.02) = 22.2 d_n^2, against n/2.
+TEST(Agreement, EndsWhereTheRunningDifferencePassesTheLevel) {
+    const double rate = 1000;
+    std::vector<double> a, b;
+    for (int n = 0; n <= 1000; ++n) {
+        b.push_back(std::sin(0.3 * n));
+        a.push_back(b.back() + 1e-10 * std::pow(10, n / 100.0));
+    }
+    const Agreement g = agreement(a, b, rate);
+    for (int l = 0; l < 3; ++l) {
+        const double n = 1000 * g.until[l];
+        EXPECT_NEAR(std::sqrt(22.2 / (n / 2)) * 1e-10 * std::pow(10, n / 100), agreement_levels[l], 0.05 * agreement_levels[l]);
+    }
+    EXPECT_NEAR(g.relative_l2[2], std::sqrt(22.2 / 500), 0.01 * g.relative_l2[2]);
+    EXPECT_LT(g.relative_l2[0], 1e-9);
+}
+
+TEST(Agreement, OfEqualTracesIsWholeAndOfSilenceIsNoDivisionByZero) {
+    const std::vector<double> zero(50, 0.0), one(50, 1.0);
+    const Agreement g = agreement(one, one, 100);
+    EXPECT_EQ(g.relative_l2[2], 0);
+    EXPECT_EQ(g.until[2], 0.49);
+    EXPECT_EQ(agreement(zero, zero, 100).relative_l2[2], 0);
+    EXPECT_EQ(agreement(zero, zero, 100).until[0], 0.49);
+    EXPECT_EQ(agreement(one, zero, 100).until[0], 0);
+}
+
+Scene release(double duration) {
+    Scene scene = c3_release();
+    scene.duration = duration;
+    return scene;
+}
+
+TEST(Oversampled, EstimatesNoLessThanItsErrorAgainstTheExactReference) {
+    const Scene scene = release(20e-3);
+    const auto truth = run(exact_contact, scene, {0, 44100, 60, {}});
+    for (const int multiple : {8, 16, 32, 64}) {
+        const Oversampled o = oversampled(scheme("modal_two_point"), scene, {44100, 44100, 60, {}}, multiple);
+        EXPECT_EQ(o.rate, 44100.0 * multiple);
+        for (int k = 0; k < truth.trace.taps(); ++k) {
+            const auto& whole = o.estimates[k].back();
+            const double error = relative_difference(o.run.trace.column(k), truth.trace.column(k), 44100, 1);
+            EXPECT_LT(error, whole.error) << "x" << multiple << " " << truth.trace.names[k];
+            if (multiple >= 32) {
+                EXPECT_GT(error, 0.02 * whole.error) << "x" << multiple << " " << truth.trace.names[k];
+            }
+        }
+    }
+}
+
+TEST(Oversampled, SeesTheSchemesOrderWhereThereIsNoContact) {  // a grid's dispersion is of second order
+    Scene scene = lossless(c3_free());
+    scene.strings.front().initial = TriangleInitial{0.3, 1e-3, 0.3};
+    scene.strings.front().bending_stiffness = 0;
+    scene.duration = 5e-3;
+    const Oversampled o = oversampled(scheme("finite_difference_hamiltonian"), scene, {44100, 44100, 0, {}}, 16);
+    EXPECT_NEAR(o.estimates[1].back().order, 2, 0.3);
+}
+
+TEST(Oversampled, RefusesMultiplesThatDoNotHalveTwice) {
+    EXPECT_THROW(oversampled(scheme("modal_two_point"), release(1e-3), {44100, 44100, 10, {}}, 6), Refusal);
+    EXPECT_THROW(oversampled(scheme("modal_two_point"), release(1e-3), {44100, 44100, 10, {}}, 2), Refusal);
+}
+
+TEST(Certificate, ShowsThatTheReferencesAgree) {
+    CertifySettings settings{40, 44100, 64 * 44100.0, {}};
+    int announced = 0;
+    settings.progress = [&](const std::string&, int done, int of) {
+        EXPECT_EQ(done, announced++);
+        EXPECT_EQ(of, 6);
+    };
+    const Certificate c = certify(release(6e-3), settings);
+    EXPECT_EQ(announced, 6);
+    ASSERT_EQ(c.entries.size(), 5u);
+    EXPECT_EQ(c.entries[0].reference, "exact_contact");
+    EXPECT_EQ(c.entries[2].reference, "sundials");
+    EXPECT_EQ(c.entries[4].reference, "oversampled modal_spatial_newton");
+    EXPECT_EQ(c.pairs.size(), 10u);
+    for (const auto& e : c.entries) {
+        EXPECT_EQ(e.status.outcome, Outcome::ok);
+        EXPECT_GT(e.wall_seconds, 0);
+        EXPECT_NEAR(e.reached, 6e-3, 1e-4);
+    }
+    for (const auto& pair : c.pairs) {
+        if (pair.first == 4) continue;
+        EXPECT_LT(pair.taps[0].relative_l2[2], 1e-9) << pair.first << " " << pair.second;  // nut
+        EXPECT_LT(pair.taps[2].relative_l2[2], 1e-6) << pair.first << " " << pair.second;  // bridge
+        EXPECT_NEAR(pair.taps[0].until[2], 6e-3, 1e-4);
+    }
+    for (int k = 0; k < 4; ++k) EXPECT_LT(c.pairs.back().taps[k].relative_l2[2], 10 * c.entries[4].estimate[k]);
+    EXPECT_GT(c.floor[0].relative_l2[2], 1e-13);
+    EXPECT_LT(c.floor[0].relative_l2[2], 1e-10);
+}
+
+TEST(Certificate, OfASceneThatNoReferenceRepresentsIsTheStandInsOwnEstimate) {
+    Scene scene = release(1e-3);
+    scene.strings.front().barriers = {ProfileBarrier{ParabolaCurve{0.01}, 0, 0.02, {1e11}, 1, 0}};
+    scene.strings.front().thread.reset();
+    scene.taps.pop_back();  // the thread's force
+    ASSERT_EQ(best_reference(scene), nullptr);
+    const Certificate c = certify(scene, {50, 44100, 8 * 44100.0, {}});
+    ASSERT_EQ(c.entries.size(), 1u);
+    EXPECT_EQ(c.entries[0].sample_rate, 8 * 44100.0);
+    EXPECT_EQ(c.entries[0].reference.find("oversampled "), 0u);
+    EXPECT_EQ(c.entries[0].estimate.size(), scene.taps.size());
+    EXPECT_TRUE(c.pairs.empty());
+    EXPECT_EQ(c.floor.size(), scene.taps.size());
+}
+
+TEST(Certificate, OfALinearSceneRestsOnTheClosedForm) {
+    Scene scene = c3_free();
+    scene.strings.front().initial = ModeInitial{2, 1e-3};
+    scene.duration = 20e-3;
+    const Certificate c = certify(scene, {30, 44100, 0, {}});
+    EXPECT_EQ(c.entries.front().reference, "exact_linear");
+    EXPECT_EQ(c.entries.size(), 5u);
+    for (const auto& pair : c.pairs)
+        for (const Agreement& tap : pair.taps) EXPECT_LT(tap.relative_l2[2], 1e-12);
+}
+
+}  // namespace
+}  // namespace jvari

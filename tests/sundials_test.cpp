@@ -1,0 +1,307 @@
+// The integrated reference: its equations against their own derivatives, closed forms of an impact, and the exact reference.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "reference/references.hpp"
+#include "reference/string_equations.hpp"
+#include "schemes/run.hpp"
+#include "tests/allocations.hpp"
+#include "tests/c3.hpp"
+
+namespace jvari {
+namespace {
+
+using std::numbers::pi;
+using Options = std::vector<std::pair<std::string, std::string>>;
+
+double relative_l2(std::span<const double> got, std::span<const double> want) {
+    double difference = 0, norm = 0;
+    for (std::size_t n = 0; n < want.size(); ++n) {
+        difference += (got[n] - want[n]) * (got[n] - want[n]);
+        norm += want[n] * want[n];
+    }
+    return std::sqrt(difference / norm);
+}
+
+Run integrated(const Scene& scene, int modes, const Options& options = {}, bool energy = false) {
+    return run(sundials, scene, {0, 44100, modes, options}, {.energy = energy});
+}
+
+double fact(const Run& r, const std::string& name) {
+    for (const Fact& f : r.facts)
+        if (f.name == name) return f.value;
+    ADD_FAILURE() << "no fact " << name;
+    return 0;
+}
+
+// ---- The equations.
+
+struct Equations : testing::Test {
+    Equations() {
+        Scene scene = c3_pluck();
+        String& s = scene.strings.front();
+        s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}, LumpedBarrier{0.3, 0, 1e-5, {1e7}, 1.3, 40},
+                      LumpedBarrier{0.7, 0, 0, {1e7}, 2, 0}};
+        s.thread->height = 1e-6;
+        equations.emplace(modes_of(s, 13), s);
+        equations->touched = {1, 1, 0};
+        equations->plucked = true;
+        equations->pluck_time = 20e-3;
+        std::mt19937 random(5);
+        std::normal_distribution<double> normal;
+        z.resize(equations->size());
+        b.resize(equations->size());
+        for (int i = 0; i < equations->size(); ++i) {
+            z[i] = 1e-3 * normal(random);
+            b[i] = normal(random);
+        }
+        for (int i = 13; i < equations->padded; ++i) z[i] = z[equations->padded + i] = b[i] = b[equations->padded + i] = 0;
+        jacobian.resize(equations->size(), equations->size());
+        equations->jacobian(1e-3, z.data(), jacobian.data());
+    }
+    std::optional<StringEquations> equations;
+    Eigen::VectorXd z, b;
+    Eigen::MatrixXd jacobian;
+};
+
+TEST_F(Equations, HaveTheJacobianOfTheirSlope) {
+    const int n = equations->size();
+    Eigen::VectorXd up(n), down(n);
+    for (int j = 0; j < n; ++j) {
+        Eigen::VectorXd moved = z;
+        const double step = 1e-8;
+        moved[j] += step;
+        equations->slope(1e-3, moved.data(), up.data());
+        moved[j] -= 2 * step;
+        equations->slope(1e-3, moved.data(), down.data());
+        const Eigen::VectorXd difference = (up - down) / (2 * step) - jacobian.col(j);
+        EXPECT_LT(difference.norm(), 1e-5 * (1 + jacobian.col(j).norm())) << "column " << j;
+    }
+}
+
+TEST_F(Equations, SolveTheirNewtonMatrixAsADenseSolverDoes) {
+    const int n = equations->size();
+    for (const double gamma : {1e-9, 1e-7, 1e-5}) {
+        Eigen::VectorXd x(n);
+        equations->solve(1e-3, gamma, z.data(), b.data(), x.data());
+        const Eigen::VectorXd dense = (Eigen::MatrixXd::Identity(n, n) - gamma * jacobian).partialPivLu().solve(b);
+        EXPECT_LT((x - dense).norm(), 1e-10 * dense.norm()) << "gamma " << gamma;
+        EXPECT_LT((x - dense).tail(StringEquations::sums).norm(), 1e-9 * dense.tail(StringEquations::sums).norm()) << "gamma " << gamma;
+    }
+}
+
+// ---- One mode that falls on a barrier in its middle: a lumped mass on a one-sided spring.
+
+struct Impact {
+    double mass = 0.5, omega0 = 100, amplitude = 1e-3;  // [kg], [1/s], [m]
+    double speed() const { return omega0 * amplitude; }
+    Scene scene(double k, double exponent, double loss) const {
+        Scene s;
+        s.name = "impact";
+        s.duration = 20e-3;
+        String string;
+        string.length = 1;
+        string.linear_density = 2 * mass;
+        string.tension = 2 * mass * std::pow(omega0 / pi, 2);
+        string.initial = ModeInitial{1, amplitude};
+        string.barriers = {LumpedBarrier{0.5, 0, 0, {k}, exponent, loss}};
+        s.strings = {string};
+        s.taps = {{"y", Quantity::displacement, 0, 0.5}, {"v", Quantity::velocity, 0, 0.5}, {"bridge", Quantity::bridge_force, 0, 0}};
+        return s;
+    }
+    struct Outcome {
+        double duration, speed;
+    };
+    // It falls as A cos(omega0 t) and rises as (speed/omega0) sin(omega0 (t - pi/2omega0 - duration)).
+    Outcome outcome(const Scene& s, const Options& options) const {
+        const auto r = run(sundials, s, {0, 1000, 1, options});
+        EXPECT_EQ(r.status.outcome, jvari::Outcome::ok);
+        EXPECT_EQ(fact(r, "events"), 2);
+        const double y = omega0 * r.trace.column(0)[20], v = r.trace.column(1)[20];
+        return {20e-3 - pi / (2 * omega0) - std::atan2(y, v) / omega0, std::hypot(y, v)};
+    }
+};
+
+TEST(Impact, LastsAsLongAsALinearSpringsHalfPeriod) {
+    const Impact impact;
+    const double k = 1e9, duration = pi / std::sqrt(k / impact.mass + impact.omega0 * impact.omega0);
+    for (const char* method : {"erk", "esdirk", "bdf", "adams"}) {
+        const auto outcome = impact.outcome(impact.scene(k, 1, 0), {{"method", method}});
+        EXPECT_NEAR(outcome.duration, duration, 1e-7 * duration) << method;
+        EXPECT_NEAR(outcome.speed, impact.speed(), 1e-7 * impact.speed()) << method;
+    }
+}
+
+// m v^2/2 = k eta^(a+1)/(a+1): T = 2 eta_max/v int_0^1 du/sqrt(1 - u^(a+1)) = 2 eta_max/v B(1/(a+1), 1/2)/(a+1). The string's own stiffness
+// changes it by a part (omega0 T)^2 or so.
+TEST(Impact, OfAPowerLawLastsAsTheBetaFunctionSays) {
+    const Impact impact;
+    for (const double exponent : {1.3, 1.5, 2.0, 2.7}) {
+        const double k = 1e7 * std::pow(1e-5, 1 - exponent), n = exponent + 1, v = impact.speed();
+        const double deepest = std::pow(n * impact.mass * v * v / (2 * k), 1 / n);
+        const double duration = 2 * deepest / v * std::beta(1 / n, 0.5) / n;
+        for (const char* method : {"erk", "esdirk", "adams"}) {
+            const auto outcome = impact.outcome(impact.scene(k, exponent, 0), {{"method", method}});
+            const double stiffness = std::pow(impact.omega0 * duration, 2);
+            ASSERT_LT(stiffness, 0.05);
+            EXPECT_NEAR(outcome.duration, duration, stiffness * duration) << exponent << " " << method;
+            EXPECT_NEAR(outcome.speed, v, 1e-8 * v) << exponent << " " << method;
+        }
+    }
+}
+
+TEST(Impact, IsUnaffectedByTheStringInTheLimitOfAStiffBarrier) {
+    const Impact impact;
+    double last = 1;
+    for (const double k : {1e9, 1e11, 1e13}) {  // exponent 1.3
+        const double n = 2.3, v = impact.speed(), deepest = std::pow(n * impact.mass * v * v / (2 * k), 1 / n);
+        const double duration = 2 * deepest / v * std::beta(1 / n, 0.5) / n;
+        const auto outcome = impact.outcome(impact.scene(k, 1.3, 0), {});
+        const double error = std::abs(outcome.duration / duration - 1);
+        EXPECT_LT(error, std::pow(impact.omega0 * duration, 2) + 1e-9);
+        EXPECT_LT(error, last);
+        last = error;
+    }
+    EXPECT_LT(last, 1e-7);
+}
+
+// v dv/(1 + beta v) = -(k/m) eta^a deta, both sides a full differential: v/beta - ln(1 + beta v)/beta^2 is the same on the way in and out.
+TEST(Impact, LosesToHuntCrossleyWhatTheClosedFormSays) {
+    const Impact impact;
+    for (const double exponent : {1.0, 1.5}) {
+        const double k = 1e9 * std::pow(1e-6, 1 - exponent), beta = 3, v = impact.speed();
+        const auto before = v / beta - std::log1p(beta * v) / (beta * beta);
+        double low = 0, high = v;
+        for (int i = 0; i < 100; ++i) {
+            const double out = 0.5 * (low + high);
+            (-out / beta - std::log1p(-beta * out) / (beta * beta) < before ? low : high) = out;
+        }
+        const auto outcome = impact.outcome(impact.scene(k, exponent, beta), {});
+        EXPECT_LT(low, 0.9 * v);
+        EXPECT_NEAR(outcome.speed, low, 1e-5 * v) << exponent;
+    }
+}
+
+// ---- Strings.
+
+Scene two_barriers() {  // of different heights, a thread, a pluck with skew
+    Scene scene = c3_pluck();
+    scene.duration = 8e-3;
+    String& s = scene.strings.front();
+    s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}, LumpedBarrier{0.3, 0, -1e-5, {1e6}, 1, 0}};
+    s.pluck->duration = 3e-3;
+    s.pluck->start = 0.1e-3;
+    s.pluck->skew = 4;
+    return scene;
+}
+
+TEST(Integrated, AgreesWithTheExactReferenceAndFindsItsEvents) {
+    Scene scene = c3_release();
+    scene.duration = 8e-3;
+    for (const Scene& s : {scene, two_barriers()}) {
+        const auto truth = run(exact_contact, s, {0, 44100, 40, {}}), r = integrated(s, 40);
+        EXPECT_EQ(fact(r, "events"), fact(truth, "events"));
+        EXPECT_GT(fact(r, "events"), 50);
+        for (int k = 0; k < 2; ++k) EXPECT_LT(relative_l2(r.trace.column(k), truth.trace.column(k)), 1e-9) << r.trace.names[k];
+        for (int k = 2; k < 4; ++k) EXPECT_LT(relative_l2(r.trace.column(k), truth.trace.column(k)), 1e-6) << r.trace.names[k];
+    }
+}
+
+TEST(Integrated, ByAnyMethodIsTheSame) {
+    Scene scene = c3_release();
+    scene.duration = 4e-3;
+    const auto truth = run(exact_contact, scene, {0, 44100, 20, {}});
+    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"method", "esdirk"}},
+                             Options{{"method", "bdf"}, {"linear_solver", "dense"}}, Options{{"method", "erk"}, {"order", "5"}},
+                             Options{{"method", "erk"}, {"flight", "integrate"}}, Options{{"method", "adams"}, {"flight", "integrate"}}}) {
+        const auto r = integrated(scene, 20, o);
+        ASSERT_EQ(r.status.outcome, Outcome::ok) << o[0].second;
+        EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 3e-8) << o[0].second << " " << o.back().second;
+        EXPECT_EQ(fact(r, "events"), fact(truth, "events")) << o[0].second << " " << o.back().second;
+    }
+}
+
+Scene power_law(double loss) {
+    Scene scene = c3_release();
+    scene.duration = 5e-3;
+    scene.strings.front().barriers = {LumpedBarrier{10e-3, 2e-3, 0, {1e10}, 1.3, loss}};
+    return scene;
+}
+
+TEST(Integrated, PowerLawsAgreeBetweenIntegratorsAndTolerances) {
+    const Scene scene = power_law(0);
+    const auto best = integrated(scene, 20, {{"rtol", "1e-13"}});
+    for (const Options& o : {Options{}, Options{{"method", "erk"}, {"order", "5"}}, Options{{"method", "adams"}, {"rtol", "1e-11"}}}) {
+        const auto r = integrated(scene, 20, o);
+        EXPECT_LT(relative_l2(r.trace.column(0), best.trace.column(0)), 1e-7);
+        EXPECT_EQ(fact(r, "events"), fact(best, "events"));
+    }
+}
+
+TEST(Integrated, BalancesTheEnergyOfContactLoss) {
+    for (const double loss : {0.0, 0.5}) {
+        const auto r = integrated(lossless(power_law(loss)), 20, {}, true);
+        const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1), dissipated = r.trace.energy_column(2);
+        double lost = 0;
+        for (long n = 1; n < r.trace.rows; ++n) {
+            ASSERT_LE(std::abs(stored[n] - stored[n - 1] - supplied[n] + dissipated[n]), 1e-10 * stored[0]) << n;
+            ASSERT_GE(dissipated[n], 0);
+            lost += dissipated[n];
+        }
+        if (loss == 0) EXPECT_EQ(lost, 0);
+        else EXPECT_GT(lost, 1e-3 * stored[0]);
+    }
+}
+
+TEST(Integrated, StartsInContactWhereTheSceneDoes) {
+    Scene scene = c3_release();
+    scene.duration = 2e-3;
+    scene.strings.front().initial = ModeInitial{1, -1e-6};
+    const auto truth = run(exact_contact, scene, {0, 44100, 20, {}});
+    for (const char* flight : {"exact", "integrate"}) {
+        const auto r = integrated(scene, 20, {{"flight", flight}});
+        EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 1e-8) << flight;
+    }
+}
+
+TEST(Integrated, AllocatesNothingAndRepeatsItselfByAnyMethod) {
+    Scene scene = c3_release();
+    const int taps = static_cast<int>(scene.taps.size());
+    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"method", "esdirk"}},
+                             Options{{"method", "bdf"}, {"linear_solver", "dense"}}, Options{{"flight", "integrate"}}}) {
+        const auto scheme = sundials.make(scene, {0, 44100, 10, o});
+        std::vector<double> first(128 * taps), again(first), energy(3 * 128);
+        const Allocations allocations;
+        EXPECT_EQ(scheme->advance({128, taps, 128, first.data(), nullptr}).outcome, Outcome::ok);
+        scheme->reset();
+        scheme->advance({64, taps, 128, again.data(), energy.data()});
+        scheme->advance({64, taps, 128, again.data() + 64, nullptr});
+        EXPECT_EQ(allocations.count(), 0) << o[0].second;
+        EXPECT_TRUE(first == again) << o[0].second;
+    }
+}
+
+TEST(Integrated, RefusesWhatItDoesNotRepresent) {
+    const auto reason = [](const Scene& scene, const Options& options) -> std::string {
+        try {
+            integrated(scene, 10, options);
+        } catch (const Refusal& refusal) {
+            return refusal.what();
+        }
+        return "accepted";
+    };
+    Scene profile = c3_release();
+    profile.strings.front().barriers = {ProfileBarrier{FlatCurve{}, 0, 0.01, {1e9}, 1, 0}};
+    EXPECT_NE(reason(profile, {}).find("profile"), std::string::npos);
+    EXPECT_EQ(reason(c3_release(), {{"method", "euler"}}), "option method: found \"euler\", expected one of bdf, adams, erk, esdirk");
+    EXPECT_EQ(reason(c3_release(), {{"rtol", "2"}}), "option rtol: expected a tolerance between 0 and 1");
+    EXPECT_NE(reason(c3_release(), {{"order", "11"}}).find("order"), std::string::npos);
+    EXPECT_NE(reason(c3_release(), {{"atol", "1"}}).find("unknown option atol"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace jvari
