@@ -61,6 +61,19 @@ std::vector<bool> front_of(const Comparison& c) {
     return pareto_front(points);
 }
 
+// What a run's own figures say against it, whatever its error: balance is necessary, never sufficient.
+std::string flags_of(const Summary& s) {
+    std::string flags;
+    const auto flag = [&flags](bool raised, const char* name) {
+        if (raised) flags += (flags.empty() ? "" : " ") + std::string(name);
+    };
+    flag(s.smallest_contact_force < -1e-9, "adhesion");                     // the contact pulls, [N]
+    flag(fact(s.facts, "psi_out_of_contact") > 1e-9, "psi_gap");            // quadratised: energy stored where there is no contact
+    flag(s.energy_residual_accumulated > 1e-6, "energy");                   // the ledger does not close
+    flag(fact(s.facts, "modes_above_nyquist") > 0, "modes_above_nyquist");  // they alias
+    return flags;
+}
+
 class Row {  // one row, and on the first one the columns
 public:
     Row(Table& table, bool first) : table_(table), first_(first) { table_.rows.emplace_back(); }
@@ -84,6 +97,7 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front,
     row.number("rate", cell.scheme->clock == Clock::continuous ? nan : cell.settings.sample_rate);
     row.count("modes", cell.modes(), cell.modes() > 0);
     row.text("status", status_of(cell));
+    row.text("flags", ran ? flags_of(s) : "");
     for (std::size_t k = 0; k < measures().size(); ++k)
         row.number(measures()[k].column, error_in(cell, c.headline.tap(measures()[k]), static_cast<int>(k)));
     const double seconds = ran && s.duration > 0 ? s.duration : nan, wall = ran ? cell.wall.median : nan;

@@ -28,7 +28,7 @@ std::string headline_text(const Table& t, const std::string& error_column) {
     std::string text =
         fmt::format("  {:<{}}  {:>9} {:>6}  {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n", "scheme", width, "rate",
                     "modes", "L2 10ms", "L2 50ms", "L2 whole", "horizon", "1/3 oct", "residual", "s per s", "", "real time", "ns/step");
-    std::string missing;
+    std::string missing, flagged;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         const std::string rate = t.at(i, "rate").empty() ? "contin." : t.at(i, "rate");
         if (t.at(i, "status") == "refused") {
@@ -36,6 +36,10 @@ std::string headline_text(const Table& t, const std::string& error_column) {
             continue;
         }
         if (t.at(i, "status") != "ok") missing += fmt::format("  {:<{}}  {:>9}  {}\n", t.at(i, "scheme"), width, rate, t.at(i, "reason"));
+        if (!t.at(i, "flags").empty())
+            flagged += fmt::format("  {:<{}}  {:>9}  {} (smallest contact force {}, ledger open by {})\n", t.at(i, "scheme"), width, rate,
+                                   t.at(i, "flags"), cell_text(t, i, "smallest_contact_force", "{:.2g} N"),
+                                   cell_text(t, i, "energy_residual_accumulated", "{:.1e}"));
         text += fmt::format("{} {:<{}}  {:>9} {:>6}  {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n",
                             t.at(i, "pareto") == "1" ? "*" : " ", t.at(i, "scheme"), width, rate, t.at(i, "modes"),
                             cell_text(t, i, "error_l2_10ms", "{:.2e}"), cell_text(t, i, "error_l2_50ms", "{:.2e}"),
@@ -45,6 +49,7 @@ std::string headline_text(const Table& t, const std::string& error_column) {
                             cell_text(t, i, "ns_per_step", "{:.1f}"));
     }
     text += fmt::format("* on the Pareto front of {} and cost; +- is half the distance of the quartiles", error_column);
+    if (!flagged.empty()) text += "\nnot to be trusted, whatever the error says\n" + flagged.substr(0, flagged.size() - 1);
     return missing.empty() ? text : text + "\nfailed or refused\n" + missing.substr(0, missing.size() - 1);
 }
 

@@ -11,7 +11,7 @@ namespace jvari {
 
 namespace {
 constexpr double shortest_sample = 0.02;  // [s]
-constexpr double budget = 30;             // of one cell [s]
+constexpr double budget = 10;             // of one cell [s]
 
 struct Timed {
     Cell* cell;

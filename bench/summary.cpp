@@ -13,6 +13,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 int modes_used(const Scene& scene, const Settings& settings, const std::vector<Fact>& facts) {
     for (const char* name : {"modes", "nodes", "interior_nodes"})
         if (const double n = fact(facts, name); n == n) return static_cast<int>(n);
+    if (const double n = fact(facts, "grid_intervals"); n == n) return static_cast<int>(n) - 1;
     return scene.strings.empty() ? 0 : modes_for(scene.strings.front(), settings);
 }
 }  // namespace

@@ -224,10 +224,20 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
 TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigit) {
     const Scratch scratch;
     const std::string arguments =
-        "compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.02 --repeats 1 --out ";
+        "compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.06 --repeats 1 --out ";
     ASSERT_EQ(jvari(scratch, arguments + (scratch / "a")).code, 0);
     ASSERT_EQ(jvari(scratch, arguments + (scratch / "b")).code, 0);
     EXPECT_EQ(content(scratch / "a/errors.csv"), content(scratch / "b/errors.csv"));
+
+    const Table errors = read_csv(content(scratch / "a/errors.csv"));
+    EXPECT_EQ(errors.at(0, "third_octave_db"), errors.at(0, "third_octave_db_bridge"));
+    EXPECT_NE(errors.at(0, "third_octave_db"), errors.at(0, "third_octave_db_nut"));
+    EXPECT_EQ(errors.at(0, "stft_db"), errors.at(0, "stft_db_nut"));
+    // against an independent exact solution the nut force was found wrong by 6.8e-2 and 4.1e-3 over 50 ms
+    EXPECT_NEAR(errors.number(0, "error_l2_50ms"), 6.8e-2, 0.2 * 6.8e-2);
+    EXPECT_NEAR(errors.number(1, "error_l2_50ms"), 4.1e-3, 0.2 * 4.1e-3);
+    const auto floor = nlohmann::json::parse(content(scratch / "a/manifest.json")).at("noise_floor");
+    EXPECT_NEAR(floor.at("error_l2_10ms").get<double>(), 1e-12, 5e-13);  // a scaled start scales the whole run until contact spreads it
 }
 
 TEST(CommandLine, ComparedSchemesThatFailOrRefuseAreRowsAndDecideTheExitCodeOnlyTogether) {

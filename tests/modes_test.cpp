@@ -8,19 +8,12 @@
 
 #include "scenes/damping.hpp"
 #include "scenes/excitation.hpp"
+#include "tests/c3.hpp"
 
 namespace jvari {
 namespace {
 
-String c3() {  // van Walstijn et al. 2016, Table 1
-    String s;
-    s.length = 1.0;
-    s.linear_density = 4.83e-4;
-    s.tension = 33.1;
-    s.bending_stiffness = 6.03e-5;
-    s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6};
-    return s;
-}
+String c3() { return c3_free().strings.front(); }
 
 TEST(Modes, TheC3StringHas133ModesBelow20kHz) {
     const String s = c3();
