@@ -298,7 +298,7 @@ TEST(Spectrograms, ASineStandsInItsRowWithItsPower) {
 
 TEST(Spectrograms, OneScaleForAllAndNoMoreRectanglesThanAsked) {
     Levels noise{60, 100, 0, 0.016, 80, {}};
-    for (int k = 0; k < 6000; ++k) noise.level.push_back(-300 - (k * 7919) % 600);
+    for (int k = 0; k < 6000; ++k) noise.level.push_back(-437 - (k * 7919) % 600);
     Levels quiet = noise;
     for (int& level : quiet.level) level -= 2000;
     const auto spec = nlohmann::json::parse(
