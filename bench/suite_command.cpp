@@ -98,13 +98,17 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
         const Table& row = run.records[i].row;
         const PlannedCell& c = plan.cells[i];
+        const auto short_text = [&row](const char* column, const char* format) {
+            const double x = row.number(0, column);
+            return std::isnan(x) ? std::string() : fmt::format(fmt::runtime(format), x);
+        };
         ++statuses[row.at(0, "status")];
         std::string what = c.point->scene.name;
         for (const auto& [key, value] : c.point->swept) what += " " + key + "=" + value;
         const std::string options = options_text(c.cell.settings);
         text += fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}  {}\n", what,
                             c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
-                            row.at(0, "status"), row.at(0, "error_l2_50ms").substr(0, 9), row.at(0, "cost_s_per_s").substr(0, 9),
+                            row.at(0, "status"), short_text("error_l2_50ms", "{:.2e}"), short_text("cost_s_per_s", "{:.3g}"),
                             row.at(0, "reason"));
     }
     text = fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}\n", "scene", "scheme", "rate", "modes", "status", "L2 50ms",
