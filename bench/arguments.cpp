@@ -20,6 +20,7 @@ constexpr const char* examples =
     "  jvari run tanpura_c3 --scheme modal_two_point --out c3.wav\n"
     "  jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --energy --set string.0.tension=40 --out c3.csv\n"
     "  jvari compare tanpura_c3_release --out report           every scheme that represents it, at 44.1 kHz x 1 ... 64\n"
+    "  jvari suite paper-deshmukh --out sitar --resume         a declared set of cells, taken up where it was stopped\n"
     "  jvari report report                                     its page and picture once more\n"
     "\n"
     "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed (what was written stays valid).";
@@ -145,6 +146,20 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         "Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
     add_common(*compare_verb, compare);
 
+    SuiteRequest suite;
+    auto* suite_verb =
+        app.add_subcommand("suite", "a declared set of cells: errors, cost and spectrograms over scenes, schemes and sweeps");
+    suite_verb->add_option("suite", suite.suite, "a suite file, or a name that `jvari list suites` shows")->required()->type_name("FILE");
+    suite_verb
+        ->add_option("--out", suite.out, "folder for cells/, cells.csv, errors.csv, cost.csv, manifest.json, spectrograms.svg, report.html")
+        ->type_name("DIR");
+    suite_verb->add_flag("--resume", suite.resume, "reads back the cells that DIR holds and runs the others");
+    suite_verb->add_option("--jobs", suite.jobs, "accuracy runs side by side; as many as there are cores where absent")
+        ->type_name("N")
+        ->check(counting);
+    suite_verb->footer("Example: jvari suite paper-deshmukh --out sitar --resume");
+    add_common(*suite_verb, suite);
+
     ReportRequest report;
     auto* report_verb = app.add_subcommand("report", "page and picture from a folder that compare wrote");
     report_verb->add_option("folder", report.folder, "holds cells.csv and manifest.json")->required()->type_name("DIR");
@@ -175,6 +190,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     if (list_verb->parsed()) return list;
     if (run_verb->parsed()) return run;
     if (compare_verb->parsed()) return compare;
+    if (suite_verb->parsed()) return suite;
     return report;
 }
 

@@ -50,7 +50,13 @@ struct ReportRequest : Common {
     std::string folder;
 };
 
-using Request = std::variant<ListRequest, RunRequest, CompareRequest, ReportRequest>;
+struct SuiteRequest : Common {
+    std::string suite, out;
+    bool resume = false;
+    int jobs = 0;  // 0: as many as there are cores
+};
+
+using Request = std::variant<ListRequest, RunRequest, CompareRequest, SuiteRequest, ReportRequest>;
 
 // Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);

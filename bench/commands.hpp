@@ -8,6 +8,7 @@ namespace jvari {
 int list_command(const ListRequest&);
 int run_command(const RunRequest&);
 int compare_command(const CompareRequest&);
+int suite_command(const SuiteRequest&);
 int report_command(const ReportRequest&);
 
 }  // namespace jvari

@@ -13,34 +13,32 @@
 namespace jvari {
 
 namespace {
-Run accuracy_run(const Descriptor& d, const Scene& scene, const Settings& settings, Console::Progress& progress, double from, double to,
-                 bool energy) {
-    RunOptions options;
-    options.energy = energy;
+ProgressOf shown_on(Console::Progress& progress, const Descriptor& d, const Settings& settings, double from, double to) {
     const std::string what = std::isfinite(settings.sample_rate) && settings.sample_rate > 0
                                  ? fmt::format("{} at {} Hz", d.name, settings.sample_rate)
                                  : std::string(d.name);
-    options.progress = [&](long done, long rows) {
+    return [&progress, what, from, to](long done, long rows) {
         progress.show(from + (to - from) * static_cast<double>(done) / static_cast<double>(rows), what);
     };
-    return run(d, scene, settings, options);
 }
 
-struct Reference {
-    ReferenceChoice choice;
-    Run run, moved;  // moved: started 1e-12 apart
-};
+Run reference_run(const ReferenceChoice& choice, const Scene& scene, Console::Progress& progress, double from, double to) {
+    RunOptions options;
+    options.progress = shown_on(progress, *choice.scheme, choice.settings, from, to);
+    return run(*choice.scheme, scene, choice.settings, options);
+}
+}  // namespace
 
 Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, const Console& console) {
     std::string refusals;
     for (const ReferenceChoice& choice : choices) try {
             Console::Progress progress(console, "reference");
-            Run truth = accuracy_run(*choice.scheme, scene, choice.settings, progress, 0, 0.5, false);
+            Run truth = reference_run(choice, scene, progress, 0, 0.5);
             if (truth.trace.rows < 2) {
                 refusals += fmt::format("; {} failed at its start", choice.scheme->name);
                 continue;
             }
-            Run moved = accuracy_run(*choice.scheme, scaled(scene, 1 + 1e-12), choice.settings, progress, 0.5, 1, false);
+            Run moved = reference_run(choice, scaled(scene, 1 + 1e-12), progress, 0.5, 1);
             return {choice, std::move(truth), std::move(moved)};
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();
@@ -48,15 +46,18 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
     throw Refusal("reference: none represents scene " + scene.name + refusals);
 }
 
-void measure(Cell& cell, const Scene& scene, const Trace& reference, Console::Progress& progress, double from, double to) {
-    const Run result = accuracy_run(*cell.scheme, scene, cell.settings, progress, from, to, true);
+Trace measure(Cell& cell, const Scene& scene, const Trace* reference, const ProgressOf& progress) {
+    RunOptions options;
+    options.energy = true;
+    options.progress = progress;
+    Run result = run(*cell.scheme, scene, cell.settings, options);
     cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
-    cell.errors = errors_of(result.trace, reference);
+    if (reference) cell.errors = errors_of(result.trace, *reference);
     if (result.status.outcome != Outcome::ok)
         cell.reason =
             fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
+    return std::move(result.trace);
 }
-}  // namespace
 
 Scene scaled(Scene scene, double factor) {
     for (String& s : scene.strings) {
@@ -92,7 +93,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
         for (Cell& cell : c.cells) {
             const double next = finished + cell.settings.sample_rate;
             try {
-                measure(cell, c.scene, reference.run.trace, progress, finished / work, next / work);
+                measure(cell, c.scene, &reference.run.trace, shown_on(progress, *cell.scheme, cell.settings, finished / work, next / work));
             } catch (const Refusal& e) {
                 cell.refused = true;
                 cell.reason = e.what();

@@ -23,7 +23,9 @@ Json json_of(const Table& table) {
         Json j = Json::object();
         for (std::size_t k = 0; k < row.size(); ++k) {
             const std::string& name = table.columns[k];
-            if (name == "scheme" || name == "status" || name == "reason" || name == "below_floor") j[name] = row[k];
+            if (name == "scheme" || name == "status" || name == "reason" || name == "flags" || name == "below_floor" || name == "cell" ||
+                name == "scene" || name == "options" || name == "reference")
+                j[name] = row[k];
             else if (name == "pareto") j[name] = row[k] == "1";
             else if (row[k].find_first_not_of("0123456789") == std::string::npos && !row[k].empty() && row[k].size() < 18)
                 j[name] = std::stol(row[k]);
@@ -58,6 +60,10 @@ std::string floor_text(const Comparison& c) {
     return text;
 }
 }  // namespace
+
+std::string rows_json(const Table& cells) {
+    return json_of(cells).dump();
+}
 
 int compare_command(const CompareRequest& r) {
     const Console console(r.json, r.quiet);

@@ -1,7 +1,10 @@
 // What a comparison is going to run: which cells at which settings, which references to try in turn.
 #pragma once
 
+#include <functional>
+
 #include "bench/compare.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari {
 
@@ -19,5 +22,17 @@ struct Plan {
 
 // Throws UsageError for names that do not exist and rates without a common tap rate, Refusal where no scheme represents the scene.
 Plan plan_of(const CompareRequest&, const Catalogue&, const Scene&);
+
+struct Reference {
+    ReferenceChoice choice;
+    Run run, moved;  // moved: started 1e-12 apart
+};
+// The first of the choices that represents the scene and gets going; throws Refusal where none does.
+Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, const Console&);
+
+// Runs the cell and fills summary, errors and reason; errors stay empty without a reference. Throws Refusal. What `progress` throws ends
+// it.
+using ProgressOf = std::function<void(long done, long rows)>;
+Trace measure(Cell&, const Scene&, const Trace* reference, const ProgressOf& progress);
 
 }  // namespace jvari

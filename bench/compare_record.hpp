@@ -17,6 +17,7 @@ std::string manifest_of(const Comparison&, const CompareRequest&);  // JSON
 
 Table errors_only(const Table& cells);
 Table cost_only(const Table& cells);
+std::string rows_json(const Table& cells);  // JSON: one object per row, numbers as numbers
 
 // The measure that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else the whole run.
 std::string headline_error(const Comparison&);

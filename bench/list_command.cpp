@@ -7,6 +7,7 @@
 #include "bench/catalogue.hpp"
 #include "bench/commands.hpp"
 #include "bench/console.hpp"
+#include "bench/suite_file.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari {
@@ -124,6 +125,27 @@ std::string taps_text() {
     return text;
 }
 
+Json suites_json() {
+    Json all = Json::array();
+    for (const std::string& name : library_suites()) try {
+            const Suite suite = read_suite(name);
+            all.push_back({{"name", name}, {"source", suite.source}, {"sets", suite.sets.size()}});
+        } catch (const std::runtime_error& e) {
+            all.push_back({{"name", name}, {"error", e.what()}});
+        }
+    return all;
+}
+
+std::string suites_text() {
+    std::string text = "suites\n";
+    const Json all = suites_json();
+    for (const Json& suite : all)
+        text += fmt::format(
+            "  {}  {}\n", suite.at("name").get<std::string>(),
+            suite.contains("error") ? "cannot be read: " + suite.at("error").get<std::string>() : suite.at("source").get<std::string>());
+    return text + (all.empty() ? "  none\n" : "");
+}
+
 std::string markdown(const Catalogue& catalogue) {  // the table of the README: schemes down, features across
     std::string head = "| scheme |", rule = "|---|", body;
     for (int i = 0; i < feature_count; ++i) {
@@ -166,7 +188,7 @@ int list_command(const ListRequest& r) {
     part("references", json_of(shelf.catalogue.references), descriptors_text("references", shelf.catalogue.references));
     part("scenes", scenes_json(shelf), scenes_text(shelf));
     part("taps", taps_json(), taps_text());
-    part("suites", Json::array(), "suites\n  none\n");
+    if (asked("suites")) part("suites", suites_json(), suites_text());
     if (asked("scenes")) {
         json["matrix"] = matrix_json(shelf);
         text += "\n" + matrix_text(shelf);

@@ -9,6 +9,8 @@ namespace jvari {
 
 namespace {
 std::mutex planner;  // FFTW's planner is not reentrant
+// and other files plan too, under a lock of their own: FFTW is told before main() to lock for itself
+[[maybe_unused]] const bool locked_for_all = (fftw_make_planner_thread_safe(), true);
 }
 
 // FFTW_ESTIMATE: the plan, and so every rounding, is the same in each run. The vector does not move: the object is not copied.

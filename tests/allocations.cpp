@@ -6,7 +6,8 @@
 static std::atomic<long> allocations{0};
 
 #if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/allocator_interface.h>
+// As in sanitizer/allocator_interface.h, which GCC does not install.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));
 static void on_malloc(const volatile void*, std::size_t) { ++allocations; }
 static void on_free(const volatile void*) {}
 static const int installed = __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);

@@ -178,6 +178,12 @@ const auto name_of_case = [](const testing::TestParamInfo<Case>& c) {
 INSTANTIATE_TEST_SUITE_P(All, Refusals, testing::ValuesIn(cases(false)), name_of_case);
 INSTANTIATE_TEST_SUITE_P(All, Contract, testing::ValuesIn(cases(true)), name_of_case);
 
+TEST(Allocations, AreCounted) {
+    const Allocations allocations;
+    const std::vector<Scene> scenes(1);
+    EXPECT_GT(allocations.count(), 0);
+}
+
 // Without barrier and thread a modal scheme is the exact solution: without losses to rounding.
 TEST(LinearScene, ModalSchemesReachTheClosedForm) {
     if (references().empty()) GTEST_SKIP();

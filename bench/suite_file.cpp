@@ -1,0 +1,219 @@
+// Reads by scenes/document.hpp, the one reader of TOML there is, so that messages carry file, line and key as those of scenes do.
+#include "bench/suite_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "bench/console.hpp"
+#include "bench/fresh_file.hpp"
+#include "scenes/document.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/wording.hpp"
+
+namespace jvari {
+
+namespace fs = std::filesystem;
+
+namespace {
+constexpr const char* facet_names[] = {"errors", "cost", "spectrogram"};
+
+class Reader {
+public:
+    explicit Reader(const Document& d) : document_(d) {}
+
+    [[noreturn]] void refuse(const Value& v, const std::string& key, const std::string& expected) const {
+        throw SceneFileError(document_.place(v.place) + ": " + key + ": found " + v.found() + ", expected " + expected);
+    }
+    void only(const Value& table, const std::string& within, const std::vector<std::string>& known) const {
+        for (const Member& m : std::get<Table>(table.content))
+            if (std::find(known.begin(), known.end(), m.key) == known.end())
+                throw SceneFileError(document_.place(m.value.place) + ": " + within + unknown("key", m.key, known));
+    }
+    std::string text(const Value& v, const std::string& key) const {
+        if (const auto* s = std::get_if<std::string>(&v.content)) return *s;
+        refuse(v, key, "a text");
+    }
+    double positive(const Value& v, const std::string& key) const {
+        const auto* whole = std::get_if<std::int64_t>(&v.content);
+        const auto* number = std::get_if<double>(&v.content);
+        const double x = whole ? static_cast<double>(*whole) : number ? *number : -1;
+        if (!(x > 0) || !std::isfinite(x)) refuse(v, key, "a number > 0");
+        return x;
+    }
+    int count(const Value& v, const std::string& key) const {
+        const auto* n = std::get_if<std::int64_t>(&v.content);
+        if (!n || *n < 1 || *n >= 10'000'000) refuse(v, key, "a whole number > 0");
+        return static_cast<int>(*n);
+    }
+    std::string toml(const Value& v, const std::string& key) const {  // a value as it could stand behind --set key=
+        if (const auto* s = std::get_if<std::string>(&v.content)) return quote(*s);
+        if (const auto* x = std::get_if<double>(&v.content)) return number_text(*x);
+        if (std::holds_alternative<Table>(v.content) || std::holds_alternative<Moment>(v.content)) refuse(v, key, "a value");
+        if (const auto* items = std::get_if<Array>(&v.content)) {
+            std::string text = "[";
+            for (const Value& item : *items) text += (text.size() > 1 ? ", " : "") + toml(item, key);
+            return text + "]";
+        }
+        return v.found();
+    }
+    std::string option_text(const Value& v, const std::string& key) const {
+        if (const auto* s = std::get_if<std::string>(&v.content)) return *s;
+        if (std::holds_alternative<Array>(v.content)) refuse(v, key, "a text or a number");
+        return toml(v, key);
+    }
+    // One value or an array of at least one.
+    template <class One>
+    auto several(const Value& v, const std::string& key, One one) const {
+        std::vector<decltype(one(v, key))> all;
+        const auto* items = std::get_if<Array>(&v.content);
+        if (!items) return std::vector{one(v, key)};
+        for (std::size_t i = 0; i < items->size(); ++i) all.push_back(one((*items)[i], key + "." + std::to_string(i)));
+        if (all.empty()) refuse(v, key, "at least one value");
+        return all;
+    }
+    const Table& table(const Value& v, const std::string& key) const {
+        if (const auto* t = std::get_if<Table>(&v.content)) return *t;
+        refuse(v, key, "a table");
+    }
+    std::string place(const Value& v) const { return document_.place(v.place); }
+
+private:
+    const Document& document_;
+};
+
+CellSet set_of(const Reader& read, const Value& v, const std::string& within) {
+    read.table(v, within);
+    read.only(v, within + ": ",
+              {"scenes", "schemes", "rates", "modes", "duration", "tap_rate", "repeats", "reference", "options", "sweep", "measure", "tap",
+               "time_limit_s"});
+    const auto text = [&read](const Value& x, const std::string& k) { return read.text(x, k); };
+    const auto number = [&read](const Value& x, const std::string& k) { return read.positive(x, k); };
+    const auto count = [&read](const Value& x, const std::string& k) { return read.count(x, k); };
+    const auto key = [&within](const char* name) { return within + "." + name; };
+    CellSet s;
+    s.modes = {0};
+    s.measure = {Facet::errors};
+    if (!v.find("scenes")) throw SceneFileError(read.place(v) + ": " + within + ": the key scenes is missing");
+    s.scenes = read.several(*v.find("scenes"), key("scenes"), text);
+    if (const Value* x = v.find("schemes")) s.schemes = read.several(*x, key("schemes"), text);
+    if (const Value* x = v.find("rates")) s.rates = read.several(*x, key("rates"), number);
+    if (const Value* x = v.find("modes")) s.modes = read.several(*x, key("modes"), count);
+    if (const Value* x = v.find("duration")) s.duration = number(*x, key("duration"));
+    if (const Value* x = v.find("tap_rate")) s.tap_rate = number(*x, key("tap_rate"));
+    if (const Value* x = v.find("repeats")) s.repeats = count(*x, key("repeats"));
+    if (const Value* x = v.find("reference")) s.reference = text(*x, key("reference"));
+    if (const Value* x = v.find("tap")) s.tap = text(*x, key("tap"));
+    if (const Value* x = v.find("time_limit_s")) s.time_limit = number(*x, key("time_limit_s"));
+    if (const Value* x = v.find("options"))
+        for (const Member& m : read.table(*x, key("options"))) {
+            const auto colon = m.key.find(':');
+            VariedOption o{
+                colon == std::string::npos ? "" : m.key.substr(0, colon), colon == std::string::npos ? m.key : m.key.substr(colon + 1), {}};
+            o.values = read.several(m.value, key("options.") + m.key,
+                                    [&read](const Value& one, const std::string& k) { return read.option_text(one, k); });
+            s.options.push_back(std::move(o));
+        }
+    if (const Value* x = v.find("sweep"))
+        for (const Member& m : read.table(*x, key("sweep"))) {
+            const std::string name = key("sweep.") + m.key;
+            if (!std::holds_alternative<Array>(m.value.content)) read.refuse(m.value, name, "an array of the values to vary");
+            s.sweep.push_back(
+                {m.key, read.several(m.value, name, [&read](const Value& one, const std::string& k) { return read.toml(one, k); })});
+        }
+    if (const Value* x = v.find("measure")) {
+        s.measure = read.several(*x, key("measure"), [&](const Value& one, const std::string& k) {
+            const std::string word = read.text(one, k);
+            for (int i = 0; i < 3; ++i)
+                if (word == facet_names[i]) return static_cast<Facet>(i);
+            throw SceneFileError(read.place(one) + ": " + k + ": " + unknown("measure", word, {"errors", "cost", "spectrogram"}));
+        });
+        if (s.measures(Facet::cost) && !s.measures(Facet::errors))
+            throw SceneFileError(read.place(*x) + ": " + key("measure") +
+                                 ": found cost without errors, expected both: no speed without an error");
+    }
+    return s;
+}
+
+fs::path library() {
+    if (const char* set = std::getenv("JVARI_SUITES"); set && *set) return set;
+    std::error_code error;
+    return fs::is_directory(JVARI_SOURCE_SUITES, error) ? JVARI_SOURCE_SUITES : JVARI_INSTALLED_SUITES;
+}
+}  // namespace
+
+const char* name_of(Facet f) {
+    return facet_names[static_cast<int>(f)];
+}
+
+bool CellSet::measures(Facet f) const {
+    return std::find(measure.begin(), measure.end(), f) != measure.end();
+}
+
+Suite parse_suite(std::string_view content, const std::string& file_name) {
+    const Document document = parse_document(content, file_name, {});
+    const Reader read(document);
+    read.only(document.root, "", {"name", "source", "cells"});
+    Suite suite;
+    suite.name = fs::path(file_name).stem().string();
+    if (const Value* x = document.root.find("name")) suite.name = read.text(*x, "name");
+    if (const Value* x = document.root.find("source")) suite.source = read.text(*x, "source");
+    const Value* cells = document.root.find("cells");
+    const auto* sets = cells ? std::get_if<Array>(&cells->content) : nullptr;
+    if (!sets || sets->empty())
+        throw SceneFileError(read.place(cells ? *cells : document.root) + ": cells: expected at least one [[cells]]");
+    for (std::size_t i = 0; i < sets->size(); ++i) suite.sets.push_back(set_of(read, (*sets)[i], "cells." + std::to_string(i)));
+    return suite;
+}
+
+Suite read_suite(const std::string& name) {
+    std::error_code error;
+    const fs::path shelved = library() / (name + ".toml");
+    const bool file = fs::is_regular_file(name, error);
+    if (!file && (name.find('/') != std::string::npos || !fs::is_regular_file(shelved, error)))
+        throw UsageError(unknown("suite", name, library_suites()) + " (neither a file nor a suite of the library)");
+    const std::string path = file ? name : shelved.string();
+    return parse_suite(read_whole(path), path);
+}
+
+std::vector<std::string> library_suites() {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(library(), error))
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::vector<SuitePoint> points_of(const Suite& suite) {
+    std::vector<SuitePoint> points;
+    for (const CellSet& set : suite.sets)
+        for (const std::string& scene : set.scenes)
+            for (const int modes : set.modes) {
+                CompareRequest base;
+                base.scene = scene;
+                base.schemes = set.schemes;
+                base.rates = set.rates;
+                base.modes = modes;
+                base.duration = set.duration;
+                base.tap_rate = set.tap_rate;
+                base.reference = set.reference;
+                base.repeats = set.repeats;
+                std::vector<CompareRequest> requests{base};
+                const auto vary = [&requests](const std::vector<std::string>& values, const auto& apply) {
+                    std::vector<CompareRequest> more;
+                    for (const CompareRequest& r : requests)
+                        for (const std::string& value : values) apply(more.emplace_back(r), value);
+                    requests = std::move(more);
+                };
+                for (const SweptKey& k : set.sweep)
+                    vary(k.values, [&k](CompareRequest& r, const std::string& value) { r.set.push_back(k.key + "=" + value); });
+                for (const VariedOption& o : set.options)
+                    vary(o.values, [&o](CompareRequest& r, const std::string& value) { r.options.push_back({o.scheme, o.name, value}); });
+                for (CompareRequest& r : requests) points.push_back({&set, std::move(r)});
+            }
+    return points;
+}
+
+}  // namespace jvari

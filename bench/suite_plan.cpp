@@ -1,0 +1,102 @@
+#include "bench/suite_plan.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/fresh_file.hpp"
+#include "bench/machine.hpp"
+#include "bench/records.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+std::string hash_of(const std::string& text) {
+    std::uint64_t h = 0xcbf29ce484222325;
+    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3;
+    return fmt::format("{:016x}", h);
+}
+
+Json settings_json(const Settings& s) {
+    Json options = Json::array();
+    for (const auto& [name, value] : s.options) options.push_back({name, value});
+    return {{"rate", text_of(s.sample_rate)}, {"tap_rate", text_of(s.tap_rate)}, {"modes", s.modes}, {"options", options}};
+}
+
+int tap_of(const CellSet& set, const Scene& scene) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < scene.taps.size(); ++k) {
+        if (set.tap.empty() || scene.taps[k].name == set.tap) return static_cast<int>(k);
+        names.push_back(scene.taps[k].name);
+    }
+    throw UsageError(unknown("tap", set.tap, names));
+}
+
+// What one scene of the file is; messages of compare's planner come with its name.
+Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& into) {
+    const CompareRequest& r = point.request;
+    const std::string where = "scene " + r.scene + ": ";
+    into.scene = load_scene(r.scene, r.set, r.duration);
+    try {
+        into.tap = tap_of(*point.set, into.scene);
+        return plan_of(r, catalogue, into.scene);
+    } catch (const UsageError& e) {
+        throw UsageError(where + e.what());
+    } catch (const Refusal& e) {
+        throw Refusal(where + e.what());
+    }
+}
+}  // namespace
+
+std::string options_text(const Settings& s) {
+    std::string text;
+    for (const auto& [name, value] : s.options) text += (text.empty() ? "" : " ") + name + "=" + value;
+    return text;
+}
+
+SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vector<std::string>& plugins) {
+    Json program{"jvari", machine().version, machine().commit, machine().build};
+    for (const std::string& path : plugins) program.push_back(hash_of(read_whole(path)));
+    SuitePlan all;
+    std::set<std::string> seen;
+    for (const SuitePoint& point : points_of(suite)) {
+        PlannedPoint& p = all.points.emplace_back();
+        const Plan plan = planned(point, catalogue, p);
+        for (const std::string& assignment : point.request.set) {
+            const auto equals = assignment.find('=');
+            p.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
+        }
+        p.references = plan.references;
+        const std::string hash = scene_hash(p.scene);
+        Json references = Json::array(), measure = Json::array();
+        for (const ReferenceChoice& c : plan.references)
+            references.push_back({{"name", c.scheme->name}, {"settings", settings_json(c.settings)}});
+        p.reference_key = hash + references.dump();
+        for (Facet f : {Facet::errors, Facet::cost, Facet::spectrogram})
+            if (point.set->measures(f)) measure.push_back(name_of(f));
+        for (const Cell& cell : plan.cells) {
+            Json identity{{"program", program},
+                          {"scene", p.scene.name},
+                          {"scene_hash", hash},
+                          {"scheme", cell.scheme->name},
+                          {"settings", settings_json(cell.settings)},
+                          {"measure", measure}};
+            if (point.set->measures(Facet::errors)) identity["references"] = references;
+            if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
+            if (point.set->measures(Facet::spectrogram)) identity["tap"] = p.scene.taps.at(p.tap).name;
+            if (point.set->time_limit) identity["time_limit_s"] = *point.set->time_limit;
+            PlannedCell planned_cell{point.set, &p, cell, identity.dump(), {}};
+            if (!seen.insert(planned_cell.identity).second) continue;
+            planned_cell.id = hash_of(planned_cell.identity);
+            all.cells.push_back(std::move(planned_cell));
+        }
+    }
+    return all;
+}
+
+}  // namespace jvari

@@ -1,0 +1,204 @@
+#include "bench/suite_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <ctime>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "bench/cost.hpp"
+#include "bench/fresh_file.hpp"
+
+namespace jvari {
+
+namespace {
+struct PastItsLimit {};
+
+double processor_seconds() {  // of this thread: a limit that does not depend on what else the machine does
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+struct Truth {  // the run of a reference, made by the first cell that needs it, gone with the last
+    std::once_flag once;
+    std::unique_ptr<Reference> reference;
+    Errors floor;
+    std::string refused;
+    std::atomic<int> needed_by = 0;
+
+    void make(const PlannedPoint& p) {
+        std::call_once(once, [&] {
+            try {
+                reference = std::make_unique<Reference>(run_reference(p.references, p.scene, Console(false, true)));
+                floor = errors_of(reference->moved.trace, reference->run.trace);
+            } catch (const std::exception& e) {
+                refused = e.what();
+            }
+        });
+    }
+};
+
+class Accuracy {  // the cells to run, and the threads that do
+public:
+    Accuracy(const SuitePlan& plan, std::vector<std::size_t> missing, std::filesystem::path folder, SuiteRun& into)
+        : plan_(plan), todo_(std::move(missing)), folder_(std::move(folder)), into_(into), fraction_(todo_.size()) {
+        for (const std::size_t i : todo_)
+            if (plan_.cells[i].set->measures(Facet::errors)) {
+                auto& truth = truths_[plan_.cells[i].point->reference_key];
+                if (!truth) truth = std::make_unique<Truth>();
+                ++truth->needed_by;
+            }
+    }
+
+    void run(int jobs, const Console& console) {
+        Console::Progress progress(console, "suite");
+        const auto start = std::chrono::steady_clock::now();
+        {
+            std::vector<std::jthread> threads;
+            for (int k = 0; k < std::min<int>(jobs, static_cast<int>(todo_.size())); ++k) threads.emplace_back([this] { work(); });
+            std::unique_lock lock(mutex_);
+            while (finished_ < todo_.size() && !failure_) {
+                changed_.wait_for(lock, std::chrono::milliseconds(250));
+                show(progress, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            }
+        }
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+private:
+    double weight(std::size_t k) const {
+        const PlannedCell& c = plan_.cells[todo_[k]];
+        return std::max(c.cell.settings.sample_rate, 44100.0) * c.point->scene.duration;
+    }
+
+    void show(Console::Progress& progress, double elapsed) const {
+        double all = 0, done = 0;
+        for (std::size_t k = 0; k < todo_.size(); ++k) {
+            all += weight(k);
+            done += weight(k) * fraction_[k].load(std::memory_order_relaxed);
+        }
+        const double left = done > 0 ? elapsed * (all - done) / done : 0;
+        progress.show(done / all, fmt::format("{} of {} cells, about {:.0f} s left", finished_, todo_.size(), left));
+    }
+
+    void work() {
+        try {
+            for (std::size_t k = next_++; k < todo_.size() && !stop_; k = next_++) {
+                SuiteRecord record = cell(plan_.cells[todo_[k]], fraction_[k]);
+                if (!folder_.empty())
+                    write_fresh(folder_ / (plan_.cells[todo_[k]].id + ".json"), json_of(record, plan_.cells[todo_[k]].identity));
+                fraction_[k] = 1;
+                const std::lock_guard lock(mutex_);
+                into_.records[todo_[k]] = std::move(record);
+                ++finished_;
+                changed_.notify_one();
+            }
+        } catch (...) {  // nothing can be written any more
+            const std::lock_guard lock(mutex_);
+            failure_ = std::current_exception();
+            stop_ = true;
+            changed_.notify_one();
+        }
+    }
+
+    SuiteRecord cell(const PlannedCell& planned, std::atomic<double>& fraction) {
+        Truth* truth = nullptr;
+        if (planned.set->measures(Facet::errors)) {
+            truth = truths_.at(planned.point->reference_key).get();
+            truth->make(*planned.point);
+        }
+        const bool known = truth && truth->reference;
+        Cell cell = planned.cell;
+        Trace trace;
+        std::string status;
+        const double start = processor_seconds(), limit = planned.set->time_limit.value_or(HUGE_VAL);
+        try {
+            trace = measure(cell, planned.point->scene, known ? &truth->reference->run.trace : nullptr, [&](long done, long rows) {
+                fraction.store(static_cast<double>(done) / static_cast<double>(rows), std::memory_order_relaxed);
+                if (processor_seconds() - start > limit) throw PastItsLimit{};
+            });
+        } catch (const Refusal& e) {
+            status = "refused";
+            cell.reason = e.what();
+        } catch (const PastItsLimit&) {
+            status = "past_time_limit";
+            cell.reason = fmt::format("past its time limit of {} s", limit);
+        } catch (const std::exception& e) {
+            status = "error";
+            cell.reason = e.what();
+        }
+        cell.refused = !status.empty();
+        if (truth && !known) cell.reason += (cell.reason.empty() ? "" : "; ") + truth->refused;
+        SuiteRecord record = record_of(planned, cell, known ? truth->floor : Errors{});
+        if (!status.empty()) record.row.rows[0][record.row.column("status")] = status;
+        if (known) record.reference = truth->reference->choice.scheme->name;
+        if (planned.set->measures(Facet::spectrogram) && !cell.refused)
+            record.levels = levels_of(trace.column(planned.point->tap), trace.tap_rate);
+        if (truth && --truth->needed_by == 0) truth->reference.reset();
+        return record;
+    }
+
+    const SuitePlan& plan_;
+    const std::vector<std::size_t> todo_;
+    const std::filesystem::path folder_;
+    SuiteRun& into_;
+    std::map<std::string, std::unique_ptr<Truth>> truths_;
+    std::vector<std::atomic<double>> fraction_;  // of each cell that is done
+    std::atomic<std::size_t> next_ = 0;
+    std::atomic<bool> stop_ = false;
+    std::mutex mutex_;  // of what follows and of the records
+    std::condition_variable changed_;
+    std::size_t finished_ = 0;
+    std::exception_ptr failure_;
+};
+
+void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, SuiteRun& into, const Console& console) {
+    std::map<std::pair<std::string, int>, std::vector<std::size_t>> competitors;  // the same scene as often
+    for (std::size_t i = 0; i < plan.cells.size(); ++i)
+        if (const CellSet& set = *plan.cells[i].set; set.measures(Facet::cost) && into.records[i].ran && !into.records[i].timed)
+            competitors[{plan.cells[i].point->reference_key, set.repeats}].push_back(i);
+    for (const auto& [key, indices] : competitors) {
+        std::vector<Cell> cells;
+        for (const std::size_t i : indices) {
+            cells.push_back(plan.cells[i].cell);
+            cells.back().summary.wall_seconds = into.records[i].seconds;
+        }
+        time_cells(cells, plan.cells[indices.front()].point->scene, key.second, console);
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            const PlannedCell& planned = plan.cells[indices[k]];
+            SuiteRecord& record = into.records[indices[k]];
+            add_clock(record, planned, cells[k].wall);
+            if (!folder.empty()) write_fresh(folder / (planned.id + ".json"), json_of(record, planned.identity));
+            ++into.timed;
+        }
+    }
+}
+}  // namespace
+
+SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const Console& console) {
+    SuiteRun result;
+    result.records.resize(plan.cells.size());
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+        std::optional<SuiteRecord> kept;
+        if (resume && !folder.empty()) kept = read_record(folder / (plan.cells[i].id + ".json"), plan.cells[i].identity);
+        if (kept) result.records[i] = std::move(*kept);
+        else missing.push_back(i);
+    }
+    result.ran = static_cast<int>(missing.size());
+    result.read_back = static_cast<int>(plan.cells.size() - missing.size());
+    if (!missing.empty()) Accuracy(plan, std::move(missing), folder, result).run(jobs, console);
+    time_missing(plan, folder, result, console);
+    return result;
+}
+
+}  // namespace jvari

@@ -1,0 +1,320 @@
+// Suites: what a file spreads out to, and that a suite which was stopped ends like one that was not.
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "bench/compare_record.hpp"
+#include "bench/suite_run.hpp"
+#include "command_line.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string refusal_of(const std::string& text) {
+    try {
+        parse_suite(text, "a.toml");
+    } catch (const SceneFileError& e) {
+        return e.what();
+    }
+    return "read";
+}
+
+// ---- The file
+
+TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
+    const Suite suite = parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string", "sitar_c5_decay"]
+        schemes = ["modal_two_point", "sitar_fdm"]
+        rates = [44100, 88200, 176400]
+        modes = [5, 10]
+        duration = 0.01
+        sweep = { "string.0.tension" = [30, 31.5], "tap.0.name" = ["a"] }
+        [[cells]]
+        scenes = "free_string"
+        schemes = ["modal_two_point", "sitar_fdm"]
+        rates = [44100, 88200, 176400]
+        modes = 5
+        duration = 0.01
+        sweep = { "string.0.tension" = [30], "tap.0.name" = ["a"] }
+    )",
+                                    "a.toml");
+    const auto points = points_of(suite);
+    ASSERT_EQ(points.size(), 2u * 2 * 2 + 1);
+    EXPECT_EQ(points[1].request.set, (std::vector<std::string>{"string.0.tension=31.5", "tap.0.name=\"a\""}));
+    const SuitePlan plan = plan_of(suite, Catalogue(), {});
+    EXPECT_EQ(plan.cells.size(), 2u * 2 * 2 * 2 * 3);  // the second set repeats six cells of the first
+    std::set<std::string> ids;
+    for (const PlannedCell& c : plan.cells) ids.insert(c.id);
+    EXPECT_EQ(ids.size(), plan.cells.size());
+    EXPECT_EQ(plan.points[1].scene.strings[0].tension, 31.5);
+    EXPECT_EQ(plan.points[0].scene.duration, 0.01);
+}
+
+TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
+    const Suite suite = parse_suite(R"(
+        [[cells]]
+        scenes = ["sitar_c5_ideal"]
+        schemes = ["sitar_waveguide", "sitar_fdm"]
+        rates = [44100]
+        options = { "sitar_waveguide:length" = ["integer", "fractional"] }
+        measure = ["spectrogram"]
+    )",
+                                    "a.toml");
+    const SuitePlan plan = plan_of(suite, Catalogue(), {});
+    ASSERT_EQ(plan.cells.size(), 3u);  // sitar_fdm is the same at both points, and no reference differs
+    EXPECT_EQ(options_text(plan.cells[0].cell.settings), "length=integer");
+    EXPECT_EQ(options_text(plan.cells[2].cell.settings), "length=fractional");
+}
+
+TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {
+    EXPECT_EQ(refusal_of("nmae = \"a\"\n[[cells]]\nscenes = [\"b\"]").rfind("a.toml:1: unknown key \"nmae\"; did you mean \"name\"?", 0),
+              0u);
+    const std::pair<const char*, const char*> cases[] = {
+        {"[[cells]]\nscenes = [\"b\"]\nraets = [1]", "a.toml:3: cells.0: unknown key \"raets\"; did you mean \"rates\"?"},
+        {"name = \"a\"", "[[cells]]"},
+        {"[[cells]]\nrates = [1]", "scenes is missing"},
+        {"[[cells]]\nscenes = []", "a.toml:2: cells.0.scenes: found an array, expected at least one value"},
+        {"[[cells]]\nscenes = [\"b\", 3]", "a.toml:2: cells.0.scenes.1: found 3, expected a text"},
+        {"[[cells]]\nscenes = [\"b\"]\nrates = [-1]", "a.toml:3: cells.0.rates.0: found -1, expected a number > 0"},
+        {"[[cells]]\nscenes = [\"b\"]\nmodes = 1.5", "a.toml:3: cells.0.modes: found 1.5, expected a whole number > 0"},
+        {"[[cells]]\nscenes = [\"b\"]\nsweep = { x = 3 }", "expected an array"},
+        {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"eror\"]", "unknown measure"},
+        {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"cost\"]", "no speed without an error"},
+        {"[[cells]]\nscenes = [\"b\"", "no TOML"},
+    };
+    for (const auto& [text, expected] : cases) EXPECT_NE(refusal_of(text).find(expected), std::string::npos) << refusal_of(text);
+}
+
+TEST(SuiteFile, EverySuiteOfTheLibraryCanBePlanned) {
+    for (const std::string& name : library_suites()) EXPECT_FALSE(plan_of(read_suite(name), Catalogue(), {}).cells.empty()) << name;
+    EXPECT_EQ(plan_of(read_suite("paper-deshmukh"), Catalogue(), {}).cells.size(), 16u);  // eight variants, two schemes
+}
+
+// ---- Running
+
+std::atomic<int> makes = 0;
+const Descriptor& original() {
+    static const Catalogue catalogue;
+    return catalogue.find("modal_two_point");
+}
+std::unique_ptr<Scheme> counted(const Scene& scene, const Settings& settings) {
+    ++makes;
+    return original().make(scene, settings);
+}
+
+class Slow : public Scheme {  // 2 ms of work for each block
+public:
+    void reset() noexcept override {}
+    Status advance(const Block& out) noexcept override {
+        const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
+        while (std::chrono::steady_clock::now() < until) {
+        }
+        for (int k = 0; k < out.taps; ++k) std::fill_n(out.tap + k * out.stride, out.rows, 0.0);
+        for (int k = 0; out.energy && k < 3; ++k) std::fill_n(out.energy + k * out.stride, out.rows, 0.0);
+        return {};
+    }
+    int dofs() const override { return 0; }
+};
+
+struct Workshop {  // the schemes of the program, and three for the tests
+    Descriptor counting{original()}, slow{original()}, unwilling{original()}, stumbling{original()};
+    Catalogue catalogue;
+    Console console{false, true};
+    Workshop() {
+        counting.name = "counting";
+        counting.make = counted;
+        slow.name = "slow";
+        slow.make = [](const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return std::make_unique<Slow>(); };
+        unwilling.name = "unwilling";
+        unwilling.make = [](const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw Refusal("it is not willing"); };
+        stumbling.name = "throwing";
+        stumbling.make = [](const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw std::runtime_error("out of luck"); };
+        for (const Descriptor* d : {&counting, &slow, &unwilling, &stumbling}) catalogue.schemes.push_back(d);
+    }
+};
+
+constexpr const char* counting_suite = R"(
+    [[cells]]
+    scenes = ["free_string", "tanpura_c3"]
+    schemes = ["counting"]
+    rates = [44100, 88200]
+    modes = [10]
+    duration = 0.06
+    repeats = 2
+    sweep = { "string.0.tension" = [30, 33] }
+    measure = ["errors", "cost", "spectrogram"]
+)";
+
+TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
+    const Scratch scratch;
+    const Workshop w;
+    const Suite suite = parse_suite(counting_suite, "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    ASSERT_EQ(plan.cells.size(), 8u);
+    makes = 0;
+    const SuiteRun first = run_suite(plan, scratch.path, false, 2, w.console);
+    EXPECT_EQ(first.ran, 8);
+    EXPECT_EQ(first.timed, 8);
+    EXPECT_EQ(makes, 8 * (1 + 2));  // each once for its errors and twice for the clock
+    const SuiteRun second = run_suite(plan, scratch.path, true, 2, w.console);
+    EXPECT_EQ(makes, 8 * (1 + 2));
+    EXPECT_EQ(second.read_back, 8);
+    EXPECT_EQ(second.ran + second.timed, 0);
+    EXPECT_EQ(csv(table_of(plan, second.records)), csv(table_of(plan, first.records)));  // clock columns too
+    EXPECT_EQ(second.records[0].levels.level, first.records[0].levels.level);
+    EXPECT_EQ(scratch.files(), 8);
+
+    const Table t = table_of(plan, first.records);
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        EXPECT_EQ(t.at(i, "status"), "ok") << t.at(i, "reason");
+        EXPECT_GT(t.number(i, "error_l2_whole"), 0);
+        EXPECT_GT(t.number(i, "cost_s_per_s"), 0);
+        EXPECT_EQ(t.at(i, "string.0.tension"), i % 4 < 2 ? "30" : "33");
+        EXPECT_FALSE(t.at(i, "reference").empty());
+    }
+}
+
+TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone) {
+    const Scratch scratch;
+    const Workshop w;
+    const Suite suite = parse_suite(counting_suite, "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    const std::string whole = csv(errors_only(table_of(plan, run_suite(plan, "", false, 1, w.console).records)));
+    run_suite(plan, scratch.path, false, 3, w.console);
+    fs::remove(scratch.path / (plan.cells[1].id + ".json"));
+    fs::remove(scratch.path / (plan.cells[6].id + ".json"));
+    fs::resize_file(scratch.path / (plan.cells[3].id + ".json"), 100);  // not ours: files appear whole
+    fs::copy_file(scratch.path / (plan.cells[5].id + ".json"), scratch.path / (plan.cells[4].id + ".json"),
+                  fs::copy_options::overwrite_existing);  // another cell's
+    makes = 0;
+    const SuiteRun resumed = run_suite(plan, scratch.path, true, 3, w.console);
+    EXPECT_EQ(resumed.ran, 4);
+    EXPECT_EQ(makes, 4 * (1 + 2));
+    EXPECT_EQ(csv(errors_only(table_of(plan, resumed.records))), whole);
+}
+
+TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
+    const Scratch scratch;
+    const Workshop w;
+    const Suite suite = parse_suite(counting_suite, "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    run_suite(plan, scratch.path, false, 2, w.console);
+    const fs::path path = scratch.path / (plan.cells[2].id + ".json");
+    auto json = nlohmann::ordered_json::parse(content(path));
+    json["timed"] = false;
+    std::ofstream(path) << json.dump();
+    makes = 0;
+    const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
+    EXPECT_EQ(resumed.ran, 0);
+    EXPECT_EQ(resumed.timed, 1);
+    EXPECT_EQ(makes, 2);
+}
+
+TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
+    const Workshop w;
+    const Suite suite = parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string"]
+        schemes = ["modal_two_point", "unwilling", "throwing", "slow"]
+        rates = [44100]
+        duration = 0.1
+        time_limit_s = 0.02
+        measure = ["errors", "cost", "spectrogram"]
+    )",
+                                    "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    const Table t = table_of(plan, run_suite(plan, "", false, 2, w.console).records);
+    const std::pair<const char*, const char*> expected[] = {
+        {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.02 s"}};
+    ASSERT_EQ(t.rows.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(t.at(i, "status"), expected[i].first);
+        EXPECT_EQ(t.at(i, "reason"), expected[i].second);
+        EXPECT_EQ(t.at(i, "cost_s_per_s").empty(), i > 0);
+    }
+}
+
+TEST(SuiteCommand, KilledAtAnyMomentAndResumedItGivesTheSameTable) {
+    const Scratch scratch;
+    const std::string file = scratch / "a.toml", none = "JVARI_NODE_MODULES=/nowhere";
+    std::ofstream(file)
+        << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
+           "modes = 20\nduration = 0.05\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
+    const Outcome whole = jvari(scratch, "suite " + file + " --jobs 1 --json --out " + scratch / "whole", none);
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    const auto json = nlohmann::json::parse(whole.out);
+    EXPECT_EQ(json.at("ran"), 24);
+    EXPECT_EQ(json.at("cells").at(0).at("scene"), "tanpura_c3");
+    const auto start_and_kill_with = [&](int cells) {  // as soon as there are so many
+        const std::string kept = scratch / "killed/cells";
+        std::system(("env " + none + " " JVARI_PROGRAM " suite " + file + " --jobs 2 --resume --out " + scratch / "killed" +
+                     " >/dev/null 2>&1 & p=$!; while kill -0 $p && test $(ls " + kept + " | wc -l) -lt " + std::to_string(cells) +
+                     "; do sleep 0.003; done 2>/dev/null; kill -9 $p 2>/dev/null; wait $p 2>/dev/null")
+                        .c_str());
+    };
+    for (const int cells : {1, 3, 4, 7, 10, 12, 15, 19}) start_and_kill_with(cells);
+    const Outcome resumed = jvari(scratch, "suite " + file + " --resume --json --out " + scratch / "killed", none);
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_GE(nlohmann::json::parse(resumed.out).at("read_back"), 19);
+    EXPECT_EQ(content(scratch / "killed/errors.csv"), content(scratch / "whole/errors.csv"));
+    EXPECT_NE(content(scratch / "killed/report.html").find("sitar_fdm cannot represent"), std::string::npos);
+    const Outcome again = jvari(scratch, "suite " + file + " --resume --json --out " + scratch / "killed", none);
+    EXPECT_EQ(nlohmann::json::parse(again.out).at("read_back"), 24);
+}
+
+TEST(SuiteCommand, ExitCodesAreThoseOfTheProgram) {
+    const Scratch scratch;
+    const std::string file = scratch / "a.toml";
+    std::ofstream(file)
+        << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"sitar_fdm\"]\nrates = [44100]\nmeasure = [\"spectrogram\"]\n";
+    EXPECT_EQ(jvari(scratch, "suite " + file).code, 3);
+    EXPECT_EQ(jvari(scratch, "suite nowhere").code, 2);
+    EXPECT_EQ(jvari(scratch, "suite " + file + " --resume").code, 2);
+    EXPECT_EQ(jvari(scratch, "suite " + file + " --jobs 0").code, 2);
+    EXPECT_NE(jvari(scratch, "list suites").out.find("paper-deshmukh"), std::string::npos);
+}
+
+// ---- The picture
+
+TEST(Spectrograms, ASineStandsInItsRowWithItsPower) {
+    std::vector<double> signal(44100);
+    for (std::size_t n = 0; n < signal.size(); ++n) signal[n] = 0.01 * std::sin(2 * M_PI * 1012.0 * static_cast<double>(n) / 44100);
+    const Levels l = levels_of(signal, 44100);
+    ASSERT_EQ(l.rows, 100);
+    EXPECT_NEAR(l.frames, 60, 1);
+    for (int m = 0; m < l.frames; ++m) {
+        const int* frame = l.level.data() + static_cast<std::ptrdiff_t>(m) * l.rows;
+        EXPECT_EQ(std::max_element(frame, frame + l.rows) - frame, 12);  // 960-1040 Hz
+        // 1e-4/2 is -43.0 dB; the strongest bin of a Hann window holds 2/3 of it (-1.8 dB) on a bin, down to 1.4 dB less between two
+        EXPECT_NEAR(frame[12], -448 - 7, 8);
+        EXPECT_LT(frame[50], frame[12] - 800);
+    }
+}
+
+TEST(Spectrograms, OneScaleForAllAndNoMoreRectanglesThanAsked) {
+    Levels noise{60, 100, 0, 0.016, 80, {}};
+    for (int k = 0; k < 6000; ++k) noise.level.push_back(-437 - (k * 7919) % 600);
+    Levels quiet = noise;
+    for (int& level : quiet.level) level -= 2000;
+    const auto spec = nlohmann::json::parse(
+        spectrogram_spec("a", "b", {{"s", "x", "ok", noise}, {"t", "x", "ok", quiet}, {"t", "y", "refused", {}}}, 2000));
+    const auto& grid = spec.at("concat");
+    ASSERT_EQ(grid.size(), 4u);
+    const auto rectangles = [&grid](int k) { return grid[k].at("data").at("values").size(); };
+    EXPECT_GT(rectangles(0), 500u);
+    EXPECT_LE(rectangles(0), 2000u);
+    EXPECT_EQ(rectangles(1), 0u);  // 200 dB below: background alone, for the scale is common
+    EXPECT_EQ(grid[3].at("mark").at("text"), "refused");
+    EXPECT_EQ(grid[1].at("title").at("text"), "t");
+    double highest = -1e9;
+    for (const auto& r : grid[0].at("data").at("values")) highest = std::max(highest, r.at("l").get<double>());
+    EXPECT_EQ(highest, 0);
+}
+
+}  // namespace
+}  // namespace jvari::test
