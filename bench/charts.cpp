@@ -59,7 +59,7 @@ Encodings encodings_of(const WorkPrecision& w) {
     }
     if (schemes.size() > 1)
         legend = {{"title", nullptr},          {"orient", w.wide ? "right" : "bottom"},
-                  {"columns", w.wide ? 1 : 3}, {"labelLimit", 260},
+                  {"columns", w.wide ? 1 : 2}, {"labelLimit", 600},
                   {"symbolSize", 90},          {"symbolStrokeWidth", 0}};
     return {axis("x"),
             axis("y"),
