@@ -1,4 +1,4 @@
-// The only file that sees SUNDIALS (6.4): CVODE and ARKODE behind integrator.hpp.
+// The only file that sees SUNDIALS (6.4): CVODE and ARKODE behind integrator.hpp, and what an event asks of either; hence its length.
 #include <arkode/arkode_arkstep.h>
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
