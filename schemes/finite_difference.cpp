@@ -1,9 +1,10 @@
 // See finite_difference.hpp for sources.
 #include "schemes/finite_difference.hpp"
 
-#include <gsl/gsl_fit.h>
+#include <gsl/gsl_multifit.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -73,31 +74,58 @@ Stencil nut_force_stencil(const Grid& g, const String& s) {
 
 // ---- Losses.
 
+namespace {
+struct Fit {
+    LossFit loss;
+    double square = HUGE_VAL;  // weighted sum of squared relative errors
+};
+
+// Least squares with the powers 0, 1, 2 of x that `powers` has a bit for.
+Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<double>& sigma, const std::vector<double>& weight) {
+    const std::size_t n = x.size(), terms = std::popcount(static_cast<unsigned>(powers));
+    const auto matrix = gsl_matrix_alloc(n, terms), covariance = gsl_matrix_alloc(terms, terms);
+    const auto coefficients = gsl_vector_alloc(terms);
+    const auto work = gsl_multifit_linear_alloc(n, terms);
+    const auto y = gsl_vector_const_view_array(sigma.data(), n), w = gsl_vector_const_view_array(weight.data(), n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (int p = 0, column = 0; p < 3; ++p)
+            if (powers >> p & 1) gsl_matrix_set(matrix, i, column++, std::pow(x[i], p));
+    Fit fit;
+    gsl_multifit_wlinear(matrix, &w.vector, &y.vector, coefficients, covariance, &fit.square, work);
+    double* const into[] = {&fit.loss.sigma0, &fit.loss.sigma1, &fit.loss.sigma2};
+    for (int p = 0, column = 0; p < 3; ++p)
+        if (powers >> p & 1) *into[p] = gsl_vector_get(coefficients, column++);
+    gsl_multifit_linear_free(work);
+    gsl_vector_free(coefficients);
+    gsl_matrix_free(covariance);
+    gsl_matrix_free(matrix);
+    return fit;
+}
+}  // namespace
+
 LossFit fit_losses(const String& s) {
-    const Modes modes = modes_of(s, std::max(2, modes_below(s, 20e3)));
+    const Modes modes = modes_of(s, std::max(3, modes_below(s, 20e3)));
     const std::size_t n = modes.beta.size();
     std::vector<double> x, w;
+    double all = 0;  // of the weights: the square that a fit of nothing would leave
     for (std::size_t i = 0; i < n; ++i) {
         if (modes.sigma[i] <= 0) return {};
-        x.push_back(modes.beta[i] * modes.beta[i]);
-        w.push_back(1 / (modes.sigma[i] * modes.sigma[i]));
+        const double relative = modes.beta[i] / modes.beta.back(), weight = 1 / static_cast<double>(i + 1);
+        x.push_back(relative * relative);
+        w.push_back(weight / (modes.sigma[i] * modes.sigma[i]));
+        all += weight;
     }
-    LossFit fit;
-    double c00, c01, c11, square;
-    gsl_fit_wlinear(x.data(), 1, w.data(), 1, modes.sigma.data(), 1, n, &fit.sigma0, &fit.sigma1, &c00, &c01, &c11, &square);
-    if (fit.sigma0 < 0) {
-        fit.sigma0 = 0;
-        gsl_fit_wmul(x.data(), 1, w.data(), 1, modes.sigma.data(), 1, n, &fit.sigma1, &c11, &square);
-    } else if (fit.sigma1 * x.back() < 1e-12 * fit.sigma0) {  // a constant law, or one that falls: the weighted mean
-        double sum = 0, weights = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            sum += w[i] * modes.sigma[i];
-            weights += w[i];
-        }
-        fit.sigma0 = sum / weights;
-        fit.sigma1 = 0;
+    Fit best;  // the least squares without negative coefficients are those of the best set of powers that needs none; fewest first
+    for (const int powers : {1, 2, 4, 3, 5, 6, 7}) {
+        const Fit fit = fit_powers(powers, x, modes.sigma, w);
+        const bool negative = std::min({fit.loss.sigma0, fit.loss.sigma1, fit.loss.sigma2}) < 0;
+        if (!negative && fit.square < best.square - 1e-20 * all) best = fit;
     }
-    for (std::size_t i = 0; i < n; ++i) fit.misfit = std::max(fit.misfit, std::abs((fit.sigma0 + fit.sigma1 * x[i]) / modes.sigma[i] - 1));
+    LossFit fit = best.loss;
+    for (std::size_t i = 0; i < n; ++i) fit.misfit = std::max(fit.misfit, std::abs(fit.at(x[i]) / modes.sigma[i] - 1));
+    const double square = modes.beta.back() * modes.beta.back();
+    fit.sigma1 /= square;
+    fit.sigma2 /= square * square;
     return fit;
 }
 
@@ -106,7 +134,8 @@ LossFit fit_losses(const String& s) {
 double explicit_spacing_limit(const String& s, const LossFit& loss, double dt) {
     const double c2 = s.tension / s.linear_density, kappa2 = s.bending_stiffness / s.linear_density;
     const double p = c2 * dt * dt + 4 * loss.sigma1 * dt;
-    return std::sqrt(0.5 * (p + std::sqrt(p * p + 16 * kappa2 * dt * dt)));
+    const double q = kappa2 * dt * dt + 4 * loss.sigma2 * dt;
+    return std::sqrt(0.5 * (p + std::sqrt(p * p + 16 * q)));
 }
 
 double theta_spacing_limit(const String& s, double dt, double theta) {  // 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4
@@ -126,11 +155,11 @@ double theta_spacing_limit(const String& s, double dt) {  // the same at the tun
 
 namespace {
 struct Symbols {
-    double lambda, stiffness, loss;  // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2
+    double lambda, stiffness, loss;  // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
 };
 Symbols symbols(const String& s, const LossFit& f, const Grid& g, int mode) {
     const double sine = std::sin(0.5 * pi * mode / g.intervals) / (0.5 * g.dx), lambda = sine * sine;
-    return {lambda, (s.tension + s.bending_stiffness * lambda) * lambda / s.linear_density, 2 * (f.sigma0 + f.sigma1 * lambda)};
+    return {lambda, (s.tension + s.bending_stiffness * lambda) * lambda / s.linear_density, 2 * f.at(lambda)};
 }
 
 // (M + dt R/2) z^2 - (2M - dt^2 K) z + (M - dt R/2) = 0, for |z| and arg z
@@ -144,7 +173,8 @@ GridMode three_point_mode(double M, const Symbols& y, double dt) {
 
 GridMode explicit_mode(const String& s, const LossFit& f, const Grid& g, double dt, int mode) {
     const Symbols y = symbols(s, f, g, mode);
-    return three_point_mode(1 - f.sigma1 * dt * y.lambda, y, dt);  // the backward difference in the loss takes from the mass
+    return three_point_mode(1 - (f.sigma1 + f.sigma2 * y.lambda) * dt * y.lambda, y,
+                            dt);  // the backward difference in the loss takes from the mass
 }
 
 GridMode theta_mode(const String& s, const LossFit& f, const Grid& g, double dt, double theta, int mode) {
@@ -262,7 +292,7 @@ GridString on_grid(const Scene& scene, int index, const Grid& grid, const LossFi
 BandedFactor::BandedFactor(const Grid& g, double a0, double a2, double a4) : n_(g.intervals - 1), wide_(a4 != 0) {
     const double p = a2 / (g.dx * g.dx), q = a4 / (g.dx * g.dx * g.dx * g.dx);
     std::vector<double> D(n_);
-    for (auto* v : {&one_, &two_, &inverse_}) v->assign(n_, 0.0);
+    for (auto* v : {&one_, &two_, &inverse_}) v->assign(n_ + 1, 0.0);
     for (int i = 0; i < n_; ++i) {
         const double corner = i == 0 || i == n_ - 1 ? 5 : 6;  // D2 D2 with u_0 = u_N = 0
         double diagonal = a0 - 2 * p + corner * q, below = p - 4 * q;
@@ -285,9 +315,9 @@ void BandedFactor::solve(double* u) const noexcept {
     double* x = u + 1;
     const double *l1 = one_.data(), *l2 = two_.data(), *d = inverse_.data();
     if (wide_) {
-        for (int i = 1; i < n_; ++i) x[i] = (x[i] - (i > 1 ? l2[i] * x[i - 2] : 0.0)) - l1[i] * x[i - 1];
+        for (int i = 1; i < n_; ++i) x[i] = (x[i] - l2[i] * x[i - 2]) - l1[i] * x[i - 1];  // l2[1] = l2[n] = 0: the ends are not seen
         for (int i = 0; i < n_; ++i) x[i] *= d[i];
-        for (int i = n_ - 2; i >= 0; --i) x[i] = (x[i] - (i + 2 < n_ ? l2[i + 2] * x[i + 2] : 0.0)) - l1[i + 1] * x[i + 1];
+        for (int i = n_ - 2; i >= 0; --i) x[i] = (x[i] - l2[i + 2] * x[i + 2]) - l1[i + 1] * x[i + 1];
     } else {
         for (int i = 1; i < n_; ++i) x[i] -= l1[i] * x[i - 1];
         for (int i = 0; i < n_; ++i) x[i] *= d[i];

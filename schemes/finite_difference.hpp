@@ -5,7 +5,8 @@
 // D4 = D2 D2, so that sin(i pi l/N) is an eigenvector of both: D2 -> -lambda_i, lambda_i = 4/dx^2 sin^2(i pi/2N).
 // Footprints are projected on the grid's hat functions; the weights that spread a force also read the displacement, which is what closes
 // the energy balance. A point (width 0) is the hat function itself. Profiles are lumped: a node carries the stiffness density times dx.
-// The loss is 2 sigma0 u_t - 2 sigma1 u_xxt, fitted to the scene's law, since a grid cannot follow a general one.
+// The loss is 2 sigma0 u_t - 2 sigma1 u_xxt + 2 sigma2 u_xxxxt, fitted to the scene's law, since a grid cannot follow a general one. All
+// three are non-negative: no wavenumber of the grid gains energy.
 // Left out: contact loss, measured modes, polarisation, the body.
 #pragma once
 
@@ -43,12 +44,16 @@ Stencil nut_force_stencil(const Grid&, const String&);                  // -T y'
 
 // ---- Losses.
 
-struct LossFit {        // sigma(beta) ~ sigma0 + sigma1 beta^2
+struct LossFit {        // sigma(beta) ~ sigma0 + sigma1 beta^2 + sigma2 beta^4
     double sigma0 = 0;  // [1/s]
     double sigma1 = 0;  // [m^2/s]
+    double sigma2 = 0;  // [m^4/s]
     double misfit = 0;  // worst relative error over the modes below 20 kHz
+
+    double at(double square) const { return sigma0 + (sigma1 + sigma2 * square) * square; }  // [1/s], of beta^2 [1/m^2]
 };
-LossFit fit_losses(const String&);  // least squares of the relative error over the modes below 20 kHz, neither coefficient negative
+// Least squares of the relative error over the modes below 20 kHz, each octave of them weighing the same; no coefficient negative.
+LossFit fit_losses(const String&);
 
 // ---- Stability limits and von Neumann relations, dt [s], dx [m].
 
@@ -102,7 +107,7 @@ class BandedFactor {
 public:
     BandedFactor() = default;
     BandedFactor(const Grid&, double a0, double a2, double a4);  // Refusal unless positive definite
-    void solve(double* u) const noexcept;                        // u_1..u_{N-1} in place
+    void solve(double* u) const noexcept;                        // u_1..u_{N-1} in place, between finite u_0 and u_N
     Stencil solve(const Stencil&) const;                         // the response to a stencil, cut where it has fallen below rounding
 
 private:

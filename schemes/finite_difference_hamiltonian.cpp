@@ -3,11 +3,12 @@
 //
 //     (I + A + B) s = 2(q - A y) + xi sum g F,   y <- y + s, q <- s - q;   A = dt^2 K/4, B = dt R/2, xi = dt^2/(2 mu dx), q = v dt/2
 //
-// with K = -c^2 D2 + kappa^2 D4 and R = 2 sigma0 - 2 sigma1 D2: five diagonals, factored once. The responses (I + A + B)^-1 g of contacts
-// and thread are solved at the start and with them the compliance Theta; the contact equation is eq 48 of van Walstijn et al. over the span
-// dt. Unconditionally stable; frequencies warp as (2/dt) atan(omega dt/2). The grid is by default that of the explicit scheme without loss:
-// its spatial error (beta dx)^2/24 is then at least half the warp's (c beta dt)^2/12. Option `grid` takes any number of intervals.
-// Energy is that of the instant of the row: mass/2 (|v|^2 + <y, K y>) + P(y). The pluck acts with its force at the middle of the step.
+// with K = -c^2 D2 + kappa^2 D4 and R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4: five diagonals, factored once. The responses (I + A + B)^-1 g
+// of contacts and thread are solved at the start and with them the compliance Theta; the contact equation is eq 48 of van Walstijn et al.
+// over the span dt. Unconditionally stable; frequencies warp as (2/dt) atan(omega dt/2). The grid is by default that of the explicit scheme
+// without loss: its spatial error (beta dx)^2/24 is then at least half the warp's (c beta dt)^2/12. Option `grid` takes any number of
+// intervals. Energy is that of the instant of the row: mass/2 (|v|^2 + <y, K y>) + P(y). The pluck acts with its force at the middle of the
+// step.
 #include <cmath>
 
 #include "scenes/excitation.hpp"
@@ -24,7 +25,8 @@ public:
     MidpointString(const GridString& string, double dt, int steps_per_row)
         : g_(string), dt_(dt), xi_(dt * dt / (2 * g_.mass)), steps_(steps_per_row) {
         const double quarter = 0.25 * dt * dt, h2 = g_.grid.dx * g_.grid.dx;
-        factor_ = BandedFactor(g_.grid, 1 + g_.loss.sigma0 * dt, -quarter * g_.c2 - g_.loss.sigma1 * dt, quarter * g_.kappa2);
+        factor_ = BandedFactor(g_.grid, 1 + g_.loss.sigma0 * dt, -quarter * g_.c2 - g_.loss.sigma1 * dt,
+                               quarter * g_.kappa2 + g_.loss.sigma2 * dt);
         a1_ = -quarter * (g_.c2 / h2 + 4 * g_.kappa2 / (h2 * h2));
         a2_ = quarter * g_.kappa2 / (h2 * h2);
         a0_ = quarter * (2 * g_.c2 / h2 + 6 * g_.kappa2 / (h2 * h2));
@@ -117,24 +119,13 @@ private:
         return 2 * g_.mass / (dt_ * dt_) * sum;  // v = 2q/dt
     }
     double stored() noexcept {
-        mirror();
-        double slope = 0, curve = 0;
-        for (int l = 0; l < g_.grid.intervals; ++l) {
-            const double d = y_[l + 1] - y_[l], e = d - (y_[l] - y_[l - 1]);
-            slope += d * d;
-            curve += e * e;
-        }
-        const double h2 = g_.grid.dx * g_.grid.dx;
+        const Squares d = squares(g_.grid, [y = y_](int l) { return y[l]; });
         for (int a = 0; a < obstacle_.points(); ++a) older_[a] = g_.points[a].read(y_);
-        return kinetic() + 0.5 * g_.mass * (g_.c2 * slope + g_.kappa2 / h2 * curve) / h2 + obstacle_.potential(older_.data());
+        return kinetic() + 0.5 * g_.mass * (g_.c2 * d.slope + g_.kappa2 * d.curve) + obstacle_.potential(older_.data());
     }
     double loss() const noexcept {  // power [W]: <v, R v> and the thread's damper, v = s/dt
-        double square = 0, slope = 0;
-        for (int l = 0; l < g_.grid.intervals; ++l) {
-            square += s_[l] * s_[l];
-            slope += (s_[l + 1] - s_[l]) * (s_[l + 1] - s_[l]);
-        }
-        double power = 2 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * square + g_.loss.sigma1 / (g_.grid.dx * g_.grid.dx) * slope);
+        const Squares d = squares(g_.grid, [s = s_](int l) { return s[l]; });
+        double power = 2 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
         if (g_.thread) power += obstacle_.thread_loss(g_.points.back().read(s_));
         return power;
     }
@@ -142,22 +133,9 @@ private:
     void write(const Block& out, int row) noexcept {
         const double bridge = bridge_ / steps_, thread = thread_ / steps_;
         bridge_ = thread_ = 0;
-        for (const GridTap& tap : g_.taps) {
-            double& cell = out.tap[tap.column * out.stride + row];
-            switch (tap.quantity) {
-                case Quantity::displacement:
-                case Quantity::nut_force: cell += tap.stencil.read(y_); break;
-                case Quantity::velocity: cell += tap.stencil.read(q_) * 2 / dt_; break;
-                case Quantity::bridge_force: cell += bridge; break;
-                case Quantity::thread_force: cell += thread; break;
-                case Quantity::driving_force: cell -= bridge + thread; break;
-            }
-        }
-        if (out.energy) {
-            out.energy[row] += stored();
-            out.energy[row + out.stride] += supplied_;
-            out.energy[row + 2 * out.stride] += dissipated_;
-        }
+        const auto velocity = [&](const Stencil& at) { return at.read(q_) * 2 / dt_; };
+        write_taps(out, row, g_.taps, y_, velocity, bridge, thread);
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
 

@@ -6,6 +6,7 @@ std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) 
     std::vector<Fact> f = {{"grid_intervals", static_cast<double>(g.grid.intervals), ""},
                            {"loss_fit_sigma0", g.loss.sigma0, "1/s"},
                            {"loss_fit_sigma1", g.loss.sigma1, "m^2/s"},
+                           {"loss_fit_sigma2", g.loss.sigma2, "m^4/s"},
                            {"loss_fit_misfit", g.loss.misfit, ""}};
     if (g.narrowest > 0) f.push_back({"narrowest_contact", g.narrowest, "cells"});
     if (obstacle.contacts() > 0) {

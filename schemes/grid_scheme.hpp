@@ -1,4 +1,5 @@
-// The seam for schemes on grids: one stepped string per string of the scene, each adding its part to the taps and the energy columns.
+// The seam for schemes on grids, and what their strings write and sum: one stepped string per string of the scene, each adding its part to
+// the taps and the energy columns.
 //
 // OneString has reset(), Status advance(const Block&) that adds to columns, dofs(), facts(). Strings do not act on each other, so each
 // runs through the whole block on its own.
@@ -48,6 +49,50 @@ public:
 private:
     std::vector<OneString> strings_;
 };
+
+// Of what lies on a grid, odd about both ends: <d, d>, <d, -D2 d>, <d, D4 d>.
+struct Squares {
+    double own = 0, slope = 0, curve = 0;
+};
+template <class At>  // d_l = at(l), l = 0..N, 0 at both ends
+Squares squares(const Grid& g, At at) noexcept {
+    const double h2 = g.dx * g.dx;
+    Squares sum;
+    double last = at(1);  // of the cell before: odd
+    for (int l = 0; l < g.intervals; ++l) {
+        const double d = at(l), e = at(l + 1) - d;
+        sum.own += d * d;
+        sum.slope += e * e;
+        sum.curve += (e - last) * (e - last);
+        last = e;
+    }
+    sum.slope /= h2;
+    sum.curve /= h2 * h2;
+    return sum;
+}
+
+// Adds a string's part to a row of taps: u its nodes, velocity(stencil) what a stencil reads of theirs, the means of its contact forces.
+template <class Velocity>
+void write_taps(const Block& out, int row, const std::vector<GridTap>& taps, const double* u, Velocity velocity, double bridge,
+                double thread) noexcept {
+    for (const GridTap& tap : taps) {
+        double& cell = out.tap[tap.column * out.stride + row];
+        switch (tap.quantity) {
+            case Quantity::displacement:
+            case Quantity::nut_force: cell += tap.stencil.read(u); break;
+            case Quantity::velocity: cell += velocity(tap.stencil); break;
+            case Quantity::bridge_force: cell += bridge; break;
+            case Quantity::thread_force: cell += thread; break;
+            case Quantity::driving_force: cell -= bridge + thread; break;
+        }
+    }
+}
+
+inline void write_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
+    out.energy[row] += stored;
+    out.energy[row + out.stride] += supplied;
+    out.energy[row + 2 * out.stride] += dissipated;
+}
 
 // Facts that every string on a grid reports.
 std::vector<Fact> grid_facts(const GridString&, const ObstacleStep&);

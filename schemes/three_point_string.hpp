@@ -1,10 +1,11 @@
 // A string on a grid stepped by a three-point scheme,
 //
-//     M (u+ - 2u + u-)/dt^2 + R (u+ - u-)/2dt + K u = sum g F/(mu dx),     K = -c^2 D2 + kappa^2 D4, R = 2 sigma0 - 2 sigma1 D2, M = I + m
-//     D2
+//     M (u+ - 2u + u-)/dt^2 + R (u+ - u-)/2dt + K u = sum g F/(mu dx),     K = -c^2 D2 + kappa^2 D4, M = I + m D2 + m4 D4
 //
-// with contacts and thread over the span 2 dt (obstacle_step.hpp). Update solves for u+: explicit where m = sigma1 dt (Bilbao, Torin &
-// Chatziioannou 2015: the backward difference in the loss), tridiagonal where m = (1 - theta) dx^2/2 (Bilbao 2009, theta scheme).
+// R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4,
+// with contacts and thread over the span 2 dt (obstacle_step.hpp). Update solves for u+: explicit where m = sigma1 dt and m4 = -sigma2 dt
+// (Bilbao, Torin & Chatziioannou 2015: the backward difference in the loss), banded where m = (1 - theta) dx^2/2 (Bilbao 2009, theta
+// scheme).
 //
 // The string is stepped one ahead of the row it writes: at row n it holds u^{n-1}, u^n, u^{n+1}. So
 //   velocity is the central difference (u^{n+1} - u^{n-1})/2dt;
@@ -25,11 +26,22 @@
 
 namespace jvari {
 
-template <class Update>  // operator()(next, now, before): u+ without forces; response(g): what a unit of dt^2/(mu dx) on g adds to u+
-class ThreePointString {
+constexpr int node_offset = 7;  // of node 0 in its array: node 1 on a 64-byte boundary, node -1 inside
+
+template <class Update>  // operator()(next, now, before): u+ without forces, `before` its last `now`; response(g): what a unit of dt^2/(mu
+                         // dx) on g adds to u+
+                         class ThreePointString {
 public:
-    ThreePointString(const GridString& string, double dt, int steps_per_row, double m, Update update, std::vector<Fact> facts = {})
-        : g_(string), dt_(dt), m_(m), gain_(dt * dt / g_.mass), steps_(steps_per_row), update_(std::move(update)), own_(std::move(facts)) {
+    ThreePointString(const GridString& string, double dt, int steps_per_row, double m, double m4, Update update,
+                     std::vector<Fact> facts = {})
+        : g_(string),
+          dt_(dt),
+          m_(m),
+          m4_(m4),
+          gain_(dt * dt / g_.mass),
+          steps_(steps_per_row),
+          update_(std::move(update)),
+          own_(std::move(facts)) {
         const int points = static_cast<int>(g_.points.size());
         for (const Stencil& s : g_.points) responses_.push_back(update_.response(s));
         if (g_.pluck) pluck_response_ = update_.response(g_.pluck_stencil);
@@ -46,13 +58,13 @@ public:
         obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, 2 * dt);
         start_ = ObstacleStep(g_.laws, g_.heights, g_.thread, half, dt);
         for (auto* v : {&older_, &free_, &force_, &reading_}) v->assign(points, 0.0);
-        for (auto& b : buffer_) b = AlignedVector(offset + g_.grid.intervals + five_point_overhang);
+        for (auto& b : buffer_) b = AlignedVector(node_offset + g_.grid.intervals + five_point_overhang);
     }
 
     void reset() noexcept {
         const int N = g_.grid.intervals;
         for (int i = 0; i < 3; ++i) {
-            level_[i] = buffer_[i].data() + offset;
+            level_[i] = buffer_[i].data() + node_offset;
             std::fill_n(buffer_[i].data(), buffer_[i].size(), 0.0);
         }
         double *before = level_[0], *now = level_[1], *next = level_[2];
@@ -64,6 +76,7 @@ public:
         start_.clear();
         failed_ = {};
         step_ = 0;
+        update_(next, now, before);  // so that it keeps what it needs of u-
         update_(next, now, before);  // with u- = u this is u + dt^2 (acceleration)
         for (int l = 1; l < N; ++l) next[l] = now[l] + 0.5 * (next[l] - now[l]);
         pluck(0, 0.5, next);
@@ -99,8 +112,6 @@ public:
     }
 
 private:
-    static constexpr int offset = 7;  // node 1 on a 64-byte boundary, node -1 inside
-
     void mirror(double* u) const noexcept {  // odd about both ends
         const int N = g_.grid.intervals;
         u[-1] = -u[1];
@@ -149,18 +160,14 @@ private:
             budget_ += std::max(work, 0.0);
         }
         if (probed) dissipated_ += dt_ * loss();
-        if (step_ % divergence_check == 0 && !(kinetic(0) <= divergence_factor * budget_ + 1e-30)) failed_ = {Outcome::diverged, step_ - 1};
+        if (step_ % divergence_check == 0 && !(kinetic(0, 0) <= divergence_factor * budget_ + 1e-30))
+            failed_ = {Outcome::diverged, step_ - 1};
     }
 
-    double kinetic(double m) const noexcept {  // mass/2 <d, (I + m D2) d>/dt^2
+    double kinetic(double m, double m4) const noexcept {  // mass/2 <d, (I + m D2 + m4 D4) d>/dt^2
         const double *now = level_[1], *next = level_[2];
-        double square = 0, slope = 0;
-        for (int l = 0; l < g_.grid.intervals; ++l) {
-            const double d = next[l] - now[l], e = next[l + 1] - now[l + 1] - d;
-            square += d * d;
-            slope += e * e;
-        }
-        return 0.5 * g_.mass / (dt_ * dt_) * (square - m / (g_.grid.dx * g_.grid.dx) * slope);
+        const Squares d = squares(g_.grid, [=](int l) { return next[l] - now[l]; });
+        return 0.5 * g_.mass / (dt_ * dt_) * (d.own - m * d.slope + m4 * d.curve);
     }
     double stored() noexcept {
         double *now = level_[1], *next = level_[2];
@@ -172,7 +179,7 @@ private:
             curve += (next[l + 1] - 2 * next[l] + next[l - 1]) * (now[l + 1] - 2 * now[l] + now[l - 1]);
         }
         const double h2 = g_.grid.dx * g_.grid.dx;
-        double sum = kinetic(m_) + 0.5 * g_.mass * (g_.c2 * slope + g_.kappa2 / h2 * curve) / h2;
+        double sum = kinetic(m_, m4_) + 0.5 * g_.mass * (g_.c2 * slope + g_.kappa2 / h2 * curve) / h2;
         for (const double* u : {now, next}) {
             for (int a = 0; a < obstacle_.points(); ++a) reading_[a] = g_.points[a].read(u);
             sum += 0.5 * obstacle_.potential(reading_.data());
@@ -181,45 +188,27 @@ private:
     }
     double loss() const noexcept {  // power [W]: <v, R v> and the thread's damper, v = (u+ - u-)/2dt
         const double *before = level_[0], *next = level_[2];
-        double square = 0, slope = 0;
-        for (int l = 0; l < g_.grid.intervals; ++l) {
-            const double v = next[l] - before[l], e = next[l + 1] - before[l + 1] - v;
-            square += v * v;
-            slope += e * e;
-        }
-        double power = 0.5 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * square + g_.loss.sigma1 / (g_.grid.dx * g_.grid.dx) * slope);
+        const Squares d = squares(g_.grid, [=](int l) { return next[l] - before[l]; });
+        double power = 0.5 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
         if (g_.thread) power += obstacle_.thread_loss(g_.points.back().read(next) - older_.back());
         return power;
     }
 
     void write(const Block& out, int row) noexcept {
-        const double *before = level_[0], *now = level_[1], *next = level_[2];
+        const double *before = level_[0], *next = level_[2];
         const double last_bridge = bridge_force(), last_thread = thread_force();
         const double bridge = step_ == 0 ? 0 : (bridge_ - 0.5 * last_bridge) / steps_;
         const double thread = step_ == 0 ? 0 : (thread_ - 0.5 * last_thread) / steps_;
         bridge_ = 0.5 * last_bridge;
         thread_ = 0.5 * last_thread;
-        for (const GridTap& tap : g_.taps) {
-            double& cell = out.tap[tap.column * out.stride + row];
-            switch (tap.quantity) {
-                case Quantity::displacement:
-                case Quantity::nut_force: cell += tap.stencil.read(now); break;
-                case Quantity::velocity: cell += (tap.stencil.read(next) - tap.stencil.read(before)) / (2 * dt_); break;
-                case Quantity::bridge_force: cell += bridge; break;
-                case Quantity::thread_force: cell += thread; break;
-                case Quantity::driving_force: cell -= bridge + thread; break;
-            }
-        }
-        if (out.energy) {
-            out.energy[row] += stored();
-            out.energy[row + out.stride] += supplied_;
-            out.energy[row + 2 * out.stride] += dissipated_;
-        }
+        const auto velocity = [&](const Stencil& at) { return (at.read(next) - at.read(before)) / (2 * dt_); };
+        write_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
 
     GridString g_;
-    double dt_, m_, gain_;  // gain_ = dt^2/(mu dx) [m/N]
+    double dt_, m_, m4_, gain_;  // gain_ = dt^2/(mu dx) [m/N]
     int steps_;
     Update update_;
     std::vector<Fact> own_;
@@ -234,25 +223,31 @@ private:
     Status failed_;
 };
 
-// (2M - dt^2 K) u - (M - dt R/2) u-, over `divisor`
+// (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`
 class FivePoint {
 public:
-    FivePoint(const GridString& g, double dt, double m, double divisor) : intervals_(g.grid.intervals) {
+    FivePoint(const GridString& g, double dt, double m, double m4, double divisor) : intervals_(g.grid.intervals) {
+        kept_ = AlignedVector(node_offset + intervals_ + five_point_overhang);
         const double h2 = g.grid.dx * g.grid.dx, s = g.c2 * dt * dt / h2, q = g.kappa2 * dt * dt / (h2 * h2);
-        const double mu = m / h2, z = g.loss.sigma1 * dt / h2;
-        w_.a0 = (2 - 4 * mu - 2 * s - 6 * q) / divisor;
-        w_.a1 = (2 * mu + s + 4 * q) / divisor;
-        w_.a2 = -q / divisor;
-        w_.b0 = -(1 - g.loss.sigma0 * dt - 2 * (mu + z)) / divisor;
-        w_.b1 = -(mu + z) / divisor;
+        const double n = m / h2, n4 = m4 / (h2 * h2);
+        const double p = n + g.loss.sigma1 * dt / h2, p4 = n4 - g.loss.sigma2 * dt / (h2 * h2);  // M - dt R/2
+        w_.a0 = (2 - 4 * n + 12 * n4 - 2 * s - 6 * q) / divisor;
+        w_.a1 = (2 * n - 8 * n4 + s + 4 * q) / divisor;
+        w_.a2 = (2 * n4 - q) / divisor;
+        w_.b0 = -(1 - g.loss.sigma0 * dt - 2 * p + 6 * p4) / divisor;
+        w_.b1 = -(p - 4 * p4) / divisor;
+        w_.b2 = -p4 / divisor;
         pass_ = five_point_pass(w_);
     }
-    void operator()(double* next, const double* now, const double* before) const noexcept { pass_(w_, intervals_, next, now, before); }
+    void operator()(double* next, const double* now, const double* before) noexcept {
+        pass_(w_, intervals_, next, now, before, kept_.data() + node_offset);
+    }
 
 private:
     int intervals_;
     FivePointWeights w_;
     FivePointPass pass_;
+    AlignedVector kept_;  // of the level before
 };
 
 }  // namespace jvari

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "c3.hpp"
+#include "reference/references.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -44,6 +45,15 @@ double fact(const Run& r, const std::string& name) {
     for (const Fact& f : r.facts)
         if (f.name == name) return f.value;
     throw std::runtime_error("no fact " + name);
+}
+
+Run exact(const Scene& scene, int modes) {
+    Settings settings;
+    settings.sample_rate = settings.tap_rate = 44100;
+    settings.modes = modes;
+    for (const Descriptor& d : references())
+        if (d.name == std::string("exact_contact")) return run(d, scene, settings);
+    throw std::runtime_error("exact_contact");
 }
 
 Scene with_damping(Scene scene, Damping damping) {
@@ -132,30 +142,64 @@ TEST(GridLoss, AConstantLawIsFittedExactlyAndTheMisfitOfC3IsReported) {
     const LossFit constant = fit_losses(scene.strings.front());
     EXPECT_NEAR(constant.sigma0, 2.5, 1e-12);
     EXPECT_EQ(constant.sigma1, 0);
+    EXPECT_EQ(constant.sigma2, 0);
     EXPECT_LT(constant.misfit, 1e-12);
     const LossFit c3 = fit_losses(c3_free().strings.front());
-    EXPECT_GT(c3.sigma0, 0);
-    EXPECT_GT(c3.sigma1, 0);
     const Modes modes = modes_of(c3_free().strings.front(), 133);
-    double worst = 0, square = 0;
-    const auto relative = [&](double s0, double s1, int i) { return (s0 + s1 * modes.beta[i] * modes.beta[i]) / modes.sigma[i] - 1; };
-    for (int i = 0; i < 133; ++i) {
-        worst = std::max(worst, std::abs(relative(c3.sigma0, c3.sigma1, i)));
-        square += std::pow(relative(c3.sigma0, c3.sigma1, i), 2);
-    }
-    EXPECT_DOUBLE_EQ(c3.misfit, worst);
-    for (double change : {0.99, 1.01}) {  // a minimum
-        double other = 0, another = 0;
-        for (int i = 0; i < 133; ++i) {
-            other += std::pow(relative(c3.sigma0 * change, c3.sigma1, i), 2);
-            another += std::pow(relative(c3.sigma0, c3.sigma1 * change, i), 2);
-        }
-        EXPECT_GT(other, square);
-        EXPECT_GT(another, square);
-    }
+    double worst = 0;
+    for (int i = 0; i < 133; ++i) worst = std::max(worst, std::abs(c3.at(modes.beta[i] * modes.beta[i]) / modes.sigma[i] - 1));
+    EXPECT_NEAR(c3.misfit, worst, 1e-12);
+    EXPECT_LT(worst, 0.25);  // 0.61 without the fourth power
     Scene scene2 = c3_free();
     scene2.duration = 0.001;
-    EXPECT_DOUBLE_EQ(fact(run_at(explicit_, scene2, 44100), "loss_fit_misfit"), worst);
+    for (const char* name : all) EXPECT_DOUBLE_EQ(fact(run_at(name, scene2, 44100), "loss_fit_misfit"), c3.misfit);
+}
+
+TEST(GridLoss, TheFitIsTheLeastSquaresAmongCoefficientsThatAreNotNegative) {
+    const auto square = [](const Modes& modes, double s0, double s1, double s2) {  // 1/i: every octave weighs the same
+        double sum = 0;
+        for (int i = 0; i < modes.count(); ++i) {
+            const double b2 = modes.beta[i] * modes.beta[i];
+            sum += std::pow((s0 + (s1 + s2 * b2) * b2) / modes.sigma[i] - 1, 2) / (i + 1);
+        }
+        return sum;
+    };
+    const Damping laws[] = {PolynomialDamping{0.6, 6.5e-3, 5e-6}, PolynomialDamping{0, 0, 5e-6}, PolynomialDamping{0.1, 0.1, 0},
+                            PolynomialDamping{0, 1e-3, 0}, QualityFactorDamping{4.3e-4, 1.8e-5, 1.2, 0.003, 2e-4}};
+    for (const Damping& law : laws) {
+        const Scene scene = with_damping(c3_free(), law);
+        const String& s = scene.strings.front();
+        const Modes modes = modes_of(s, modes_below(s, 20e3));
+        const LossFit fit = fit_losses(s);
+        const double least = square(modes, fit.sigma0, fit.sigma1, fit.sigma2), b2 = std::pow(modes.beta.back(), 2);
+        const double steps[] = {1e-4 * modes.sigma.back(), 1e-4 * modes.sigma.back() / b2, 1e-4 * modes.sigma.back() / (b2 * b2)};
+        for (int d = 0; d < 27; ++d) {  // convex: no better neighbour, no better fit
+            const double s0 = fit.sigma0 + (d % 3 - 1) * steps[0], s1 = fit.sigma1 + (d / 3 % 3 - 1) * steps[1],
+                         s2 = fit.sigma2 + (d / 9 - 1) * steps[2];
+            if (std::min({s0, s1, s2}) < 0) continue;
+            EXPECT_GE(square(modes, s0, s1, s2), least * (1 - 1e-12)) << law.index() << " " << d;
+        }
+        EXPECT_GE(std::min({fit.sigma0, fit.sigma1, fit.sigma2}), 0);
+        std::printf("[ measured ] sigma0 %.3e sigma1 %.3e sigma2 %.3e misfit %.2f\n", fit.sigma0, fit.sigma1, fit.sigma2, fit.misfit);
+    }
+}
+
+// What the fit alone costs, no grid in it: the exact solution under the fitted loss against that under the scene's, both with 133 modes.
+TEST(GridLoss, TheFitMovesTheNutForceOfC3ByLessThanHalfAPercent) {
+    Scene scene = c3_release();
+    scene.duration = 0.05;
+    const String& s = scene.strings.front();
+    const Modes modes = modes_of(s, 133);
+    const LossFit fit = fit_losses(s);
+    TableDamping fitted{"fit", {}, {}};
+    for (int i = 0; i < 133; ++i) {
+        fitted.frequency_hz.push_back(modes.omega0[i] / (2 * pi));
+        fitted.decay_rate.push_back(fit.at(modes.beta[i] * modes.beta[i]));
+    }
+    const auto truth = exact(scene, 133), moved = exact(with_damping(scene, fitted), 133);
+    const double error = difference(moved.trace.column(0), truth.trace.column(0));
+    std::printf("[ measured ] nut force, 0-50 ms: %.2e\n", error);
+    EXPECT_LT(error, 5e-3);  // 2e-2 with two coefficients
 }
 
 // ---- Von Neumann.
@@ -425,7 +469,8 @@ TEST(GridLimit, IsWhereTheHighestModeLeavesTheUnitCircle) {
     const auto margin = [&](double M, double K) { return M - 0.25 * dt * dt * K; };  // >= 0 where stable
     const auto K = [&](double lambda) { return (s.tension * lambda + s.bending_stiffness * lambda * lambda) / s.linear_density; };
     const double top = 4 / (limit * limit);
-    EXPECT_NEAR(margin(1 - loss.sigma1 * dt * top, K(top)), 0, 1e-12);
+    EXPECT_GT(loss.sigma2 * dt * top * top, 1e-3);
+    EXPECT_NEAR(margin(1 - (loss.sigma1 + loss.sigma2 * top) * dt * top, K(top)), 0, 1e-12);
     for (double theta : {0.6, 0.9}) {
         const double h = theta_spacing_limit(s, dt, theta);
         EXPECT_NEAR(margin(2 * theta - 1, K(4 / (h * h))), 0, 1e-12);
@@ -501,6 +546,26 @@ TEST(GridContact, ApproachesTheModalSolutionAsTheRateRises) {
             last = y;
         }
         EXPECT_LT(last, 1.5e-3) << name;
+    }
+}
+
+// The string of the paper's Table 1 with its own loss law, against the exact solution. A grid carries every mode it can hold, so the
+// reference has enough modes for the rest not to count: its nut force with 133 modes, those below 20 kHz, is 2.2e-2 off (0-50 ms). What is
+// left at any rate is the fit of the loss, 3e-3 (above). The whole series, to x64 and 50 ms, is in results/README.md.
+TEST(GridContact, OnC3TheNutForceApproachesTheExactSolutionAsTheRateRises) {
+    Scene scene = c3_release();
+    scene.duration = 0.02;
+    const auto truth = exact(scene, 300);
+    for (const char* name : all) {
+        double last = 1;
+        for (int times : {1, 4, 16}) {
+            const auto r = run_at(name, scene, times * 44100.0, {}, 44100);
+            const double error = difference(r.trace.column(0), truth.trace.column(0));
+            std::printf("[ measured ] %s x%d: nut force %.2e\n", name, times, error);
+            EXPECT_LT(error, 0.85 * last) << name << " x" << times;
+            last = error;
+        }
+        EXPECT_LT(last, name == theta_ ? 1.2e-2 : 6e-2) << name;
     }
 }
 
