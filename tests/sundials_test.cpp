@@ -302,9 +302,9 @@ TEST(Integrated, RefusesWhatItDoesNotRepresent) {
         }
         return "accepted";
     };
-    Scene profile = c3_release();
-    profile.strings.front().barriers = {ProfileBarrier{FlatCurve{}, 0, 0.01, {1e9}, 1, 0}};
-    EXPECT_NE(reason(profile, {}).find("profile"), std::string::npos);
+    Scene turning = c3_release();
+    turning.strings.front().polarisation = Polarisation{0.1, 0};
+    EXPECT_NE(reason(turning, {}).find("polarisation"), std::string::npos);
     EXPECT_EQ(reason(c3_release(), {{"method", "euler"}}), "option method: found \"euler\", expected one of bdf, adams, erk, esdirk");
     EXPECT_EQ(reason(c3_release(), {{"rtol", "2"}}), "option rtol: expected a tolerance between 0 and 1");
     EXPECT_NE(reason(c3_release(), {{"order", "11"}}).find("order"), std::string::npos);
