@@ -108,7 +108,7 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
         const std::string options = options_text(c.cell.settings);
         text += fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}  {}\n", what,
                             c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
-                            row.at(0, "status"), short_text("error_l2_50ms", "{:.2e}"), short_text("cost_s_per_s", "{:.3g}"),
+                            row.at(0, "status"), error_text(row, 0, "error_l2_50ms", "{:.2e}"), short_text("cost_s_per_s", "{:.3g}"),
                             row.at(0, "reason"));
     }
     text = fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}\n", "scene", "scheme", "rate", "modes", "status", "L2 50ms",
