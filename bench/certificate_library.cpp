@@ -24,6 +24,7 @@ std::array<double, 3> window_ends(double until) {
 // The shortest window that is no shorter than `end`, of a run that lasted `reached`; NaN where there is none.
 double covering(const Certificate::ByWindow& values, double end, double reached) {
     if (std::isnan(end) || end > reached + slack) return nan;
+    if (end > reached - slack) return values.back();
     for (std::size_t w = 0; w + 1 < values.size(); ++w)
         if (end <= agreement_windows[w] + slack && agreement_windows[w] <= reached + slack) return values[w];
     return values.back();
