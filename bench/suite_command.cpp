@@ -80,12 +80,14 @@ std::string page_of(const Suite& suite, const Table& cells, const std::string& s
     const Table table = cells.only(shown);
     html += "<div class=\"scroll\"><table><tr>";
     for (const std::string& name : table.columns) html += "<th>" + escaped(name) + "</th>";
-    for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
         html += "</tr>\n<tr>";
-        for (const std::string& field : row) {
+        for (std::size_t k = 0; k < table.columns.size(); ++k) {
+            const std::string &name = table.columns[k], &field = table.rows[i][k];
             const double x = number_of(field);
             const bool shorten = field.size() > 9 && !std::isnan(x) && field.find('.') != std::string::npos;
-            html += "<td>" + escaped(shorten ? fmt::format("{:.4g}", x) : field) + "</td>";
+            const bool below = x < certificate_of(table, i, name);
+            html += "<td>" + escaped(below || shorten ? error_text(table, i, name, "{:.4g}") : field) + "</td>";
         }
     }
     return html + "</tr></table></div>\n<details><summary>Measured with</summary><pre>" + escaped(manifest) +
