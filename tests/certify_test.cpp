@@ -283,6 +283,26 @@ TEST(Trust, ReachesAsFarAsTheCertificateAndTakesTheShortestWindowThatHolds) {
     EXPECT_DOUBLE_EQ(at(0.025, 2), 7e-2);  // what there is of entry 2: the whole of its 30 ms
 }
 
+TEST(CommittedCertificates, ThereIsOneForEverySceneOfTheLibraryWithAllThatRepresentsIt) {  // else: results/certificates/make
+    for (const std::string& name : library_scenes()) {
+        const Scene scene = read_scene(name);
+        std::string why;
+        const auto kept = read_certificate(fs::path(JVARI_COMMITTED_CERTIFICATES) / (name + ".json"), why);
+        ASSERT_TRUE(kept) << name << ": " << why;
+        EXPECT_EQ(kept->scene_hash, timeless_hash(scene)) << name;
+        EXPECT_EQ(kept->certificate.modes, modes_for(scene.strings[0], {})) << name;
+        for (const auto& planned : certificate_plan(scene).entries)
+            EXPECT_TRUE(std::any_of(kept->certificate.entries.begin(), kept->certificate.entries.end(),
+                                    [&](const auto& e) { return e.reference == planned.reference && e.options == planned.options; }))
+                << name << ": " << planned.reference;
+        if (const Descriptor* reference = best_reference(scene)) {
+            EXPECT_GT(trust_of(*kept, reference->name, {}, 10e-3).at(0, 0), 0) << name;
+        } else {
+            EXPECT_EQ(kept->certificate.entries.at(0).reference.rfind("oversampled ", 0), 0u) << name;
+        }
+    }
+}
+
 // ---- Beside the errors
 
 struct Shelf : Scratch {  // a library of certificates with one in it
