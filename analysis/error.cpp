@@ -1,4 +1,4 @@
-// Source: the definitions of error.hpp. Sums are taken relative to the largest value of the reference, so that nothing under- or overflows.
+// Source: the definitions of error.hpp; the sums are those of schemes/trace.hpp.
 #include "analysis/error.hpp"
 
 #include <algorithm>
@@ -25,10 +25,6 @@ void same_taps(const Trace& a, const Trace& b) {
 }
 }  // namespace
 
-long row_at(double seconds, double rate) {
-    return std::max(0L, static_cast<long>(std::ceil(seconds * rate - 1e-6)));
-}
-
 double relative_l2(std::span<const double> candidate, std::span<const double> reference, double rate, Window window) {
     const long have = static_cast<long>(reference.size());
     const long from = row_at(window.from, rate), to = std::isinf(window.to) ? have : row_at(window.to, rate);
@@ -39,28 +35,12 @@ double relative_l2(std::span<const double> candidate, std::span<const double> re
     if (!std::isfinite(scale)) return nan;
     if (!std::all_of(a.begin(), a.end(), [](double v) { return std::isfinite(v); })) return inf;
     if (scale == 0) return largest(a) == 0 ? 0 : nan;
-    double difference = 0, norm = 0;
-    for (std::size_t n = 0; n < b.size(); ++n) {
-        const double d = a[n] / scale - b[n] / scale, r = b[n] / scale;
-        difference += d * d;
-        norm += r * r;
-    }
-    return std::sqrt(difference / norm);
+    return relative_difference(a, b);
 }
 
 double horizon(std::span<const double> candidate, std::span<const double> reference, double rate, double threshold) {
-    const double scale = largest(reference);
-    if (reference.empty() || !std::isfinite(scale)) return nan;
-    double difference = 0, norm = 0;
-    for (std::size_t n = 0; n < reference.size(); ++n) {
-        if (n >= candidate.size() || !std::isfinite(candidate[n])) return n == 0 ? 0 : (n - 1) / rate;
-        const double unit = scale > 0 ? scale : 1;
-        const double d = candidate[n] / unit - reference[n] / unit, r = reference[n] / unit;
-        difference += d * d;
-        norm += r * r;
-        if (std::sqrt(difference) > threshold * std::sqrt(scale > 0 ? std::max(norm, 1.0) : 0.0)) return n / rate;
-    }
-    return (reference.size() - 1) / rate;
+    if (reference.empty() || !std::isfinite(largest(reference))) return nan;
+    return agree_until(candidate, reference, rate, threshold);
 }
 
 TapErrors relative_l2(const Trace& candidate, const Trace& reference, Window window) {

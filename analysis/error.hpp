@@ -20,9 +20,6 @@ struct Window {                                           // the rows with from 
     double to = std::numeric_limits<double>::infinity();  // [s]; infinity: to the end of the reference
 };
 
-// First row with t >= seconds. An instant within 1e-6 of a row is that row: 0.05 s x 44100 Hz is row 2205 whatever it rounds to.
-long row_at(double seconds, double rate);
-
 // ||candidate - reference|| / ||reference|| over the rows of the window; dimensionless.
 double relative_l2(std::span<const double> candidate, std::span<const double> reference, double rate, Window = {});
 

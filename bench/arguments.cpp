@@ -21,6 +21,7 @@ constexpr const char* examples =
     "  jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --energy --set string.0.tension=40 --out c3.csv\n"
     "  jvari compare tanpura_c3_release --out report           every scheme that represents it, at 44.1 kHz x 1 ... 64\n"
     "  jvari suite paper-deshmukh --out sitar --resume         a declared set of cells, taken up where it was stopped\n"
+    "  jvari certify tanpura_c3_release --duration 0.1         how far the references agree there\n"
     "  jvari report report                                     its page and picture once more\n"
     "\n"
     "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed (what was written stays valid).";
@@ -42,7 +43,7 @@ void add_common(CLI::App& verb, Common& c) {
     verb.add_flag("--quiet", c.quiet, "no messages and no progress, errors only");
 }
 
-void add_scene(CLI::App& verb, std::string& scene, std::vector<std::string>& set, int& modes, std::vector<std::string>& options) {
+void add_scene(CLI::App& verb, std::string& scene, std::vector<std::string>& set, int& modes) {
     verb.add_option("scene", scene, "a scene file, or a name that `jvari list scenes` shows")->required()->type_name("SCENE");
     verb.add_option("--set", set, "overrides a key of the scene, as string.0.barrier.0.stiffness=1e9 (repeatable)")
         ->type_name("KEY.PATH=VALUE")
@@ -51,6 +52,9 @@ void add_scene(CLI::App& verb, std::string& scene, std::vector<std::string>& set
                     "modes of each string, or interior nodes for a scheme on a grid; absent: every mode below min(20 kHz, rate/2)")
         ->type_name("N")
         ->check(counting);
+}
+
+void add_options(CLI::App& verb, std::vector<std::string>& options) {
     verb.add_option(
             "--option", options,
             "an option of a scheme, as NAME=VALUE or SCHEME:NAME=VALUE (repeatable). In compare the short form goes to every compared "
@@ -100,7 +104,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     RunRequest run;
     std::vector<std::string> run_options;
     auto* run_verb = app.add_subcommand("run", "one scheme on one scene");
-    add_scene(*run_verb, run.scene, run.set, run.modes, run_options);
+    add_scene(*run_verb, run.scene, run.set, run.modes);
+    add_options(*run_verb, run_options);
     run_verb->add_option("--scheme", run.scheme, "a scheme or a reference")->required()->type_name("NAME");
     run_verb->add_option("--rate", run.rate, "sample rate; 44100 where absent")->type_name("HZ")->check(positive);
     run_verb->add_option("--duration", run.duration, "in place of the scene's")->type_name("S")->check(positive);
@@ -119,7 +124,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     CompareRequest compare;
     std::vector<std::string> compare_options;
     auto* compare_verb = app.add_subcommand("compare", "schemes at several rates against a reference: error and cost of each");
-    add_scene(*compare_verb, compare.scene, compare.set, compare.modes, compare_options);
+    add_scene(*compare_verb, compare.scene, compare.set, compare.modes);
+    add_options(*compare_verb, compare_options);
     compare_verb->add_option("--schemes", compare.schemes, "absent: every scheme that represents the scene")
         ->delimiter(',')
         ->type_name("A,B,...");
@@ -160,6 +166,37 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     suite_verb->footer("Example: jvari suite paper-deshmukh --out sitar --resume");
     add_common(*suite_verb, suite);
 
+    CertifyRequest certify;
+    auto* certify_verb = app.add_subcommand("certify", "how far the references agree on a scene: what an error can be believed to");
+    add_scene(*certify_verb, certify.scene, certify.set, certify.modes);
+    certify_verb->add_option("--duration", certify.duration, "in place of the scene's; compare uses a certificate as far as it reaches")
+        ->type_name("S")
+        ->check(positive);
+    certify_verb->add_option("--tap-rate", certify.tap_rate, "rows per second that are compared; 44100 where absent")
+        ->type_name("HZ")
+        ->check(positive);
+    certify_verb
+        ->add_option("--oversampled-rate", certify.oversampled_rate,
+                     "also the best scheme at a quarter, half and all of this rate, with its own estimate; absent: only where no reference "
+                     "represents the scene, at 64 tap rates")
+        ->type_name("HZ")
+        ->check(positive);
+    certify_verb
+        ->add_option(
+            "--out", certify.out,
+            "the file, .json; results/certificates/<scene>.json where absent, with part of the scene's hash in its name where --set "
+            "changes the scene. What a clock measured goes beside it, to .cost.json")
+        ->type_name("FILE");
+    certify_verb->add_flag("--again", certify.again, "runs the references also where the file is there and of the same scene and settings");
+    certify_verb->footer(
+        "Example: jvari certify tanpura_c3_release --duration 0.1\n"
+        "\n"
+        "Every reference that represents the scene runs at two settings of its accuracy. The table says, pair by pair, how far they are "
+        "apart and\n"
+        "for how long they agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the "
+        "figure.");
+    add_common(*certify_verb, certify);
+
     ReportRequest report;
     auto* report_verb = app.add_subcommand("report", "page and picture from a folder that compare wrote");
     report_verb->add_option("folder", report.folder, "holds cells.csv and manifest.json")->required()->type_name("DIR");
@@ -182,6 +219,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     }
     must_be_assignments(run.set);
     must_be_assignments(compare.set);
+    must_be_assignments(certify.set);
     run.options = scheme_options(run_options);
     compare.options = scheme_options(compare_options);
     if (!run.wav_format.empty() && run.out.empty()) throw UsageError("--wav-format: there is no --out FILE.wav");
@@ -191,6 +229,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     if (run_verb->parsed()) return run;
     if (compare_verb->parsed()) return compare;
     if (suite_verb->parsed()) return suite;
+    if (certify_verb->parsed()) return certify;
     return report;
 }
 

@@ -56,7 +56,15 @@ struct SuiteRequest : Common {
     int jobs = 0;  // 0: as many as there are cores
 };
 
-using Request = std::variant<ListRequest, RunRequest, CompareRequest, SuiteRequest, ReportRequest>;
+struct CertifyRequest : Common {
+    std::string scene, out;
+    int modes = 0;
+    std::optional<double> duration, tap_rate, oversampled_rate;  // [s], [Hz], [Hz]
+    std::vector<std::string> set;
+    bool again = false;
+};
+
+using Request = std::variant<ListRequest, RunRequest, CompareRequest, SuiteRequest, CertifyRequest, ReportRequest>;
 
 // Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);

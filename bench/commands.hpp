@@ -9,6 +9,7 @@ int list_command(const ListRequest&);
 int run_command(const RunRequest&);
 int compare_command(const CompareRequest&);
 int suite_command(const SuiteRequest&);
+int certify_command(const CertifyRequest&);
 int report_command(const ReportRequest&);
 
 }  // namespace jvari

@@ -27,19 +27,56 @@ Run reference_run(const ReferenceChoice& choice, const Scene& scene, Console::Pr
     options.progress = shown_on(progress, *choice.scheme, choice.settings, from, to);
     return run(*choice.scheme, scene, choice.settings, options);
 }
+
+double last_instant(const Run& r) {
+    return static_cast<double>(r.trace.rows - 1) / r.trace.tap_rate;
+}
+
+// A scheme at three rates, the highest of them those of `choice`: its run there and its own estimate.
+Reference oversampled_run(const ReferenceChoice& choice, const Scene& scene, Console::Progress& progress) {
+    RunOptions options;
+    options.progress = shown_on(progress, *choice.scheme, choice.settings, 0, 0.25);
+    Settings coarsest = choice.settings;
+    coarsest.sample_rate /= choice.oversampled;
+    Reference r{choice, {}, {}, {}};
+    try {
+        Oversampled o = oversampled(*choice.scheme, scene, coarsest, choice.oversampled, options);
+        if (o.rate == choice.settings.sample_rate) {
+            r.run = std::move(o.run);
+            r.trust = trust_of(o, last_instant(r.run));
+            return r;
+        }
+        r.trust.missing = fmt::format("at {:.6g} Hz it {}", o.rate, name_of(o.run.status.outcome));
+    } catch (const Refusal& e) {
+        r.trust.missing = e.what();
+    }
+    r.run = reference_run(choice, scene, progress, 0.25, 0.5);  // a coarser one fails: no estimate
+    return r;
+}
+
+std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
+    std::string text = "jvari certify " + r.scene;
+    if (r.modes > 0 || c.reference_settings.modes > 0) text += fmt::format(" --modes {}", c.reference_settings.modes);
+    if (r.duration) text += fmt::format(" --duration {:.6g}", *r.duration);
+    if (c.reference_settings.tap_rate != 44100) text += fmt::format(" --tap-rate {:.12g}", c.reference_settings.tap_rate);
+    for (const std::string& set : r.set) text += " --set " + set;
+    return text;
+}
 }  // namespace
 
 Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, const Console& console) {
     std::string refusals;
     for (const ReferenceChoice& choice : choices) try {
             Console::Progress progress(console, "reference");
-            Run truth = reference_run(choice, scene, progress, 0, 0.5);
-            if (truth.trace.rows < 2) {
+            Reference r = choice.oversampled ? oversampled_run(choice, scene, progress)
+                                             : Reference{choice, reference_run(choice, scene, progress, 0, 0.5), {}, {}};
+            if (r.run.trace.rows < 2) {
                 refusals += fmt::format("; {} failed at its start", choice.scheme->name);
                 continue;
             }
-            Run moved = reference_run(choice, scaled(scene, 1 + 1e-12), progress, 0.5, 1);
-            return {choice, std::move(truth), std::move(moved)};
+            r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress, 0.5, 1);
+            if (!choice.oversampled) r.trust = trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
+            return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();
         }
@@ -59,14 +96,6 @@ Trace measure(Cell& cell, const Scene& scene, const Trace* reference, const Prog
     return std::move(result.trace);
 }
 
-Scene scaled(Scene scene, double factor) {
-    for (String& s : scene.strings) {
-        if (s.initial) std::visit([factor](auto& shape) { shape.amplitude *= factor; }, *s.initial);
-        if (s.pluck) s.pluck->amplitude *= factor;
-    }
-    return scene;
-}
-
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const Console& console) {
     Comparison c;
     c.scene = load_scene(request.scene, request.set, request.duration);
@@ -77,11 +106,17 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
 
     const Reference reference = run_reference(plan.references, c.scene, console);
     c.reference = reference.choice.scheme;
+    c.reference_name = reference.choice.name();
     c.reference_settings = reference.choice.settings;
+    c.trust = reference.trust;
     c.reference_note = reference.choice.note;
     c.reference_summary = summary_of(*c.reference, c.scene, c.reference_settings, reference.run);
     c.floor = errors_of(reference.moved.trace, reference.run.trace);
     if (!c.reference_note.empty()) console.note(c.reference_note);
+    if (!c.trust.any())
+        console.note(reference.choice.oversampled
+                         ? c.reference_name + " has no estimate of its own error: " + c.trust.missing
+                         : fmt::format("{}: the errors have none. To make one: {}", c.trust.missing, certify_command(request, c)));
     if (reference.run.status.outcome != Outcome::ok)
         console.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
                                  name_of(reference.run.status.outcome), c.reference_summary.duration));

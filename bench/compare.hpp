@@ -10,6 +10,7 @@
 #include "analysis/statistics.hpp"
 #include "bench/arguments.hpp"
 #include "bench/catalogue.hpp"
+#include "bench/certificate_library.hpp"
 #include "bench/console.hpp"
 #include "bench/errors.hpp"
 #include "bench/summary.hpp"
@@ -31,16 +32,15 @@ struct Comparison {
     Scene scene;
     Headline headline;
     const Descriptor* reference;
+    std::string reference_name;  // its name, "oversampled modal_two_point" for a scheme that stands in
     Settings reference_settings;
     Summary reference_summary;
     std::string reference_note;  // why this one, where it was not asked for
     Errors floor;                // of the reference started 1e-12 apart
+    Trust trust;                 // the figures of its certificate
     std::vector<Cell> cells;
 };
 
 Comparison compare(const CompareRequest&, const Catalogue&, const Console&);  // throws UsageError, BadScene, Refusal
-
-// The scene with every initial shape and every pluck scaled.
-Scene scaled(Scene, double factor);
 
 }  // namespace jvari

@@ -59,6 +59,15 @@ std::string floor_text(const Comparison& c) {
     }
     return text;
 }
+
+std::string certificate_text(const Comparison& c) {
+    const Trust& t = c.trust;
+    if (!t.any()) return "no certificate: " + t.missing;
+    return fmt::format("{} is certain to the figures of the first line, by {}{}", c.reference_name, t.against,
+                       t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + ")") +
+           (std::isnan(t.at(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
+           (c.reference_note.empty() ? "" : "\n" + c.reference_note);
+}
 }  // namespace
 
 std::string rows_json(const Table& cells) {
@@ -75,10 +84,10 @@ int compare_command(const CompareRequest& r) {
 
     const double rate = c.reference_summary.rate;
     console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene.name,
-                              c.reference->name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
+                              c.reference_name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
                               c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
                               c.scene.taps.at(c.headline.bridge).name));
-    console.print(headline_text(cells, headline_error(c)) + "\n" + floor_text(c));
+    console.print(headline_text(cells, headline_error(c)) + "\n" + certificate_text(c) + "\n" + floor_text(c));
     Json files = Json::array();
     if (!r.out.empty()) {
         const fs::path folder = r.out;
@@ -93,7 +102,7 @@ int compare_command(const CompareRequest& r) {
     const int code = exit_code(c);
     console.print_json(Json{
         {"scene", c.scene.name},
-        {"reference", c.reference->name},
+        {"reference", c.reference_name},
         {"status", code == done      ? "ok"
                    : code == refused ? "refused"
                                      : "failed"},

@@ -8,11 +8,15 @@
 #include <cmath>
 
 #include "bench/rates.hpp"
+#include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
 
 namespace jvari {
 
 namespace {
+constexpr int oversampling =
+    4;  // of a scheme that stands in as reference: beyond every cell, and the coarsest of three rates is the highest cell's
+
 double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
     if (r.tap_rate) return *r.tap_rate;
     const auto divides_all = [&rates](double f) {
@@ -76,13 +80,14 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
     const auto add = [&](const Descriptor& d, const std::string& note) {
         Settings s = at_highest;
         if (d.clock == Clock::continuous) s.sample_rate = 0;
-        else if (!catalogue.is_reference(d)) s.sample_rate *= 4;  // a scheme as its own reference: beyond every cell
+        const bool stepped = d.clock != Clock::continuous && !catalogue.is_reference(d);
+        if (stepped) s.sample_rate *= oversampling;
         for (std::size_t k = 0; k < r.options.size(); ++k)
             if (r.options[k].scheme == d.name) {
                 s.options.emplace_back(r.options[k].name, r.options[k].value);
                 used[k] = true;
             }
-        choices.push_back({&d, s, note});
+        choices.push_back({&d, s, note, stepped ? oversampling : 0});
     };
     if (!r.reference.empty()) {
         add(catalogue.find(r.reference), "");
@@ -90,9 +95,11 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
     }
     for (const Descriptor* d : catalogue.references)
         if ((needed_by(scene) - d->represents).empty()) add(*d, "");
-    add(first_scheme,
-        fmt::format("no reference represents scene {}: {} at {} Hz, 4 times the highest rate, stands in; its own error is not bounded",
-                    scene.name, first_scheme.name, 4 * at_highest.sample_rate));
+    const Descriptor* able = stand_in(scene);  // of those in the program; else one that a plugin brought
+    const Descriptor& scheme = able ? *able : first_scheme;
+    add(scheme, fmt::format("no reference represents scene {}: {} oversampled to {} Hz, {} times the highest rate, stands in; its error is "
+                            "estimated from three rates, not bounded",
+                            scene.name, scheme.name, oversampling * at_highest.sample_rate, oversampling));
     return choices;
 }
 }  // namespace

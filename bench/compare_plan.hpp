@@ -11,7 +11,9 @@ namespace jvari {
 struct ReferenceChoice {
     const Descriptor* scheme;
     Settings settings;
-    std::string note;  // why this one, "" where it is the rule or was asked for
+    std::string note;     // why this one, "" where it is the rule or was asked for
+    int oversampled = 0;  // a scheme, and the multiple of the coarsest rate of three; 0: a reference
+    std::string name() const { return (oversampled ? "oversampled " : "") + std::string(scheme->name); }
 };
 
 struct Plan {
@@ -26,6 +28,7 @@ Plan plan_of(const CompareRequest&, const Catalogue&, const Scene&);
 struct Reference {
     ReferenceChoice choice;
     Run run, moved;  // moved: started 1e-12 apart
+    Trust trust;     // what its certificate, or its own estimate, says of it
 };
 // The first of the choices that represents the scene and gets going; throws Refusal where none does.
 Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, const Console&);

@@ -125,8 +125,41 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front,
         for (std::size_t k = 0; k < measures().size(); ++k)
             row.number(measures()[k].column + "_" + c.scene.taps[tap].name, error_in(cell, static_cast<int>(tap), static_cast<int>(k)));
     row.text("reason", cell.reason);
+    const auto figures = [&](int tap, const std::string& suffix) {
+        for (std::size_t w = 0; w < Trust::columns.size(); ++w) row.number(Trust::columns[w] + suffix, c.trust.at(tap, w));
+    };
+    figures(c.headline.nut, "");
+    for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap) figures(static_cast<int>(tap), "_" + c.scene.taps[tap].name);
+}
+
+Json certificate_json(const Comparison& c) {
+    const Trust& t = c.trust;
+    if (!t.any()) return {{"missing", t.missing}};
+    Json figures = Json::object();
+    for (std::size_t w = 0; w < Trust::columns.size(); ++w) {
+        figures[Trust::columns[w]] = t.at(c.headline.nut, w);
+        for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
+            figures[Trust::columns[w] + ("_" + c.scene.taps[tap].name)] = t.at(tap, w);
+    }
+    Json j{{"against", t.against}};
+    if (!t.file.empty()) j["file"] = std::filesystem::path(t.file).filename().string();
+    if (!t.key.empty()) j["key"] = t.key;
+    j["figures"] = figures;
+    return j;
 }
 }  // namespace
+
+double certificate_of(const Table& cells, std::size_t row, const std::string& error_column) {
+    const std::string error = "error_l2_";
+    if (error_column.rfind(error, 0) != 0) return nan;
+    return cells.number(row, "certificate_l2_" + error_column.substr(error.size()));
+}
+
+std::string error_text(const Table& cells, std::size_t row, const std::string& column, const char* format) {
+    const double x = cells.number(row, column), certificate = certificate_of(cells, row, column);
+    if (std::isnan(x)) return "-";
+    return x < certificate ? "\u2264" + fmt::format(fmt::runtime(format), certificate) : fmt::format(fmt::runtime(format), x);
+}
 
 std::string headline_error(const Comparison& c) {
     for (const char* column : {"error_l2_50ms", "error_l2_10ms", "error_l2_whole"})
@@ -177,13 +210,14 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
             for (const auto& [name, value] : cell.settings.options) options[name] = value;
             schemes.push_back({{"name", cell.scheme->name}, {"source", cell.scheme->source}, {"options", options}});
         }
-    Json reference{{"name", c.reference->name},
+    Json reference{{"name", c.reference_name},
                    {"source", c.reference->source},
                    {"rate", c.reference_summary.rate},
                    {"modes", c.reference_summary.modes},
                    {"status", name_of(c.reference_summary.status.outcome)},
                    {"valid_until_s", c.reference_summary.duration},
                    {"note", c.reference_note},
+                   {"certificate", certificate_json(c)},
                    {"facts", facts}};
     const Json scene{{"name", c.scene.name},        {"asked_as", r.scene},          {"set", r.set}, {"source", c.scene.source},
                      {"hash", scene_hash(c.scene)}, {"duration", c.scene.duration}, {"taps", taps}};

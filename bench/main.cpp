@@ -15,6 +15,7 @@ struct Verb {
     int operator()(const jvari::RunRequest& r) const { return jvari::run_command(r); }
     int operator()(const jvari::CompareRequest& r) const { return jvari::compare_command(r); }
     int operator()(const jvari::SuiteRequest& r) const { return jvari::suite_command(r); }
+    int operator()(const jvari::CertifyRequest& r) const { return jvari::certify_command(r); }
     int operator()(const jvari::ReportRequest& r) const { return jvari::report_command(r); }
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -20,6 +21,12 @@ double number_of(const std::string& text) {
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     return error == std::errc() && stop == end ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string hash_of(const std::string& text) {
+    std::uint64_t h = 0xcbf29ce484222325;
+    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3;
+    return fmt::format("{:016x}", h);
 }
 
 int Table::column(const std::string& name) const {

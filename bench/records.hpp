@@ -10,6 +10,8 @@ namespace jvari {
 std::string text_of(double);
 double number_of(const std::string&);  // NaN for "" and for what is no number
 
+std::string hash_of(const std::string&);  // 16 hexadecimal digits (FNV-1a)
+
 struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;

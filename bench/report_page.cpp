@@ -105,11 +105,13 @@ const first = ["scheme", "rate", "modes", "status", "error_l2_10ms", "error_l2_5
 const at = Object.fromEntries(table.columns.map((name, k) => [name, k]));
 let sorted = null, downward = false;
 const shown = () => $("all").checked ? table.columns : first.filter(name => name in at);
-const value = (row, name) => { const t = row[at[name]]; return texts.has(name) ? t : t === "" ? NaN : Number(t.replace("inf", "Infinity")); };
+const value = (row, name) => { const t = row[at[name]]; return texts.has(name) ? t : !t ? NaN : Number(t.replace("inf", "Infinity")); };
+const certificate = (row, name) => name.startsWith("error_l2_") ? value(row, name.replace("error", "certificate")) : NaN;
 function written(row, name) {
   const t = row[at[name]];
   if (texts.has(name) || t === "") return t;
-  const x = value(row, name);
+  const x = value(row, name), known = certificate(row, name);
+  if (x < known) return "\u2264" + known.toExponential(2);
   if (!Number.isFinite(x)) return "\u221e";
   if (Number.isInteger(x) && Math.abs(x) < 1e9) return String(x);
   return Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6 ? x.toExponential(2) : String(Number(x.toPrecision(4)));
@@ -141,7 +143,7 @@ function fill() {
       const td = tr.insertCell();
       td.textContent = written(row, name);
       td.className = (texts.has(name) ? "text " : "") + name;
-      if (!texts.has(name)) td.title = row[at[name]];
+      if (!texts.has(name)) td.title = row[at[name]] + (certificate(row, name) ? `; reference certain to ${certificate(row, name)}` : "");
     }
   }
 }
@@ -163,7 +165,9 @@ const {scene, reference, ...rest} = manifest;
 list("floor", Object.entries(manifest.noise_floor).filter(e => !of_taps(e) && !e[0].startsWith("horizon")));
 list("floors", Object.entries(manifest.noise_floor).filter(e => of_taps(e) && !e[0].startsWith("horizon")));
 list("machine", [...Object.entries(rest), ["scene hash", scene.hash], ["set", scene.set.join(" ")], ["reference", `${reference.name} (${reference.source})`],
-                 ["reference rate", reference.rate], ["reference note", reference.note], ["reference valid until [s]", reference.valid_until_s],
+                 ["reference rate", reference.rate], ["reference note", reference.note],
+                 ["reference certain by", reference.certificate?.against ?? reference.certificate?.missing ?? ""],
+                 ...Object.entries(reference.certificate?.figures ?? {}).map(([k, x]) => [k.replaceAll("_", " "), x]), ["reference valid until [s]", reference.valid_until_s],
                  ...Object.entries(reference.facts).map(([k, x]) => ["reference: " + k.replaceAll("_", " "), x]),
                  ...manifest.schemes.map(s => [s.name, s.source + Object.entries(s.options).map(([k, x]) => `; ${k}=${x}`).join("")])]);
 </script>

@@ -80,12 +80,14 @@ std::string page_of(const Suite& suite, const Table& cells, const std::string& s
     const Table table = cells.only(shown);
     html += "<div class=\"scroll\"><table><tr>";
     for (const std::string& name : table.columns) html += "<th>" + escaped(name) + "</th>";
-    for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
         html += "</tr>\n<tr>";
-        for (const std::string& field : row) {
+        for (std::size_t k = 0; k < table.columns.size(); ++k) {
+            const std::string &name = table.columns[k], &field = table.rows[i][k];
             const double x = number_of(field);
             const bool shorten = field.size() > 9 && !std::isnan(x) && field.find('.') != std::string::npos;
-            html += "<td>" + escaped(shorten ? fmt::format("{:.4g}", x) : field) + "</td>";
+            const bool below = x < certificate_of(table, i, name);
+            html += "<td>" + escaped(below || shorten ? error_text(table, i, name, "{:.4g}") : field) + "</td>";
         }
     }
     return html + "</tr></table></div>\n<details><summary>Measured with</summary><pre>" + escaped(manifest) +
@@ -108,7 +110,7 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
         const std::string options = options_text(c.cell.settings);
         text += fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}  {}\n", what,
                             c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
-                            row.at(0, "status"), short_text("error_l2_50ms", "{:.2e}"), short_text("cost_s_per_s", "{:.3g}"),
+                            row.at(0, "status"), error_text(row, 0, "error_l2_50ms", "{:.2e}"), short_text("cost_s_per_s", "{:.3g}"),
                             row.at(0, "reason"));
     }
     text = fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}\n", "scene", "scheme", "rate", "modes", "status", "L2 50ms",

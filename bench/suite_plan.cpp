@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/certificate_library.hpp"
 #include "bench/fresh_file.hpp"
 #include "bench/machine.hpp"
 #include "bench/records.hpp"
@@ -15,12 +15,6 @@ namespace jvari {
 
 namespace {
 using Json = nlohmann::ordered_json;
-
-std::string hash_of(const std::string& text) {
-    std::uint64_t h = 0xcbf29ce484222325;
-    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3;
-    return fmt::format("{:016x}", h);
-}
 
 Json settings_json(const Settings& s) {
     Json options = Json::array();
@@ -54,9 +48,7 @@ Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& 
 }  // namespace
 
 std::string options_text(const Settings& s) {
-    std::string text;
-    for (const auto& [name, value] : s.options) text += (text.empty() ? "" : " ") + name + "=" + value;
-    return text;
+    return options_text(s.options);
 }
 
 SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vector<std::string>& plugins) {

@@ -12,11 +12,13 @@ namespace jvari {
 namespace {
 using Json = nlohmann::ordered_json;
 
-Table row_of(const PlannedCell& planned, const Cell& cell, const Errors& floor) {  // compare's row of a comparison of this cell alone
+Table row_of(const PlannedCell& planned, const Cell& cell, const Errors& floor,
+             const Trust& trust) {  // compare's row of a comparison of this cell alone
     Comparison c;
     c.scene = planned.point->scene;
     c.headline = headline_of(c.scene);
     c.floor = floor;
+    c.trust = trust;
     if (floor.empty())
         c.floor.assign(c.scene.taps.size(), std::vector<double>(measures().size(), std::numeric_limits<double>::quiet_NaN()));
     c.cells = {cell};
@@ -28,11 +30,11 @@ void set(Table& row, const std::string& column, const std::string& value) {
 }
 }  // namespace
 
-SuiteRecord record_of(const PlannedCell& planned, const Cell& cell, const Errors& floor) {
+SuiteRecord record_of(const PlannedCell& planned, const Cell& cell, const Errors& floor, const Trust& trust) {
     SuiteRecord r;
     Cell untimed = cell;
     untimed.wall = spread_of({});
-    r.row = row_of(planned, untimed, floor);
+    r.row = row_of(planned, untimed, floor, trust);
     r.ran = !cell.refused;
     r.duration = cell.summary.duration;
     r.seconds = cell.summary.wall_seconds;
@@ -46,7 +48,7 @@ void add_clock(SuiteRecord& r, const PlannedCell& planned, const Spread& wall) {
     cell.wall = wall;
     cell.summary.duration = r.duration;
     cell.summary.steps = r.steps;
-    const Table row = row_of(planned, cell, {}), rest = errors_only(row);
+    const Table row = row_of(planned, cell, {}, {}), rest = errors_only(row);
     for (std::size_t k = 0; k < row.columns.size(); ++k)
         if (rest.column(row.columns[k]) < 0) set(r.row, row.columns[k], row.rows[0][k]);
     r.timed = true;
@@ -103,8 +105,12 @@ Table table_of(const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
     for (const char* name : {"scheme", "options"}) add(name);
     for (const SuiteRecord& r : records)
         for (const std::string& name : r.row.columns)
-            if (name != "pareto" && name != "reason") add(name);  // the front is of one scene, and a table holds many
+            if (name != "pareto" && name != "reason" && name.rfind("certificate_", 0) != 0)
+                add(name);  // the front is of one scene, and a table holds many
     for (const char* name : {"reference", "reason"}) add(name);
+    for (const SuiteRecord& r : records)
+        for (const std::string& name : r.row.columns)
+            if (name != "pareto") add(name);
     for (std::size_t i = 0; i < records.size(); ++i) {
         const PlannedCell& c = plan.cells[i];
         auto& row = t.rows.emplace_back();

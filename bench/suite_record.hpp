@@ -23,7 +23,7 @@ struct SuiteRecord {
     Levels levels;  // of the spectrogram; none where it was not asked for
 };
 
-SuiteRecord record_of(const PlannedCell&, const Cell& measured, const Errors& floor);
+SuiteRecord record_of(const PlannedCell&, const Cell& measured, const Errors& floor, const Trust&);
 void add_clock(SuiteRecord&, const PlannedCell&, const Spread& wall);
 
 std::string json_of(const SuiteRecord&, const std::string& identity);

@@ -138,9 +138,9 @@ private:
         }
         cell.refused = !status.empty();
         if (truth && !known) cell.reason += (cell.reason.empty() ? "" : "; ") + truth->refused;
-        SuiteRecord record = record_of(planned, cell, known ? truth->floor : Errors{});
+        SuiteRecord record = record_of(planned, cell, known ? truth->floor : Errors{}, known ? truth->reference->trust : Trust{});
         if (!status.empty()) record.row.rows[0][record.row.column("status")] = status;
-        if (known) record.reference = truth->reference->choice.scheme->name;
+        if (known) record.reference = truth->reference->choice.name();
         if (planned.set->measures(Facet::spectrogram) && !cell.refused)
             record.levels = levels_of(trace.column(planned.point->tap), trace.tap_rate);
         if (truth && --truth->needed_by == 0) truth->reference.reset();

@@ -1,5 +1,5 @@
-// How far two traces of the same scene agree: relative L2 over the windows that every figure of this program uses, and the time until which
-// they agree to a given closeness.
+// How far two traces of the same scene agree: relative L2 over windows, and the time until which they agree to a given closeness.
+// The sums are those of schemes/trace.hpp, which errors are measured with as well.
 #pragma once
 
 #include <array>
@@ -9,18 +9,16 @@
 
 namespace jvari {
 
-constexpr std::array<double, 3> agreement_windows = {10e-3, 50e-3, 1e300};  // 0 to this, or to the end [s]
+// From 0 to before this instant [s]; the last one is the whole run. The comparison's own windows are among them.
+constexpr std::array<double, 7> agreement_windows = {10e-3, 20e-3, 50e-3, 100e-3, 200e-3, 500e-3, 1e300};
 constexpr std::array<double, 3> agreement_levels = {1e-3, 1e-6, 1e-9};
 
-// Over rows 0 ... min(rows of both, t <= until): ||a - b||/||b||; 0 where both are zero throughout.
+// Over the rows of both with t < until; a window longer than they are is the whole of them.
 double relative_difference(std::span<const double> a, std::span<const double> b, double rate, double until);
 
-// The first instant at which ||a - b||_[0,t] passes level x max(||b||_[0,t], max |b|); the last common instant where it never does [s].
-double agree_until(std::span<const double> a, std::span<const double> b, double rate, double level);
-
-struct Agreement {                        // of one tap
-    std::array<double, 3> relative_l2{};  // by agreement_windows
-    std::array<double, 3> until{};        // by agreement_levels [s]
+struct Agreement {                                               // of one tap
+    std::array<double, agreement_windows.size()> relative_l2{};  // by agreement_windows
+    std::array<double, agreement_levels.size()> until{};         // by agreement_levels [s]
 };
 Agreement agreement(std::span<const double> a, std::span<const double> b, double rate);
 

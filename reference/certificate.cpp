@@ -10,21 +10,72 @@
 namespace jvari {
 
 namespace {
-constexpr double displacement_of_floor = 1e-12;
+constexpr int multiple = 4;  // of the coarsest of the oversampled runs
 
-using Options = std::vector<std::pair<std::string, std::string>>;
+using Options = Certificate::Options;
 
-// Two settings of each reference's own accuracy, the better one first.
+struct Job {
+    const Descriptor* scheme;
+    Options options;
+    bool oversampled;
+};
+
+// Settings of the reference's own accuracy; {} is what it does unasked.
 std::vector<Options> accuracies(const Descriptor& reference, const Scene& scene) {
     const std::string_view name = reference.name;
     const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
     if (name == "exact_contact") return {{}, {{"window", "0.5"}}};
-    if (name == "sundials") return {{{"rtol", smooth ? "1e-12" : "1e-13"}}, {{"rtol", smooth ? "1e-10" : "1e-12"}}};
+    if (name == "sundials") return {{{"rtol", smooth ? "1e-12" : "1e-13"}}, {}};
     return {{}};
+}
+
+// An integrator of another kind, for the reference that nothing else can confirm.
+std::vector<Options> other_methods(const Descriptor& reference) {
+    if (std::string_view(reference.name) == "sundials") return {{{"method", "adams"}, {"rtol", "1e-12"}}};
+    return {};
+}
+
+std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
+    std::vector<const Descriptor*> able;
+    for (const Descriptor& r : references())
+        if ((needed_by(scene) - r.represents).empty()) able.push_back(&r);
+    std::vector<Job> jobs;
+    for (const Descriptor* r : able)
+        for (const Options& o : accuracies(*r, scene)) jobs.push_back({r, o, false});
+    if (able.size() == 1)
+        for (const Options& o : other_methods(*able.front())) jobs.push_back({able.front(), o, false});
+    if (jobs.empty() || settings.oversampled_rate > 0)
+        if (const Descriptor* scheme = stand_in(scene)) jobs.push_back({scheme, {}, true});
+    if (jobs.empty())
+        throw Refusal("no reference and no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
+    return jobs;
+}
+
+double finest_rate(const CertifySettings& settings) {
+    return settings.oversampled_rate > 0 ? settings.oversampled_rate : 64 * settings.tap_rate;
+}
+
+Certificate head(const Scene& scene, const CertifySettings& settings) {
+    Certificate c;
+    c.scene = scene.name;
+    c.tap_rate = settings.tap_rate;
+    c.duration = scene.duration;
+    for (const Tap& tap : scene.taps) c.taps.push_back(tap.name);
+    c.modes = modes_for(scene.strings.at(0), {0, settings.tap_rate, settings.modes, {}});
+    return c;
+}
+
+Certificate::Entry entry_of(const Job& job, const CertifySettings& settings) {
+    Certificate::Entry e;
+    e.reference = (job.oversampled ? "oversampled " : "") + std::string(job.scheme->name);
+    e.options = job.options;
+    if (job.oversampled) e.sample_rate = finest_rate(settings);
+    return e;
 }
 
 struct Ran {
     int entry;
+    const Job* job;
     Trace trace;
 };
 }  // namespace
@@ -37,90 +88,69 @@ Scene moved(Scene scene, double factor) {
     return scene;
 }
 
+Certificate certificate_plan(const Scene& scene, const CertifySettings& settings) {
+    Certificate c = head(scene, settings);
+    for (const Job& job : jobs_for(scene, settings)) c.entries.push_back(entry_of(job, settings));
+    return c;
+}
+
 Certificate certify(const Scene& scene, const CertifySettings& settings) {
-    struct Job {
-        const Descriptor* scheme;
-        Options options;
-    };
-    std::vector<Job> jobs;
-    for (const Descriptor& r : references())
-        if ((needed_by(scene) - r.represents).empty())
-            for (const Options& o : accuracies(r, scene)) jobs.push_back({&r, o});
-    const bool oversample = jobs.empty() || settings.oversampled_rate > 0;
-    const Descriptor* scheme = oversample ? stand_in(scene) : nullptr;
-    if (jobs.empty() && !scheme)
-        throw Refusal("no reference and no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
-
-    Certificate c;
-    c.scene = scene.name;
-    c.tap_rate = settings.tap_rate;
-    c.duration = scene.duration;
-    for (const Tap& tap : scene.taps) c.taps.push_back(tap.name);
-    Settings s{0, settings.tap_rate, settings.modes, {}};
-    c.modes = s.modes = modes_for(scene.strings.at(0), s);
-
+    Certificate c = head(scene, settings);
+    const std::vector<Job> jobs = jobs_for(scene, settings);
     std::vector<Ran> ran;
-    const int total = static_cast<int>(jobs.size()) + (scheme ? 1 : 0) + 1;
     int done = 0;
+    RunOptions options;
+    if (settings.within)
+        options.progress = [&settings](long rows, long of) { settings.within(static_cast<double>(rows) / static_cast<double>(of)); };
     const auto announce = [&](const std::string& name) {
-        if (settings.progress) settings.progress(name, done, total);
+        if (settings.progress) settings.progress(name, done, static_cast<int>(jobs.size()) + 1);
         ++done;
     };
-    const auto keep = [&](Certificate::Entry entry, Run r) {
-        entry.status = r.status;
-        entry.reached = static_cast<double>(std::max(0L, r.trace.rows - 1)) / settings.tap_rate;
-        if (entry.wall_seconds == 0) entry.wall_seconds = r.wall_seconds;
-        c.entries.push_back(std::move(entry));
-        ran.push_back({static_cast<int>(c.entries.size()) - 1, std::move(r.trace)});
+    const auto settings_of = [&](const Job& job) {
+        return Settings{job.oversampled ? finest_rate(settings) : 0, settings.tap_rate, c.modes, job.options};
     };
-    const Job* best = nullptr;
     for (const Job& job : jobs) {
-        announce(job.scheme->name);
-        Certificate::Entry entry{job.scheme->name, job.options, 0, {}, 0, 0, {}, {}};
-        Settings own = s;
-        own.options = job.options;
+        Certificate::Entry entry = entry_of(job, settings);
+        announce(entry.reference);
         try {
-            keep(entry, run(*job.scheme, scene, own));
-            if (!best) best = &job;
+            Run r;
+            Settings own = settings_of(job);
+            if (job.oversampled) {
+                own.sample_rate /= multiple;
+                Oversampled o = oversampled(*job.scheme, scene, own, multiple, options);
+                for (const auto& tap : o.estimates) {
+                    auto& by_window = entry.estimate.emplace_back();
+                    for (std::size_t w = 0; w < by_window.size(); ++w) by_window[w] = tap[w].error;
+                }
+                entry.sample_rate = o.rate;
+                entry.wall_seconds = o.wall_seconds;
+                r = std::move(o.run);
+            } else {
+                r = run(*job.scheme, scene, own, options);
+                entry.wall_seconds = r.wall_seconds;
+            }
+            entry.status = r.status;
+            entry.reached = static_cast<double>(std::max(0L, r.trace.rows - 1)) / settings.tap_rate;
+            ran.push_back({static_cast<int>(c.entries.size()), &job, std::move(r.trace)});
         } catch (const Refusal& refusal) {
             entry.reason = refusal.what();
-            c.entries.push_back(entry);
         }
-    }
-    constexpr int multiple = 4;
-    const double finest = settings.oversampled_rate > 0 ? settings.oversampled_rate : 64 * settings.tap_rate;
-    if (scheme) {
-        announce(std::string("oversampled ") + scheme->name);
-        Certificate::Entry entry{std::string("oversampled ") + scheme->name, {}, finest, {}, 0, 0, {}, {}};
-        Settings own = s;
-        own.sample_rate = finest / multiple;
-        try {
-            Oversampled o = oversampled(*scheme, scene, own, multiple);
-            for (const auto& tap : o.estimates) entry.estimate.push_back(tap.back().error);
-            entry.wall_seconds = o.wall_seconds;
-            keep(entry, std::move(o.run));
-        } catch (const Refusal& refusal) {
-            entry.reason = refusal.what();
-            c.entries.push_back(entry);
-        }
+        c.entries.push_back(std::move(entry));
     }
     if (ran.empty())
         throw Refusal("certificate of scene " + scene.name + ": every reference refuses it; the first: " + c.entries.front().reason);
 
     const auto compare = [&](const Trace& a, const Trace& b) {
         std::vector<Agreement> taps;
-        for (int k = 0; k < b.taps(); ++k)
-            taps.push_back(agreement(a.column(k).first(a.rows), b.column(k).first(b.rows), settings.tap_rate));
+        for (int k = 0; k < b.taps(); ++k) taps.push_back(agreement(a.column(k), b.column(k), settings.tap_rate));
         return taps;
     };
     for (std::size_t a = 0; a < ran.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) c.pairs.push_back({ran[a].entry, ran[b].entry, compare(ran[a].trace, ran[b].trace)});
 
     announce("noise floor");
-    Settings own = s;
-    if (best) own.options = best->options;
-    else own.sample_rate = finest;
-    c.floor = compare(run(best ? *best->scheme : *scheme, moved(scene, 1 + displacement_of_floor), own).trace, ran.front().trace);
+    const Job& first = *ran.front().job;
+    c.floor = compare(run(*first.scheme, moved(scene, 1 + floor_displacement), settings_of(first), options).trace, ran.front().trace);
     return c;
 }
 

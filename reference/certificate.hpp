@@ -1,7 +1,8 @@
 // Which references agree on a scene, until when, to how much, and at what cost: what a reference may be trusted with.
 //
-// Every reference that represents the scene runs at two settings of its own accuracy; all pairs are compared tap by tap. The noise floor is
-// the first of them against itself, started a relative 1e-12 apart: no two programs can agree better for long.
+// Every reference that represents the scene runs at two settings of its own accuracy, its default among them; all pairs are compared tap by
+// tap. Where one reference stands alone and offers several integrators, it also runs by another one. The noise floor is the first of them
+// against itself, started a relative 1e-12 apart: no two programs can agree better for long.
 #pragma once
 
 #include <functional>
@@ -14,15 +15,17 @@
 namespace jvari {
 
 struct Certificate {
+    using Options = std::vector<std::pair<std::string, std::string>>;
+    using ByWindow = std::array<double, agreement_windows.size()>;
     struct Entry {
-        std::string reference;  // its name, "oversampled modal_two_point" for a scheme at a multiple of a rate
-        std::vector<std::pair<std::string, std::string>> options;  // as given to it
-        double sample_rate = 0;                                    // [Hz], 0 in continuous time
+        std::string reference;   // its name, "oversampled modal_two_point" for a scheme at a multiple of a rate
+        Options options;         // as given to it; none: its default
+        double sample_rate = 0;  // [Hz], 0 in continuous time
         Status status;
-        double reached = 0;            // [s], last valid row
-        double wall_seconds = 0;       // of the stepping
-        std::vector<double> estimate;  // its own estimate of its error, whole run, by tap; empty where it has none
-        std::string reason;            // of a refusal; then nothing else is set
+        double reached = 0;              // [s], last valid row
+        double wall_seconds = 0;         // of the stepping
+        std::vector<ByWindow> estimate;  // its own estimate of its error by tap and window; empty where it has none
+        std::string reason;              // of a refusal; then nothing else is set
     };
     struct Pair {
         int first, second;  // entries; relative to the second
@@ -43,10 +46,16 @@ struct CertifySettings {
     double oversampled_rate =
         0;  // also the stand-in scheme at this rate [Hz]; 0: only where no reference represents the scene, at 64 tap rates
     std::function<void(const std::string& reference, int done, int of)> progress = {};  // before each run
+    std::function<void(double fraction)> within = {};                                   // of the run under way
 };
 
 // Throws BadScene, or Refusal where nothing at all represents the scene.
 Certificate certify(const Scene&, const CertifySettings& = {});
+
+// What it is going to run: the certificate's head, and its entries without their outcome. Throws Refusal as well.
+Certificate certificate_plan(const Scene&, const CertifySettings& = {});
+
+constexpr double floor_displacement = 1e-12;
 
 // The scene with every initial shape and every pluck scaled.
 Scene moved(Scene, double factor);
