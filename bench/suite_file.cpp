@@ -2,6 +2,7 @@
 #include "bench/suite_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -17,7 +18,9 @@ namespace jvari {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr const char* facet_names[] = {"errors", "cost", "spectrogram"};
+constexpr std::array facet_names = {"errors", "cost", "spectrogram"};
+constexpr std::array all_facets = {Facet::errors, Facet::cost, Facet::spectrogram};
+static_assert(facet_names.size() == all_facets.size());
 
 class Reader {
 public:
@@ -125,9 +128,12 @@ CellSet set_of(const Reader& read, const Value& v, const std::string& within) {
     if (const Value* x = v.find("measure")) {
         s.measure = read.several(*x, key("measure"), [&](const Value& one, const std::string& k) {
             const std::string word = read.text(one, k);
-            for (int i = 0; i < 3; ++i)
-                if (word == facet_names[i]) return static_cast<Facet>(i);
-            throw SceneFileError(read.place(one) + ": " + k + ": " + unknown("measure", word, {"errors", "cost", "spectrogram"}));
+            std::vector<std::string> known;
+            for (const Facet f : facets()) {
+                if (word == name_of(f)) return f;
+                known.emplace_back(name_of(f));
+            }
+            throw SceneFileError(read.place(one) + ": " + k + ": " + unknown("measure", word, known));
         });
         if (s.measures(Facet::cost) && !s.measures(Facet::errors))
             throw SceneFileError(read.place(*x) + ": " + key("measure") +
@@ -143,8 +149,12 @@ fs::path library() {
 }
 }  // namespace
 
+std::span<const Facet> facets() {
+    return all_facets;
+}
+
 const char* name_of(Facet f) {
-    return facet_names[static_cast<int>(f)];
+    return facet_names[static_cast<std::size_t>(f)];
 }
 
 bool CellSet::measures(Facet f) const {

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,7 @@
 namespace jvari {
 
 enum class Facet { errors, cost, spectrogram };  // what is measured of a cell
+std::span<const Facet> facets();
 const char* name_of(Facet);
 
 struct SweptKey {

@@ -1,0 +1,9 @@
+#include "bench/row_facet.hpp"
+
+namespace jvari {
+
+std::span<const RowFacet> row_facets() {
+    return {};
+}
+
+}  // namespace jvari
