@@ -18,6 +18,7 @@ struct MeasuredCell {  // a cell whose accuracy run reached its end or its failu
     const Trace& trace;
     const Trace* reference;  // on the same rows; nullptr where there is none
     int tap;                 // that the set of cells names, else the scene's first
+    const CellSet& set;
 };
 
 struct RowFacet {

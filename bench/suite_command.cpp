@@ -11,6 +11,7 @@
 
 #include "bench/commands.hpp"
 #include "bench/compare_record.hpp"
+#include "bench/figure_chart.hpp"
 #include "bench/fresh_file.hpp"
 #include "bench/machine.hpp"
 #include "bench/row_facet.hpp"
@@ -162,6 +163,7 @@ int suite_command(const SuiteRequest& r) {
             if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty())
                 write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
         write("manifest.json", manifest + "\n");
+        for (const DrawnFigure& f : draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
         std::string svg;
         if (const auto panels = panels_of(plan, run.records); !panels.empty()) {
             const Vega vega = find_vega();

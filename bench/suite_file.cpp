@@ -18,8 +18,9 @@ namespace jvari {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr std::array facet_names = {"errors", "cost", "spectrogram"};
-constexpr std::array all_facets = {Facet::errors, Facet::cost, Facet::spectrogram};
+constexpr std::array facet_names = {"errors", "cost", "spectrogram", "trace", "extent", "profile", "envelope", "centroid"};
+constexpr std::array all_facets = {Facet::errors, Facet::cost,    Facet::spectrogram, Facet::trace,
+                                   Facet::extent, Facet::profile, Facet::envelope,    Facet::centroid};
 static_assert(facet_names.size() == all_facets.size());
 
 class Reader {
@@ -90,7 +91,7 @@ CellSet set_of(const Reader& read, const Value& v, const std::string& within) {
     read.table(v, within);
     read.only(v, within + ": ",
               {"scenes", "schemes", "rates", "modes", "duration", "tap_rate", "repeats", "reference", "options", "sweep", "measure", "tap",
-               "time_limit_s"});
+               "time_limit_s", "taps", "trace", "extent", "profile", "envelope", "centroid"});
     const auto text = [&read](const Value& x, const std::string& k) { return read.text(x, k); };
     const auto number = [&read](const Value& x, const std::string& k) { return read.positive(x, k); };
     const auto count = [&read](const Value& x, const std::string& k) { return read.count(x, k); };
@@ -164,7 +165,7 @@ bool CellSet::measures(Facet f) const {
 Suite parse_suite(std::string_view content, const std::string& file_name) {
     const Document document = parse_document(content, file_name, {});
     const Reader read(document);
-    read.only(document.root, "", {"name", "source", "cells"});
+    read.only(document.root, "", {"name", "source", "cells", "figure"});
     Suite suite;
     suite.name = fs::path(file_name).stem().string();
     if (const Value* x = document.root.find("name")) suite.name = read.text(*x, "name");
@@ -173,7 +174,11 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     const auto* sets = cells ? std::get_if<Array>(&cells->content) : nullptr;
     if (!sets || sets->empty())
         throw SceneFileError(read.place(cells ? *cells : document.root) + ": cells: expected at least one [[cells]]");
-    for (std::size_t i = 0; i < sets->size(); ++i) suite.sets.push_back(set_of(read, (*sets)[i], "cells." + std::to_string(i)));
+    for (std::size_t i = 0; i < sets->size(); ++i) {
+        suite.sets.push_back(set_of(read, (*sets)[i], "cells." + std::to_string(i)));
+        suite.sets.back().figures = figure_facets_of(document, (*sets)[i], "cells." + std::to_string(i));
+    }
+    suite.figures = figures_of(document);
     return suite;
 }
 

@@ -45,6 +45,7 @@ Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& 
     const std::string where = "scene " + r.scene + ": ";
     into.scene = load_scene(r.scene, r.set, r.duration);
     try {
+        into.scene = with_figure_taps(into.scene, point.set->figures);
         into.tap = tap_of(*point.set, into.scene);
         return plan_of(r, catalogue, into.scene);
     } catch (const UsageError& e) {
@@ -95,6 +96,7 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
             if (point.set->measures(Facet::errors)) identity["references"] = references;
             if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
             if (point.set->measures(Facet::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
+            if (!point.set->figures.identity.empty()) identity["figures"] = point.set->figures.identity;
             if (point.set->time_limit) identity["time_limit_s"] = *point.set->time_limit;
             PlannedCell planned_cell{point.set, &p, cell, identity.dump(), {}};
             if (!seen.insert(planned_cell.identity).second) continue;

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Table row_of(const PlannedCell& planned, const Cell& cell, const Errors& floor) {  // compare's row of a comparison of this cell alone
     Comparison c;
-    c.scene = planned.point->scene;
+    c.scene = without_profile_taps(planned.point->scene);
     c.headline = headline_of(c.scene);
     c.floor = floor;
     if (floor.empty())

@@ -147,7 +147,7 @@ private:
         for (const RowFacet& f : row_facets())
             if (planned.set->measures(f.facet) && !cell.refused)
                 record.rows[f.facet] = f.rows({planned.point->scene, *cell.scheme, cell.settings, trace,
-                                               known ? &truth->reference->run.trace : nullptr, planned.point->tap});
+                                               known ? &truth->reference->run.trace : nullptr, planned.point->tap, *planned.set});
         if (truth && --truth->needed_by == 0) truth->reference.reset();
         return record;
     }
