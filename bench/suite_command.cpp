@@ -11,8 +11,10 @@
 
 #include "bench/commands.hpp"
 #include "bench/compare_record.hpp"
+#include "bench/figure_chart.hpp"
 #include "bench/fresh_file.hpp"
 #include "bench/machine.hpp"
+#include "bench/row_facet.hpp"
 #include "bench/suite_run.hpp"
 #include "bench/vega.hpp"
 
@@ -159,7 +161,11 @@ int suite_command(const SuiteRequest& r) {
         write("cells.csv", csv(cells));
         write("errors.csv", csv(errors_only(cells)));
         write("cost.csv", csv(clock_only(cells)));
+        for (const RowFacet& f : row_facets())
+            if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty())
+                write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
         write("manifest.json", manifest + "\n");
+        for (const DrawnFigure& f : draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
         std::string svg;
         if (const auto panels = panels_of(plan, run.records); !panels.empty()) {
             const Vega vega = find_vega();

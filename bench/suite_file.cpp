@@ -2,6 +2,7 @@
 #include "bench/suite_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -17,7 +18,10 @@ namespace jvari {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr const char* facet_names[] = {"errors", "cost", "spectrogram"};
+constexpr std::array facet_names = {"errors", "cost", "spectrogram", "trace", "extent", "profile", "envelope", "centroid"};
+constexpr std::array all_facets = {Facet::errors, Facet::cost,    Facet::spectrogram, Facet::trace,
+                                   Facet::extent, Facet::profile, Facet::envelope,    Facet::centroid};
+static_assert(facet_names.size() == all_facets.size());
 
 class Reader {
 public:
@@ -87,7 +91,7 @@ CellSet set_of(const Reader& read, const Value& v, const std::string& within) {
     read.table(v, within);
     read.only(v, within + ": ",
               {"scenes", "schemes", "rates", "modes", "duration", "tap_rate", "repeats", "reference", "options", "sweep", "measure", "tap",
-               "time_limit_s"});
+               "time_limit_s", "taps", "trace", "extent", "profile", "envelope", "centroid"});
     const auto text = [&read](const Value& x, const std::string& k) { return read.text(x, k); };
     const auto number = [&read](const Value& x, const std::string& k) { return read.positive(x, k); };
     const auto count = [&read](const Value& x, const std::string& k) { return read.count(x, k); };
@@ -125,9 +129,12 @@ CellSet set_of(const Reader& read, const Value& v, const std::string& within) {
     if (const Value* x = v.find("measure")) {
         s.measure = read.several(*x, key("measure"), [&](const Value& one, const std::string& k) {
             const std::string word = read.text(one, k);
-            for (int i = 0; i < 3; ++i)
-                if (word == facet_names[i]) return static_cast<Facet>(i);
-            throw SceneFileError(read.place(one) + ": " + k + ": " + unknown("measure", word, {"errors", "cost", "spectrogram"}));
+            std::vector<std::string> known;
+            for (const Facet f : facets()) {
+                if (word == name_of(f)) return f;
+                known.emplace_back(name_of(f));
+            }
+            throw SceneFileError(read.place(one) + ": " + k + ": " + unknown("measure", word, known));
         });
         if (s.measures(Facet::cost) && !s.measures(Facet::errors))
             throw SceneFileError(read.place(*x) + ": " + key("measure") +
@@ -143,8 +150,12 @@ fs::path library() {
 }
 }  // namespace
 
+std::span<const Facet> facets() {
+    return all_facets;
+}
+
 const char* name_of(Facet f) {
-    return facet_names[static_cast<int>(f)];
+    return facet_names[static_cast<std::size_t>(f)];
 }
 
 bool CellSet::measures(Facet f) const {
@@ -154,7 +165,7 @@ bool CellSet::measures(Facet f) const {
 Suite parse_suite(std::string_view content, const std::string& file_name) {
     const Document document = parse_document(content, file_name, {});
     const Reader read(document);
-    read.only(document.root, "", {"name", "source", "cells"});
+    read.only(document.root, "", {"name", "source", "cells", "figure"});
     Suite suite;
     suite.name = fs::path(file_name).stem().string();
     if (const Value* x = document.root.find("name")) suite.name = read.text(*x, "name");
@@ -163,7 +174,11 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     const auto* sets = cells ? std::get_if<Array>(&cells->content) : nullptr;
     if (!sets || sets->empty())
         throw SceneFileError(read.place(cells ? *cells : document.root) + ": cells: expected at least one [[cells]]");
-    for (std::size_t i = 0; i < sets->size(); ++i) suite.sets.push_back(set_of(read, (*sets)[i], "cells." + std::to_string(i)));
+    for (std::size_t i = 0; i < sets->size(); ++i) {
+        suite.sets.push_back(set_of(read, (*sets)[i], "cells." + std::to_string(i)));
+        suite.sets.back().figures = figure_facets_of(document, (*sets)[i], "cells." + std::to_string(i));
+    }
+    suite.figures = figures_of(document);
     return suite;
 }
 

@@ -11,19 +11,24 @@
 //   measure = ["errors", "cost", "spectrogram"]                       cost goes with errors alone: no speed without an error
 //   tap = "y03"                        of the spectrogram             (absent: the scene's first)
 //   time_limit_s = 60                  of one accuracy run            (absent: none)
+//   taps, trace, extent, profile, envelope, centroid                  figure_facets.hpp
+//   [[figure]]                                                        figure_file.hpp
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bench/arguments.hpp"
+#include "bench/figure_file.hpp"
 
 namespace jvari {
 
-enum class Facet { errors, cost, spectrogram };  // what is measured of a cell
+enum class Facet { errors, cost, spectrogram, trace, extent, profile, envelope, centroid };  // what is measured of a cell
+std::span<const Facet> facets();
 const char* name_of(Facet);
 
 struct SweptKey {
@@ -46,12 +51,14 @@ struct CellSet {
     std::vector<SweptKey> sweep;
     std::vector<Facet> measure;
     std::optional<double> time_limit;  // [s]
+    FigureFacets figures;
     bool measures(Facet) const;
 };
 
 struct Suite {
     std::string name, source;
     std::vector<CellSet> sets;
+    std::vector<Figure> figures;
 };
 
 // A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12: cells.0.raets: unknown key; did you mean rates?".

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "bench/fresh_file.hpp"
 #include "bench/machine.hpp"
 #include "bench/records.hpp"
+#include "bench/row_facet.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari {
@@ -37,6 +39,7 @@ Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& 
     const std::string where = "scene " + r.scene + ": ";
     into.scene = load_scene(r.scene, r.set, r.duration);
     try {
+        into.scene = with_figure_taps(into.scene, point.set->figures);
         into.tap = tap_of(*point.set, into.scene);
         return plan_of(r, catalogue, into.scene);
     } catch (const UsageError& e) {
@@ -44,6 +47,10 @@ Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& 
     } catch (const Refusal& e) {
         throw Refusal(where + e.what());
     }
+}
+
+bool makes_rows(const CellSet& set) {
+    return std::ranges::any_of(row_facets(), [&set](const RowFacet& f) { return set.measures(f.facet); });
 }
 }  // namespace
 
@@ -69,7 +76,7 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
         for (const ReferenceChoice& c : plan.references)
             references.push_back({{"name", c.scheme->name}, {"settings", settings_json(c.settings)}});
         p.reference_key = hash + references.dump();
-        for (Facet f : {Facet::errors, Facet::cost, Facet::spectrogram})
+        for (const Facet f : facets())
             if (point.set->measures(f)) measure.push_back(name_of(f));
         for (const Cell& cell : plan.cells) {
             Json identity{{"program", program},
@@ -80,7 +87,8 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
                           {"measure", measure}};
             if (point.set->measures(Facet::errors)) identity["references"] = references;
             if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
-            if (point.set->measures(Facet::spectrogram)) identity["tap"] = p.scene.taps.at(p.tap).name;
+            if (point.set->measures(Facet::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
+            if (!point.set->figures.identity.empty()) identity["figures"] = point.set->figures.identity;
             if (point.set->time_limit) identity["time_limit_s"] = *point.set->time_limit;
             PlannedCell planned_cell{point.set, &p, cell, identity.dump(), {}};
             if (!seen.insert(planned_cell.identity).second) continue;

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 Table row_of(const PlannedCell& planned, const Cell& cell, const Errors& floor,
              const Trust& trust) {  // compare's row of a comparison of this cell alone
     Comparison c;
-    c.scene = planned.point->scene;
+    c.scene = without_profile_taps(planned.point->scene);
     c.headline = headline_of(c.scene);
     c.floor = floor;
     c.trust = trust;
@@ -62,6 +62,7 @@ std::string json_of(const SuiteRecord& r, const std::string& identity) {
     const Levels& l = r.levels;
     j["levels"] = {{"frames", l.frames}, {"rows", l.rows},     {"start", l.start},
                    {"hop", l.hop},       {"row_hz", l.row_hz}, {"tenths_of_db", l.level}};
+    for (const auto& [facet, table] : r.rows) j["rows"][name_of(facet)] = {{"columns", table.columns}, {"rows", table.rows}};
     return j.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -85,6 +86,10 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const 
         r.steps = j.at("steps");
         const Json& l = j.at("levels");
         r.levels = {l.at("frames"), l.at("rows"), l.at("start"), l.at("hop"), l.at("row_hz"), l.at("tenths_of_db")};
+        if (j.contains("rows"))
+            for (const Facet facet : facets())
+                if (const auto kept = j["rows"].find(name_of(facet)); kept != j["rows"].end())
+                    r.rows[facet] = {kept->at("columns"), kept->at("rows")};
         if (r.levels.level.size() != static_cast<std::size_t>(r.levels.frames) * r.levels.rows) return std::nullopt;
         return r;
     } catch (const Json::exception&) {
@@ -122,6 +127,30 @@ Table table_of(const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
                           : name == "reference"           ? records[i].reference
                           : swept != c.point->swept.end() ? swept->second
                                                           : records[i].row.at(0, name));
+        }
+    }
+    return t;
+}
+
+Table rows_of(Facet facet, const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
+    const Table cells = table_of(plan, records);
+    std::vector<std::string> names(cells.columns.begin(), cells.columns.begin() + cells.column("options") + 1);
+    names.insert(names.end(), {"rate", "modes"});
+    Table t = cells.only(names);
+    t.rows.clear();
+    for (const SuiteRecord& r : records)
+        if (const auto own = r.rows.find(facet); own != r.rows.end() && own->second.columns.size() > 0) {
+            t.columns.insert(t.columns.end(), own->second.columns.begin(), own->second.columns.end());
+            break;
+        }
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const auto own = records[i].rows.find(facet);
+        if (own == records[i].rows.end()) continue;
+        std::vector<std::string> who;
+        for (const std::string& name : names) who.push_back(cells.at(i, name));
+        for (const auto& fields : own->second.rows) {
+            t.rows.push_back(who);
+            t.rows.back().insert(t.rows.back().end(), fields.begin(), fields.end());
         }
     }
     return t;

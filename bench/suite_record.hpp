@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ struct SuiteRecord {
     bool timed = false;
     double duration = 0, seconds = 0;  // simulated, and wall time of the accuracy run [s]
     long steps = 0;
-    Levels levels;  // of the spectrogram; none where it was not asked for
+    Levels levels;                // of the spectrogram; none where it was not asked for
+    std::map<Facet, Table> rows;  // of each row facet that was asked for
 };
 
 SuiteRecord record_of(const PlannedCell&, const Cell& measured, const Errors& floor, const Trust&);
@@ -32,5 +34,8 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path&, const std::
 
 // One row per cell in the order of the plan: which cell, scene, swept keys and options, then the columns of compare, the front aside.
 Table table_of(const SuitePlan&, const std::vector<SuiteRecord>&);
+
+// The rows of one facet over all cells, each behind what names its cell: cell, scene, swept keys, scheme, options, rate, modes.
+Table rows_of(Facet, const SuitePlan&, const std::vector<SuiteRecord>&);
 
 }  // namespace jvari

@@ -16,6 +16,7 @@
 
 #include "bench/cost.hpp"
 #include "bench/fresh_file.hpp"
+#include "bench/row_facet.hpp"
 
 namespace jvari {
 
@@ -143,6 +144,10 @@ private:
         if (known) record.reference = truth->reference->choice.name();
         if (planned.set->measures(Facet::spectrogram) && !cell.refused)
             record.levels = levels_of(trace.column(planned.point->tap), trace.tap_rate);
+        for (const RowFacet& f : row_facets())
+            if (planned.set->measures(f.facet) && !cell.refused)
+                record.rows[f.facet] = f.rows({planned.point->scene, *cell.scheme, cell.settings, trace,
+                                               known ? &truth->reference->run.trace : nullptr, planned.point->tap, *planned.set});
         if (truth && --truth->needed_by == 0) truth->reference.reset();
         return record;
     }

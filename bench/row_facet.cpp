@@ -1,0 +1,15 @@
+#include "bench/row_facet.hpp"
+
+#include "bench/figure_rows.hpp"
+
+namespace jvari {
+
+std::span<const RowFacet> row_facets() {
+    static constexpr RowFacet facets[] = {
+        {Facet::trace, trace_rows},       {Facet::extent, extent_rows},     {Facet::profile, profile_rows},
+        {Facet::envelope, envelope_rows}, {Facet::centroid, centroid_rows},
+    };
+    return facets;
+}
+
+}  // namespace jvari
