@@ -134,8 +134,8 @@ private:
         const double bridge = bridge_ / steps_, thread = thread_ / steps_;
         bridge_ = thread_ = 0;
         const auto velocity = [&](const Stencil& at) { return at.read(q_) * 2 / dt_; };
-        write_taps(out, row, g_.taps, y_, velocity, bridge, thread);
-        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
+        add_taps(out, row, g_.taps, y_, velocity, bridge, thread);
+        if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
 

@@ -73,8 +73,8 @@ Squares squares(const Grid& g, At at) noexcept {
 
 // Adds a string's part to a row of taps: u its nodes, velocity(stencil) what a stencil reads of theirs, the means of its contact forces.
 template <class Velocity>
-void write_taps(const Block& out, int row, const std::vector<GridTap>& taps, const double* u, Velocity velocity, double bridge,
-                double thread) noexcept {
+void add_taps(const Block& out, int row, const std::vector<GridTap>& taps, const double* u, Velocity velocity, double bridge,
+              double thread) noexcept {
     for (const GridTap& tap : taps) {
         double& cell = out.tap[tap.column * out.stride + row];
         switch (tap.quantity) {
@@ -88,7 +88,7 @@ void write_taps(const Block& out, int row, const std::vector<GridTap>& taps, con
     }
 }
 
-inline void write_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
+inline void add_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
     out.energy[row] += stored;
     out.energy[row + out.stride] += supplied;
     out.energy[row + 2 * out.stride] += dissipated;

@@ -111,21 +111,15 @@ std::unique_ptr<Scheme> make_impulse_invariant(const Scene& scene, const Setting
     return std::make_unique<ModalThreePoint<GradientContact>>(std::move(string), gain, inertia, contact);
 }
 
-constexpr Features represented = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
-                                 Feature::measured_modes | Feature::lumped_barrier | Feature::power_law_contact | Feature::thread |
-                                 Feature::initial_shape | Feature::pluck;
-
 }  // namespace
 
-const Descriptor modal_explicit_penalty = {"modal_explicit_penalty",
-                                           "exact modes, contact force of the last step (conditionally stable control)",
-                                           represented,
-                                           Balance::none,
-                                           Clock::stepped,
-                                           make_explicit};
+const Descriptor modal_explicit_penalty = {
+    "modal_explicit_penalty", "exact modes, contact force of the last step (conditionally stable control)",
+    modal_features,           Balance::none,
+    Clock::stepped,           make_explicit};
 const Descriptor modal_impulse_invariant = {"modal_impulse_invariant",
                                             "van Walstijn et al. 2016, end of section 2.3: gains that differ from mode to mode (control)",
-                                            represented,
+                                            modal_features,
                                             Balance::none,
                                             Clock::stepped,
                                             make_impulse_invariant};

@@ -179,27 +179,13 @@ private:
 
     void write(const Block& out, int row) const {
         const double per_row = m_.steps_per_row;
-        const double bridge = impulse_b_ / per_row, thread = impulse_c_ / per_row;
-        for (int k = 0; k < out.taps; ++k) {
-            const ModalTap& tap = m_.taps[k];
-            double value = 0;
-            switch (tap.quantity) {
-                case Quantity::displacement:
-                case Quantity::nut_force: value = modal_dot(tap.weights, y_); break;
-                case Quantity::velocity:  // p/m = 2 q/dt
-                    for (int i = 0; i < m_.size; ++i) value += tap.weights[i] * momentum(i);
-                    value *= 2 / m_.dt;
-                    break;
-                case Quantity::bridge_force: value = bridge; break;
-                case Quantity::thread_force: value = thread; break;
-                case Quantity::driving_force: value = -(bridge + thread); break;
-            }
-            out.tap[k * out.stride + row] = value;
-        }
-        if (!out.energy) return;
-        out.energy[row] = stored();
-        out.energy[out.stride + row] = supplied_;
-        out.energy[2 * out.stride + row] = dissipated_;
+        const auto velocity = [this](const ModalArray& weights) {  // p/m = 2 q/dt
+            double sum = 0;
+            for (int i = 0; i < m_.size; ++i) sum += weights[i] * momentum(i);
+            return sum * (2 / m_.dt);
+        };
+        write_taps(out, row, m_.taps, y_, velocity, impulse_b_ / per_row, impulse_c_ / per_row);
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
     }
 
     ModalString m_;
@@ -249,45 +235,42 @@ Made make_fixed(const Scene& scene, const Settings& settings) {
     return make(*descriptor, scene, settings, levels, variant);
 }
 
-constexpr Features represented = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
-                                 Feature::measured_modes | Feature::lumped_barrier | Feature::power_law_contact | Feature::thread |
-                                 Feature::initial_shape | Feature::pluck;
 constexpr const char* raw_source = "Ducceschi et al. 2021 without the constraint on psi (known-bad control)";
 constexpr const char* constrained_source = "Ducceschi et al. 2021, with g signed by psi and psi driven to 0 out of contact";
 constexpr const char* released_source = "Ducceschi et al. 2021, psi released in full where it would pull";
 
 }  // namespace
 
-const Descriptor modal_quadratised = {"modal_quadratised", released_source, represented, Balance::exact, Clock::stepped, make_chosen};
+const Descriptor modal_quadratised = {"modal_quadratised", released_source, modal_features, Balance::exact, Clock::stepped, make_chosen};
 const Descriptor modal_quadratised_two_point_constrained = {
     "modal_quadratised_two_point_constrained",
     constrained_source,
-    represented,
+    modal_features,
     Balance::exact,
     Clock::stepped,
     make_fixed<&modal_quadratised_two_point_constrained, 2, Quadratisation::constrained>};
 const Descriptor modal_quadratised_two_point_raw = {"modal_quadratised_two_point_raw",
                                                     raw_source,
-                                                    represented,
+                                                    modal_features,
                                                     Balance::exact,
                                                     Clock::stepped,
                                                     make_fixed<&modal_quadratised_two_point_raw, 2, Quadratisation::raw>};
 const Descriptor modal_quadratised_three_point = {"modal_quadratised_three_point",
                                                   released_source,
-                                                  represented,
+                                                  modal_features,
                                                   Balance::exact,
                                                   Clock::stepped,
                                                   make_fixed<&modal_quadratised_three_point, 3, Quadratisation::released>};
 const Descriptor modal_quadratised_three_point_constrained = {
     "modal_quadratised_three_point_constrained",
     constrained_source,
-    represented,
+    modal_features,
     Balance::exact,
     Clock::stepped,
     make_fixed<&modal_quadratised_three_point_constrained, 3, Quadratisation::constrained>};
 const Descriptor modal_quadratised_three_point_raw = {"modal_quadratised_three_point_raw",
                                                       raw_source,
-                                                      represented,
+                                                      modal_features,
                                                       Balance::exact,
                                                       Clock::stepped,
                                                       make_fixed<&modal_quadratised_three_point_raw, 3, Quadratisation::raw>};

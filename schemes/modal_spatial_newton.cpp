@@ -82,7 +82,7 @@ public:
             write(out, row);
             for (int s = 0; s < p_.steps_per_row; ++s) {
                 if (differenced_ && s + 1 == p_.steps_per_row) {
-                    form_.keep();
+                    form_.levels.keep();
                     std::copy(forces_.force.begin(), forces_.force.end(), earlier_force_.begin());
                     for (double& f : earlier_force_) f *= share();
                 }
@@ -178,7 +178,7 @@ private:
             kept[j] = G > 0 ? 0 : 0.5 * w[j] / p_.dt;
             differenced_ = differenced_ || G == 0;
         }
-        if (differenced_) form_.listen();
+        if (differenced_) form_.levels.listen();
         r.displacement = form_.reading(y);
         r.increment = form_.reading(d);
         r.kept = form_.reading(kept);

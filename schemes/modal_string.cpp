@@ -5,15 +5,13 @@
 #include <numbers>
 
 #include "scenes/excitation.hpp"
-#include "scenes/modes.hpp"
 #include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
 
 using std::numbers::pi;
 
-namespace {
-void refuse_aliasing(const Descriptor& d, const Modes& modes, double sample_rate) {
+void refuse_above_nyquist(const Descriptor& d, const Modes& modes, double sample_rate) {
     for (int i = 0; i < modes.count(); ++i) {
         const double square = omega_squared_damped(modes.omega0[i], modes.sigma[i]);
         if (square >= pi * pi * sample_rate * sample_rate)
@@ -22,7 +20,6 @@ void refuse_aliasing(const Descriptor& d, const Modes& modes, double sample_rate
                           " Hz, where it would alias; ask for fewer modes or a higher rate");
     }
 }
-}  // namespace
 
 double modal_dot(const ModalArray& a, const ModalArray& b) {
     double sum = 0;
@@ -37,7 +34,7 @@ ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const
     m.steps_per_row = steps_per_row(settings);
     m.dt = 1 / settings.sample_rate;
     const Modes modes = modes_of(s, modes_for(s, settings));
-    refuse_aliasing(descriptor, modes, settings.sample_rate);
+    refuse_above_nyquist(descriptor, modes, settings.sample_rate);
     m.count = modes.count();
     m.size = (m.count + modal_lanes - 1) / modal_lanes * modal_lanes;
     m.mass = modes.mass;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "scenes/modes.hpp"
 #include "schemes/contact.hpp"
 #include "schemes/modal_pass.hpp"
 #include "schemes/scheme.hpp"
@@ -39,9 +40,40 @@ struct ModalString {
     }
 };
 
-// Refuses what the descriptor does not represent and modes above half the sample rate, where they would alias.
+// What a scheme of one string in its modes represents.
+constexpr Features modal_features = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
+                                    Feature::measured_modes | Feature::lumped_barrier | Feature::power_law_contact | Feature::thread |
+                                    Feature::initial_shape | Feature::pluck;
+
+// Modes above half the sample rate would alias.
+void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
+
+// Refuses what the descriptor does not represent and modes above half the sample rate.
 ModalString modal_string(const Descriptor&, const Scene&, const Settings&);
 
 double modal_dot(const ModalArray&, const ModalArray&);
+
+// A row of taps: y the modal displacements, velocity(weights) what weights read of their velocities, the means of the contact forces.
+template <class Velocity>
+void write_taps(const Block& out, int row, const std::vector<ModalTap>& taps, const ModalArray& y, Velocity velocity, double bridge,
+                double thread) noexcept {
+    for (int k = 0; k < out.taps; ++k) {
+        double& cell = out.tap[k * out.stride + row];
+        switch (taps[k].quantity) {
+            case Quantity::displacement:
+            case Quantity::nut_force: cell = modal_dot(taps[k].weights, y); break;
+            case Quantity::velocity: cell = velocity(taps[k].weights); break;
+            case Quantity::bridge_force: cell = bridge; break;
+            case Quantity::thread_force: cell = thread; break;
+            case Quantity::driving_force: cell = -(bridge + thread); break;
+        }
+    }
+}
+
+inline void write_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
+    out.energy[row] = stored;
+    out.energy[out.stride + row] = supplied;
+    out.energy[2 * out.stride + row] = dissipated;
+}
 
 }  // namespace jvari

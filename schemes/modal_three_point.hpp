@@ -205,27 +205,14 @@ private:
 
     void write(const Block& out, int row) const {
         const double per_row = m_.steps_per_row;
-        const double bridge = impulse_b_ / per_row, thread = impulse_c_ / per_row;
-        for (int k = 0; k < out.taps; ++k) {
-            double value = 0;
-            switch (m_.taps[k].quantity) {
-                case Quantity::displacement:
-                case Quantity::nut_force: value = modal_dot(m_.taps[k].weights, q_); break;
-                case Quantity::velocity:  // centred; at rest in row 0
-                    if (step_ > 0)
-                        for (int i = 0; i < m_.size; ++i) value += m_.taps[k].weights[i] * (next_increment(i) + d_[i]);
-                    value /= 2 * m_.dt;
-                    break;
-                case Quantity::bridge_force: value = bridge; break;
-                case Quantity::thread_force: value = thread; break;
-                case Quantity::driving_force: value = -(bridge + thread); break;
-            }
-            out.tap[k * out.stride + row] = value;
-        }
-        if (!out.energy) return;
-        out.energy[row] = stored();
-        out.energy[out.stride + row] = supplied_;
-        out.energy[2 * out.stride + row] = dissipated_;
+        const auto velocity = [this](const ModalArray& weights) {  // centred; at rest in row 0
+            double sum = 0;
+            if (step_ > 0)
+                for (int i = 0; i < m_.size; ++i) sum += weights[i] * (next_increment(i) + d_[i]);
+            return sum / (2 * m_.dt);
+        };
+        write_taps(out, row, m_.taps, q_, velocity, impulse_b_ / per_row, impulse_c_ / per_row);
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
     }
 
     ModalString m_;

@@ -14,6 +14,7 @@
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
 #include "schemes/modal_coefficients.hpp"
+#include "schemes/modal_string.hpp"
 #include "schemes/modal_two_point_kernel.hpp"
 
 namespace jvari {
@@ -44,7 +45,7 @@ public:
         m_.steps_per_row = steps_per_row(settings);
         m_.dt = 1 / settings.sample_rate;
         const Modes modes = modes_of(s, modes_for(s, settings));
-        refuse_above_nyquist(descriptor, modes, settings);
+        refuse_above_nyquist(descriptor, modes, settings.sample_rate);
         m_.modes = modes.count();
         m_.size = (m_.modes + two_point_padding - 1) / two_point_padding * two_point_padding;
 
@@ -167,16 +168,6 @@ public:
     }
 
 private:
-    static void refuse_above_nyquist(const Descriptor& d, const Modes& modes, const Settings& settings) {
-        for (int i = 0; i < modes.count(); ++i) {
-            const double square = omega_squared_damped(modes.omega0[i], modes.sigma[i]), nyquist = std::numbers::pi * settings.sample_rate;
-            if (square >= nyquist * nyquist)
-                throw Refusal(std::string(d.name) + ": mode " + std::to_string(i + 1) + " at " +
-                              std::to_string(std::sqrt(square) / (2 * std::numbers::pi)) + " Hz is not below half the sample rate of " +
-                              std::to_string(settings.sample_rate) + " Hz, where it would alias; ask for fewer modes or a higher rate");
-        }
-    }
-
     // Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y = tanh(s dt/2) on the discrete mode
     // z = exp(s dt), where the true motion has s dt/2.
     static double start_phase_offset(double omega0, double sigma, double A, double B) {
@@ -203,15 +194,11 @@ private:
     std::vector<TwoPointTap> taps_;
 };
 
-constexpr Features represented = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
-                                 Feature::measured_modes | Feature::lumped_barrier | Feature::power_law_contact | Feature::thread |
-                                 Feature::initial_shape | Feature::pluck;
-
 }  // namespace
 
 const Descriptor modal_two_point = {"modal_two_point",
                                     "van Walstijn et al. 2016, eqs 16-52",
-                                    represented,
+                                    modal_features,
                                     Balance::exact,
                                     Clock::stepped,
                                     [](const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {
@@ -220,7 +207,7 @@ const Descriptor modal_two_point = {"modal_two_point",
 
 const Descriptor modal_two_point_trapezoidal = {"modal_two_point_trapezoidal",
                                                 "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
-                                                represented,
+                                                modal_features,
                                                 Balance::exact,
                                                 Clock::stepped,
                                                 [](const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {

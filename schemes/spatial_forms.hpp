@@ -40,6 +40,9 @@ struct Levels {
     AlignedVector displacement;  // y^n [m]
     AlignedVector increment;     // y^{n+1} - y^n without the force of step n [m]
     AlignedVector kept;          // an earlier increment
+
+    void listen() { kept = AlignedVector(increment.size()); }  // before keep()
+    void keep() { std::copy_n(increment.data(), increment.size(), kept.data()); }
 };
 double dot(const AlignedVector& weights, const AlignedVector& level);
 
@@ -51,9 +54,7 @@ public:
     void read(double* free) const;                              // displacement of the reads at n+1 without the force of step n
     void advance(const double* force, double* free);            // applies the forces of step n, n -> n+1, then reads
     void to_modal(const AlignedVector& level, double* modal) const;
-    AlignedVector reading(const std::vector<double>& modal_weights) const;   // weights of the same quantity in own coordinates
-    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
-    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
+    AlignedVector reading(const std::vector<double>& modal_weights) const;  // weights of the same quantity in own coordinates
     Levels levels;
 
 private:
@@ -69,8 +70,6 @@ public:
     void advance(const double* force, double* free);
     void to_modal(const AlignedVector& level, double* modal) const;
     AlignedVector reading(const std::vector<double>& modal_weights) const;
-    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
-    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
     Levels levels;
 
 private:
@@ -90,8 +89,6 @@ public:
     void advance(const double* force, double* free);
     void to_modal(const AlignedVector& level, double* modal) const;
     AlignedVector reading(const std::vector<double>& modal_weights) const;
-    void listen() { levels.kept = AlignedVector(levels.increment.size()); }  // before keep()
-    void keep() { std::copy_n(levels.increment.data(), levels.increment.size(), levels.kept.data()); }
     Levels levels;
 
 private:

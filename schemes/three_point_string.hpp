@@ -30,7 +30,7 @@ constexpr int node_offset = 7;  // of node 0 in its array: node 1 on a 64-byte b
 
 template <class Update>  // operator()(next, now, before): u+ without forces, `before` its last `now`; response(g): what a unit of dt^2/(mu
                          // dx) on g adds to u+
-                         class ThreePointString {
+class ThreePointString {
 public:
     ThreePointString(const GridString& string, double dt, int steps_per_row, double m, double m4, Update update,
                      std::vector<Fact> facts = {})
@@ -202,8 +202,8 @@ private:
         bridge_ = 0.5 * last_bridge;
         thread_ = 0.5 * last_thread;
         const auto velocity = [&](const Stencil& at) { return (at.read(next) - at.read(before)) / (2 * dt_); };
-        write_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
-        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
+        add_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
+        if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
 
