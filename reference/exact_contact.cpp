@@ -341,6 +341,7 @@ double ExactContact::stored() const noexcept {
 
 std::vector<Fact> ExactContact::facts() const {
     return {{"events", extremes_.events, ""},
+            {"contact_points", double(springs_.contacts), ""},
             {"windows", extremes_.windows, ""},
             {"smallest_contact_force", extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0, "N"},
             {"deepest_penetration", extremes_.deepest, "m"},

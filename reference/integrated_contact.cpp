@@ -212,6 +212,7 @@ double IntegratedContact::stored() const noexcept {
 std::vector<Fact> IntegratedContact::facts() const {
     const auto effort = integrator_.effort();
     std::vector<Fact> facts = {{"events", events_, ""},
+                               {"contact_points", double(equations_.contacts), ""},
                                {"integrator_steps", effort.steps, ""},
                                {"slope_evaluations", effort.slopes, ""},
                                {"linear_solves", effort.solves, ""},

@@ -396,8 +396,7 @@ TEST(ExactContact, RefusesOtherLawsAndSettings) {
         exact_contact.make(scene, settings(5));
         FAIL() << "made";
     } catch (const Refusal& refusal) {
-        EXPECT_STREQ(refusal.what(),
-                     "exact_contact cannot represent scene other: it has no contact exponent other than 1, contact loss");
+        EXPECT_STREQ(refusal.what(), "exact_contact cannot represent scene other: it has no contact exponent other than 1, contact loss");
     }
     EXPECT_THROW(exact_contact.make(c3(), settings(5, "0")), Refusal);
     EXPECT_THROW(exact_contact.make(c3(), settings(5, "2")), Refusal);

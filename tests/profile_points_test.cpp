@@ -122,6 +122,8 @@ TEST(ProfileReferences, AgreeOnALinearProfile) {
     const Scene scene = scene_of(s, 3e-3);
     const auto truth = run(exact_contact, scene, {0, 44100, 30, {{"nodes", "12"}}});
     const auto r = run(sundials, scene, {0, 44100, 30, {{"nodes", "12"}}});
+    EXPECT_EQ(fact(truth, "contact_points"), 12);
+    EXPECT_EQ(fact(r, "contact_points"), 12);
     EXPECT_GT(fact(truth, "events"), 100);
     EXPECT_EQ(fact(r, "events"), fact(truth, "events"));
     EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 1e-9);
