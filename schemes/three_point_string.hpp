@@ -97,6 +97,11 @@ public:
         all.insert(all.end(), own_.begin(), own_.end());
         return all;
     }
+    std::vector<FreeMode> free_modes() const {
+        std::vector<FreeMode> all;
+        for (int i = 1; i < g_.grid.intervals; ++i) all.push_back(three_point_mode(g_, dt_, m_, i));
+        return all;
+    }
 
 private:
     static constexpr int offset = 7;  // node 1 on a 64-byte boundary, node -1 inside
