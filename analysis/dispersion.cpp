@@ -37,11 +37,18 @@ std::vector<double> kaiser(long n) {
 // z[m] = sum_j w[j] x[m step + j] exp(-i centre (m step + j)): the band around `centre` [rad/row], moved to 0 and thinned out.
 Eigen::VectorXcd zoom(std::span<const double> x, const std::vector<double>& w, double centre, long step, long rows) {
     Eigen::VectorXcd z(rows);
+    std::vector<double> real(w.size()), imaginary(w.size());  // w[j] exp(-i centre j)
+    for (std::size_t j = 0; j < w.size(); ++j) {
+        real[j] = w[j] * std::cos(centre * static_cast<double>(j));
+        imaginary[j] = -w[j] * std::sin(centre * static_cast<double>(j));
+    }
     for (long m = 0; m < rows; ++m) {
-        Complex sum = 0;
-        for (std::size_t j = 0; j < w.size(); ++j)
-            sum += w[j] * x[m * step + j] * std::polar(1.0, -centre * static_cast<double>(m * step + j));
-        z[m] = sum;
+        double re = 0, im = 0;
+        for (std::size_t j = 0; j < w.size(); ++j) {
+            re += real[j] * x[m * step + j];
+            im += imaginary[j] * x[m * step + j];
+        }
+        z[m] = Complex(re, im) * std::polar(1.0, -centre * static_cast<double>(m * step));
     }
     return z;
 }

@@ -4,6 +4,7 @@
 // reason.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Cell {
     Summary summary{};   // of the accuracy run; empty where refused
     Errors errors;
     Spread wall{};  // of the timed runs [s], of the whole scene or up to the failure
+    double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
     int modes() const { return refused ? settings.modes : summary.modes; }
 };
 

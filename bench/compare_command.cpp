@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "bench/cheapest.hpp"
 #include "bench/commands.hpp"
 #include "bench/compare_record.hpp"
+#include "bench/convergence_table.hpp"
 #include "bench/fresh_file.hpp"
 #include "bench/report.hpp"
 
@@ -24,7 +26,7 @@ Json json_of(const Table& table) {
         for (std::size_t k = 0; k < row.size(); ++k) {
             const std::string& name = table.columns[k];
             if (name == "scheme" || name == "status" || name == "reason" || name == "flags" || name == "below_floor" || name == "cell" ||
-                name == "scene" || name == "options" || name == "reference")
+                name == "scene" || name == "options" || name == "reference" || name == "measure" || name == "ties")
                 j[name] = row[k];
             else if (name == "pareto") j[name] = row[k] == "1";
             else if (row[k].find_first_not_of("0123456789") == std::string::npos && !row[k].empty() && row[k].size() < 18)
@@ -88,9 +90,15 @@ int compare_command(const CompareRequest& r) {
                               c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
                               c.scene.taps.at(c.headline.bridge).name));
     console.print(headline_text(cells, headline_error(c)) + "\n" + certificate_text(c) + "\n" + floor_text(c));
+    const Table cheapest = cheapest_of(cells, headline_error(c), c.scene.name);
+    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
     Json files = Json::array();
     if (!r.out.empty()) {
         const fs::path folder = r.out;
+        if (const Table orders = convergence_of(cells, c.scene.name); !orders.rows.empty()) {
+            write_fresh(folder / "convergence.csv", csv(orders));
+            files.push_back((folder / "convergence.csv").string());
+        }
         write_fresh(folder / "cells.csv", csv(cells));
         write_fresh(folder / "errors.csv", csv(errors_only(cells)));
         write_fresh(folder / "cost.csv", csv(cost_only(cells)));
@@ -108,6 +116,7 @@ int compare_command(const CompareRequest& r) {
                                      : "failed"},
         {"manifest", Json::parse(manifest)},
         {"cells", json_of(cells)},
+        {"cheapest", json_of(cheapest)},
         {"files", files}}.dump(2));
     return code;
 }

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* cost_columns[] = {"cost_s_per_s",       "cost_lower",  "cost_upper",      "wall_seconds", "wall_seconds_lower",
-                                        "wall_seconds_upper", "ns_per_step", "times_real_time", "repeats",      "pareto"};
+                                        "wall_seconds_upper", "ns_per_step", "times_real_time", "worst_block_of_deadline", "repeats", "pareto"};
 
 double error_in(const Cell& cell, int tap, int measure) {
     return cell.errors.empty() ? nan : cell.errors[tap][measure];
@@ -109,6 +109,7 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front,
     row.number("wall_seconds_upper", ran ? cell.wall.upper : nan);
     row.number("ns_per_step", s.steps > 0 ? wall * 1e9 / s.steps : nan);
     row.number("times_real_time", seconds / wall);
+    row.number("worst_block_of_deadline", ran ? cell.worst_block : nan);
     row.count("repeats", cell.wall.count, ran);
     row.text("pareto", on_front ? "1" : "0");
     row.text("below_floor", ties_of(c, cell));
@@ -117,6 +118,7 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front,
     row.number("smallest_contact_force", ran ? s.smallest_contact_force : nan);
     row.number("deepest_penetration", ran ? s.deepest_penetration : nan);
     row.count("dofs", s.dofs, ran);
+    row.count("state_bytes", 8L * s.dofs, ran);
     row.count("steps", s.steps, ran);
     row.count("failed_step", s.status.step, failed);
     row.number("failed_at_s", failed ? s.duration : nan);
@@ -124,6 +126,9 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front,
     for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
         for (std::size_t k = 0; k < measures().size(); ++k)
             row.number(measures()[k].column + "_" + c.scene.taps[tap].name, error_in(cell, static_cast<int>(tap), static_cast<int>(k)));
+    for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
+        for (std::size_t k = 0; k < measures().size(); ++k)
+            if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column + "_" + c.scene.taps[tap].name, c.floor[tap][k]);
     row.text("reason", cell.reason);
     const auto figures = [&](int tap, const std::string& suffix) {
         for (std::size_t w = 0; w < Trust::columns.size(); ++w) row.number(Trust::columns[w] + suffix, c.trust.at(tap, w));

@@ -22,8 +22,14 @@ struct Timed {
 
 double sample(const Timed& t, const Scene& scene) {
     const auto scheme = t.cell->scheme->make(scene, t.cell->settings);
+    const RunOptions options;
     double seconds = 0;
-    for (int k = 0; k < t.runs; ++k) seconds += run(*scheme, scene, t.cell->settings).wall_seconds;
+    for (int k = 0; k < t.runs; ++k) {
+        const Run r = run(*scheme, scene, t.cell->settings, options);
+        seconds += r.wall_seconds;
+        const double deadline = options.block_rows / t.cell->settings.tap_rate;
+        if (r.worst_block > 0 && r.status.outcome == Outcome::ok) t.cell->worst_block = std::fmin(t.cell->worst_block, r.worst_block / deadline);
+    }
     return seconds / t.runs;
 }
 }  // namespace

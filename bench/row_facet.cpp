@@ -1,13 +1,14 @@
 #include "bench/row_facet.hpp"
 
+#include "bench/dispersion_facet.hpp"
 #include "bench/figure_rows.hpp"
 
 namespace jvari {
 
 std::span<const RowFacet> row_facets() {
     static constexpr RowFacet facets[] = {
-        {Facet::trace, trace_rows},       {Facet::extent, extent_rows},     {Facet::profile, profile_rows},
-        {Facet::envelope, envelope_rows}, {Facet::centroid, centroid_rows},
+        {Facet::dispersion, dispersion_rows}, {Facet::trace, trace_rows},       {Facet::extent, extent_rows},
+        {Facet::profile, profile_rows},       {Facet::envelope, envelope_rows}, {Facet::centroid, centroid_rows},
     };
     return facets;
 }

@@ -9,8 +9,10 @@
 #include <set>
 #include <thread>
 
+#include "bench/cheapest.hpp"
 #include "bench/commands.hpp"
 #include "bench/compare_record.hpp"
+#include "bench/convergence_table.hpp"
 #include "bench/figure_chart.hpp"
 #include "bench/fresh_file.hpp"
 #include "bench/machine.hpp"
@@ -151,6 +153,8 @@ int suite_command(const SuiteRequest& r) {
     const Table cells = table_of(plan, run.records);
     const std::string manifest = manifest_of(suite, plan);
     console.print(suite.name + "\n" + table_text(plan, run));
+    const Table cheapest = cheapest_of(cells);
+    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
 
     Json files = Json::array();
     if (!r.out.empty()) {
@@ -164,6 +168,7 @@ int suite_command(const SuiteRequest& r) {
         for (const RowFacet& f : row_facets())
             if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty())
                 write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
+        if (const Table orders = convergence_of(cells); !orders.rows.empty()) write("convergence.csv", csv(orders));
         write("manifest.json", manifest + "\n");
         for (const DrawnFigure& f : draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
         std::string svg;
@@ -189,6 +194,7 @@ int suite_command(const SuiteRequest& r) {
         {"read_back", run.read_back},
         {"manifest", Json::parse(manifest)},
         {"cells", Json::parse(rows_json(cells))},
+        {"cheapest", Json::parse(rows_json(cheapest))},
         {"files", files}}.dump(2));
     return code;
 }

@@ -18,8 +18,8 @@ namespace jvari {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr std::array facet_names = {"errors", "cost", "spectrogram", "trace", "extent", "profile", "envelope", "centroid"};
-constexpr std::array all_facets = {Facet::errors, Facet::cost,    Facet::spectrogram, Facet::trace,
+constexpr std::array facet_names = {"errors", "cost", "spectrogram", "dispersion", "trace", "extent", "profile", "envelope", "centroid"};
+constexpr std::array all_facets = {Facet::errors, Facet::cost,    Facet::spectrogram, Facet::dispersion, Facet::trace,
                                    Facet::extent, Facet::profile, Facet::envelope,    Facet::centroid};
 static_assert(facet_names.size() == all_facets.size());
 

@@ -43,9 +43,10 @@ SuiteRecord record_of(const PlannedCell& planned, const Cell& cell, const Errors
     return r;
 }
 
-void add_clock(SuiteRecord& r, const PlannedCell& planned, const Spread& wall) {
+void add_clock(SuiteRecord& r, const PlannedCell& planned, const Cell& timed) {
     Cell cell = planned.cell;
-    cell.wall = wall;
+    cell.wall = timed.wall;
+    cell.worst_block = timed.worst_block;
     cell.summary.duration = r.duration;
     cell.summary.steps = r.steps;
     const Table row = row_of(planned, cell, {}, {}), rest = errors_only(row);

@@ -26,7 +26,7 @@ struct SuiteRecord {
 };
 
 SuiteRecord record_of(const PlannedCell&, const Cell& measured, const Errors& floor, const Trust&);
-void add_clock(SuiteRecord&, const PlannedCell&, const Spread& wall);
+void add_clock(SuiteRecord&, const PlannedCell&, const Cell& timed);
 
 std::string json_of(const SuiteRecord&, const std::string& identity);
 // Nothing where there is no such file, it is of another cell, or it cannot be read.

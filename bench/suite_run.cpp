@@ -181,7 +181,7 @@ void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, Su
         for (std::size_t k = 0; k < indices.size(); ++k) {
             const PlannedCell& planned = plan.cells[indices[k]];
             SuiteRecord& record = into.records[indices[k]];
-            add_clock(record, planned, cells[k].wall);
+            add_clock(record, planned, cells[k]);
             if (!folder.empty()) write_fresh(folder / (planned.id + ".json"), json_of(record, planned.identity));
             ++into.timed;
         }

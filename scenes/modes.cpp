@@ -116,6 +116,12 @@ struct ShapeOf {
 };
 }  // namespace
 
+double static_compliance(const Modes& modes, const std::vector<double>& w) {
+    double sum = 0;
+    for (int i = 0; i < modes.count(); ++i) sum += w[i] * w[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
+    return sum;
+}
+
 std::vector<double> initial_displacement(const Modes& modes, const String& s) {
     if (!s.initial) return std::vector<double>(modes.beta.size(), 0.0);
     return std::visit(ShapeOf{modes, s}, *s.initial);

@@ -28,6 +28,9 @@ std::vector<double> displacement_weights(const Modes&, double position);        
 std::vector<double> footprint_weights(const Modes&, double position, double width);  // g_i, eq 20, limit at beta_i w = pi
 std::vector<double> nut_force_weights(const Modes&, const String&);                  // -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
 
+// What a steady force of 1 N through these weights makes of the quantity they read [m/N]: sum_i w_i^2/(m omega0_i^2).
+double static_compliance(const Modes&, const std::vector<double>& weights);
+
 // Modal displacements at t = 0 [m]; zeros where the string has no initial shape.
 std::vector<double> initial_displacement(const Modes&, const String&);
 

@@ -157,9 +157,12 @@ namespace {
 struct Symbols {
     double lambda, stiffness, loss;  // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
 };
-Symbols symbols(const String& s, const LossFit& f, const Grid& g, int mode) {
+Symbols symbols(double c2, double kappa2, const LossFit& f, const Grid& g, int mode) {
     const double sine = std::sin(0.5 * pi * mode / g.intervals) / (0.5 * g.dx), lambda = sine * sine;
-    return {lambda, (s.tension + s.bending_stiffness * lambda) * lambda / s.linear_density, 2 * f.at(lambda)};
+    return {lambda, (c2 + kappa2 * lambda) * lambda, 2 * f.at(lambda)};
+}
+Symbols symbols(const String& s, const LossFit& f, const Grid& g, int mode) {
+    return symbols(s.tension / s.linear_density, s.bending_stiffness / s.linear_density, f, g, mode);
 }
 
 // (M + dt R/2) z^2 - (2M - dt^2 K) z + (M - dt R/2) = 0, for |z| and arg z
@@ -182,13 +185,27 @@ GridMode theta_mode(const String& s, const LossFit& f, const Grid& g, double dt,
     return three_point_mode(1 - 0.5 * (1 - theta) * g.dx * g.dx * y.lambda, y, dt);
 }
 
-GridMode midpoint_mode(const String& s, const LossFit& f, const Grid& g, double dt, int mode) {
-    const Symbols y = symbols(s, f, g, mode);
+GridMode three_point_mode(const GridString& g, double dt, double m, double m4, int mode) {
+    const Symbols y = symbols(g.c2, g.kappa2, g.loss, g.grid, mode);
+    return three_point_mode(1 - (m - m4 * y.lambda) * y.lambda, y, dt);
+}
+
+namespace {
+GridMode midpoint_mode(const Symbols& y, double dt) {
     // z = (1 + p)/(1 - p), p = p_r + i p_i the scaled pole of y'' + R y' + K y = 0; without loss omega = 2/dt atan(sqrt(K) dt/2)
     const double real = -0.25 * dt * y.loss, imaginary = std::sqrt(std::max(0.0, 0.25 * dt * dt * y.stiffness - real * real));
     const double omega = std::atan2(imaginary, 1 + real) + std::atan2(imaginary, 1 - real);
     const double size = std::log(((1 + real) * (1 + real) + imaginary * imaginary) / ((1 - real) * (1 - real) + imaginary * imaginary));
     return {omega / dt, -0.5 * size / dt};
+}
+}  // namespace
+
+GridMode midpoint_mode(const String& s, const LossFit& f, const Grid& g, double dt, int mode) {
+    return midpoint_mode(symbols(s, f, g, mode), dt);
+}
+
+GridMode midpoint_mode(const GridString& g, double dt, int mode) {
+    return midpoint_mode(symbols(g.c2, g.kappa2, g.loss, g.grid, mode), dt);
 }
 
 // ---- The grid.
@@ -238,6 +255,16 @@ struct PlaceBarrier {
     }
 };
 
+// K u = g/(mu dx) against the series of the string's modes, as many as leave less than 1e-4 out.
+double relative_compliance(const GridString& g, const String& s, const LumpedBarrier& b) {
+    const Modes modes = modes_of(s, 20000);
+    std::vector<double> u(g.grid.intervals + 1, 0.0);
+    g.points.front().add(1 / g.mass, u.data());
+    BandedFactor(g.grid, 0, -g.c2, g.kappa2).solve(u.data());
+    const double own = g.points.front().read(u.data());
+    return own / static_compliance(modes, footprint_weights(modes, b.position, b.width));
+}
+
 std::vector<double> initial_shape(const String& s, const Grid& g) {
     std::vector<double> u(g.intervals + 1, 0.0);
     if (!s.initial) return u;
@@ -268,6 +295,8 @@ GridString on_grid(const Scene& scene, int index, const Grid& grid, const LossFi
         if (const auto* lumped = std::get_if<LumpedBarrier>(&b))
             g.narrowest = g.narrowest == 0 ? lumped->width / grid.dx : std::min(g.narrowest, lumped->width / grid.dx);
     }
+    if (s.barriers.size() == 1)
+        if (const auto* b = std::get_if<LumpedBarrier>(&s.barriers.front())) g.compliance = relative_compliance(g, s, *b);
     g.thread = s.thread;
     if (s.thread) {
         g.points.push_back(footprint_stencil(grid, s.thread->position, s.thread->width));

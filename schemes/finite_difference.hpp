@@ -62,10 +62,7 @@ double theta_spacing_limit(const String&, double dt);                     // wit
 double theta_spacing_limit(const String&, double dt, double theta);       // theta > 1/2
 double tuned_theta(const String&, double dt, double dx);
 
-struct GridMode {
-    double omega = 0;  // damped angular frequency of the recursion [rad/s]
-    double sigma = 0;  // decay rate of the recursion [1/s]
-};
+using GridMode = FreeMode;
 GridMode explicit_mode(const String&, const LossFit&, const Grid&, double dt, int mode);
 GridMode theta_mode(const String&, const LossFit&, const Grid&, double dt, double theta, int mode);
 GridMode midpoint_mode(const String&, const LossFit&, const Grid&, double dt, int mode);
@@ -94,9 +91,14 @@ struct GridString {
     std::optional<Thread> thread;
     std::optional<Pluck> pluck;
     Stencil pluck_stencil;
+    double compliance = 0;  // of the first contact under a steady force, relative to the scene's string; 0 unless it is lumped
     double narrowest = 0;  // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
     std::vector<GridTap> taps;
 };
+// The same relations of a string on its grid; m and m4 as in three_point_string.hpp.
+GridMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);
+GridMode midpoint_mode(const GridString&, double dt, int mode);
+
 GridString on_grid(const Scene&, int string, const Grid&, const LossFit&);
 
 extern const Features grid_features;  // what every scheme on a grid represents

@@ -68,6 +68,11 @@ public:
 
     int dofs() const { return 2 * (g_.grid.intervals - 1); }
     std::vector<Fact> facts() const { return grid_facts(g_, obstacle_); }
+    std::vector<FreeMode> free_modes() const {
+        std::vector<FreeMode> all;
+        for (int i = 1; i < g_.grid.intervals; ++i) all.push_back(midpoint_mode(g_, dt_, i));
+        return all;
+    }
 
 private:
     static constexpr int offset = 7;  // node 1 on a 64-byte boundary, node -1 inside

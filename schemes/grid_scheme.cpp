@@ -16,6 +16,7 @@ std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) 
         f.push_back({"contact_iterations_mean", t.solves > 0 ? t.iterations / static_cast<double>(t.solves) : 0, ""});
         f.push_back({"contact_iterations_most", static_cast<double>(t.most_iterations), ""});
         f.push_back({"contact_residual", t.residual, ""});
+        if (g.compliance > 0) f.push_back({"static_compliance", g.compliance, ""});
     }
     return f;
 }

@@ -6,7 +6,10 @@
 // num and den are formed without cancellation, so that low modes stay exact at high rates.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+
+#include "schemes/scheme.hpp"
 
 namespace jvari {
 
@@ -29,6 +32,17 @@ inline ModeStep exact_step(double omega0, double sigma, double dt) {
     }
     const double gamma = std::sqrt(-square), slow = omega0 * omega0 / (sigma + gamma), fast = sigma + gamma;  // the two real roots
     return {std::expm1(-slow * dt) * std::expm1(-fast * dt), (1 + std::exp(-slow * dt)) * (1 + std::exp(-fast * dt)), loss};
+}
+
+// The root of (1 + A + B) z^2 - 2 (1 - A) z + 1 + A - B = 0, the two-point recursion with coefficients A, B (eqs 34-35).
+inline FreeMode two_point_mode(double A, double B, double dt) {
+    return {std::atan2(std::sqrt(std::max(0.0, 4 * A - B * B)), 1 - A) / dt, -0.5 * std::log1p(-2 * B / (1 + A + B)) / dt};
+}
+
+// The root of z^2 - C z + C~ = 0, the three-point recursion, from num = 1 + C~ - C and loss = 1 - C~.
+inline FreeMode three_point_mode(double num, double loss, double dt) {
+    const double R = std::sqrt(1 - loss), lost = loss / (1 + R), C = 2 - loss - num;  // lost = 1 - R
+    return {std::atan2(std::sqrt(std::max(0.0, (num - lost * lost) * (2 * R + C))), C) / dt, -0.5 * std::log1p(-loss) / dt};
 }
 
 }  // namespace jvari

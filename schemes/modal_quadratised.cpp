@@ -4,6 +4,7 @@
 // the true one. Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
 #include <cmath>
 
+#include "schemes/modal_coefficients.hpp"
 #include "schemes/modal_three_point.hpp"
 #include "schemes/quadratised_contact.hpp"
 
@@ -121,7 +122,19 @@ public:
     }
 
     int dofs() const override { return 2 * m_.count + (m_.g_b.empty() ? 0 : 1); }
-    std::vector<Fact> facts() const override { return m_.g_b.empty() ? std::vector<Fact>{} : seen_.list(); }
+    std::vector<Fact> facts() const override {
+        if (m_.g_b.empty()) return {};
+        double compliance = 0;
+        for (int i = 0; i < m_.count; ++i) compliance += 0.5 * xi_ * m_.g_b[i] * m_.g_b[i] / A_[i];
+        std::vector<Fact> f = seen_.list();
+        f.push_back({"static_compliance", compliance / m_.true_compliance, ""});
+        return f;
+    }
+    std::vector<FreeMode> free_modes() const override {
+        std::vector<FreeMode> all;
+        for (int i = 0; i < m_.count; ++i) all.push_back(two_point_mode(A_[i], B_[i], m_.dt));
+        return all;
+    }
 
 private:
     ModalArray scaled(const ModalArray& g) const {  // e_z = xi g_z/J

@@ -18,6 +18,7 @@
 #include <numbers>
 
 #include "scenes/modes.hpp"
+#include "schemes/modal_coefficients.hpp"
 #include "schemes/spatial_forces.hpp"
 #include "schemes/spatial_forms.hpp"
 #include "schemes/spatial_ports.hpp"
@@ -99,7 +100,20 @@ public:
         std::vector<Fact> facts = {{"interior_nodes", double(p_.update.modes()), ""},
                                    {"modes_above_nyquist", double(p_.three_point.above_nyquist), ""}};
         forces_.add_facts(facts);
+        if (p_.string().barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(p_.string().barriers.front())) {
+            const auto& g = p_.update.ports.front().weights;
+            double own = 0;
+            for (int j = 0; j < p_.modes.count(); ++j) own += p_.update.gain * g[j] * g[j] / p_.update.kappa[j];
+            facts.push_back({"static_compliance", own / static_compliance(p_.modes, g), ""});
+        }
         return facts;
+    }
+
+    std::vector<FreeMode> free_modes() const override {
+        std::vector<FreeMode> all;
+        for (int j = 0; j < p_.modes.count(); ++j)
+            all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
+        return all;
     }
 
 private:

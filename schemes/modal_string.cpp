@@ -55,7 +55,9 @@ ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const
     m.y0 = padded(initial_displacement(modes, s));
     if (!s.barriers.empty()) {
         const auto& b = std::get<LumpedBarrier>(s.barriers.front());
-        m.g_b = padded(footprint_weights(modes, b.position, b.width));
+        const auto g = footprint_weights(modes, b.position, b.width);
+        m.true_compliance = static_compliance(modes, g);
+        m.g_b = padded(g);
         m.barrier = {b.stiffness.k, b.exponent};
         m.h_b = b.height;
     }

@@ -29,6 +29,7 @@ struct ModalString {
     ModalArray g_b, g_c, g_e;                 // bridge, thread, pluck
     ContactLaw barrier;
     double h_b = 0;                    // [m]
+    double true_compliance = 0;        // of these modes under a steady force at the bridge [m/N]
     double k_c = 0, r_c = 0, h_c = 0;  // thread [N/m], [kg/s], [m]
     long pluck_first = 0;              // step of the first sample of `pluck`
     std::vector<double> pluck;         // F_e at t = n dt [N]; 0 outside

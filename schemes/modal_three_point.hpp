@@ -23,6 +23,7 @@
 #include <cmath>
 #include <utility>
 
+#include "schemes/modal_coefficients.hpp"
 #include "schemes/modal_string.hpp"
 
 namespace jvari {
@@ -44,6 +45,8 @@ public:
             d0_[i] = (E + R * (even + odd) + m_.num[i]) / (1 - m_.loss[i]) * m_.y0[i];
         }
         e_b_ = scaled(m_.g_b, gain);
+        for (std::size_t i = 0; i < m_.g_b.size(); ++i)
+            if (m_.num[i] > 0) compliance_ += m_.g_b[i] * e_b_[i] / m_.num[i];  // d = 0
         e_c_ = scaled(m_.g_c, gain);
         e_e_ = scaled(m_.g_e, gain);
         theta_cc_ = modal_dot(m_.g_c, e_c_);
@@ -115,7 +118,17 @@ public:
     }
 
     int dofs() const override { return 2 * m_.count + (m_.g_b.empty() ? 0 : Contact::dofs); }
-    std::vector<Fact> facts() const override { return m_.g_b.empty() ? std::vector<Fact>{} : contact_.facts(); }
+    std::vector<Fact> facts() const override {
+        if (m_.g_b.empty()) return {};
+        std::vector<Fact> f = contact_.facts();
+        f.push_back({"static_compliance", compliance_ / m_.true_compliance, ""});
+        return f;
+    }
+    std::vector<FreeMode> free_modes() const override {
+        std::vector<FreeMode> all;
+        for (int i = 0; i < m_.count; ++i) all.push_back(three_point_mode(m_.num[i], m_.loss[i], m_.dt));
+        return all;
+    }
 
 private:
     struct Coupling {  // F_c = v_c - beta_c F_b, v_c = [k (h_c - y_c) - phi r_c]/(1 + phi theta_cc)   (45)-(47)
@@ -218,6 +231,7 @@ private:
     ModalString m_;
     Contact contact_, start_;
     ModalArray q_, d_, d0_, W_, e_b_, e_c_, e_e_;
+    double compliance_ = 0;  // under a steady force at the bridge [m/N]
     double theta_bb_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
     Coupling steady_{}, first_{};
     ModalPass pass_;

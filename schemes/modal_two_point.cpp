@@ -74,6 +74,7 @@ public:
         for (int i = 0; i < m_.modes; ++i) {
             y0[i] *= scale[i];
             u0[i] = -2 * A[i] / (1 + A[i] + B[i]) * y0[i];  // (42) with q = 0
+            free_.push_back(two_point_mode(A[i], B[i], m_.dt));
             offset_ = std::max(offset_, start_phase_offset(modes.omega0[i], modes.sigma[i], A[i], B[i]));
         }
         y0_ = keep(y0);
@@ -85,7 +86,11 @@ public:
         };
         if (!s.barriers.empty()) {
             const auto& b = std::get<LumpedBarrier>(s.barriers.front());
-            m_.g_b = keep(unscaled(footprint_weights(modes, b.position, b.width)));
+            const auto g = footprint_weights(modes, b.position, b.width);
+            double own = 0;
+            for (int i = 0; i < m_.modes; ++i) own += 0.5 * xi * g[i] * g[i] / A[i];  // (42) with s = 0
+            compliance_ = own / static_compliance(modes, g);
+            m_.g_b = keep(unscaled(g));
             m_.barrier = {b.stiffness.k, b.exponent};
             m_.h_b = b.height;
             m_.theta = two_point_dot(m_.g_b, m_.g_b, m_.size);
@@ -154,11 +159,13 @@ public:
     }
     Status advance(const Block& out) noexcept override { return advance_(m_, out); }
     int dofs() const override { return 2 * m_.modes; }
+    std::vector<FreeMode> free_modes() const override { return free_; }
     std::vector<Fact> facts() const override {
         std::vector<Fact> f = {{"start_phase_offset", offset_, "rad"}};
         if (m_.g_b) {
             f.push_back({"smallest_contact_force", m_.least_force, "N"});
             f.push_back({"deepest_penetration", m_.depth, "m"});
+            f.push_back({"static_compliance", compliance_, ""});
         }
         if (m_.g_b && m_.barrier.alpha != 1) {
             f.push_back({"contact_iterations_mean", m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0, ""});
@@ -187,6 +194,8 @@ private:
     TwoPoint m_;
     TwoPointAdvance advance_ = nullptr;
     double offset_ = 0;
+    double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
+    std::vector<FreeMode> free_;
     AlignedVector y_, u_;
     std::vector<AlignedVector> kept_;
     const double *y0_ = nullptr, *u0_ = nullptr;

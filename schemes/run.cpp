@@ -62,7 +62,10 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
         block.energy = options.energy ? trace.energy.data() + trace.rows : nullptr;
         const auto start = std::chrono::steady_clock::now();
         result.status = scheme.advance(block);
-        stepping += std::chrono::steady_clock::now() - start;
+        const auto took = std::chrono::steady_clock::now() - start;
+        stepping += took;
+        if (trace.rows > 0 && block.rows == options.block_rows)
+            result.worst_block = std::max(result.worst_block, std::chrono::duration<double>(took).count());
 
         long end = trace.rows + block.rows;
         if (result.status.outcome != Outcome::ok) end = std::min(end, static_cast<long>(result.status.step / steps_per_row) + 1);

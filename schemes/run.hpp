@@ -20,6 +20,7 @@ struct Run {
     int dofs = 0;
     long steps = 0;           // 0 for a continuous-time reference
     double wall_seconds = 0;  // of the stepping alone
+    double worst_block = 0;   // the longest whole block after the first [s of computing]; 0 where there is none
     std::vector<Fact> facts;
 };
 

@@ -37,6 +37,12 @@ struct Fact {
     std::string unit;  // "N"
 };
 
+// A mode of the free string as a scheme's own recursion has it: z = exp((i omega - sigma) dt) is a root of it.
+struct FreeMode {
+    double omega = 0;  // damped angular frequency [rad/s]; 0 where overdamped
+    double sigma = 0;  // decay rate [1/s]
+};
+
 class Scheme {
 public:
     virtual ~Scheme() = default;
@@ -49,6 +55,9 @@ public:
 
     virtual int dofs() const = 0;                           // doubles of state carried: no more than the scene needs
     virtual std::vector<Fact> facts() const { return {}; }  // of the run so far; between blocks only
+
+    // Modes 1, 2, ... of the first string, without its barriers and its thread; none where the scheme has no relation in closed form.
+    virtual std::vector<FreeMode> free_modes() const { return {}; }
 };
 
 struct Settings {
@@ -80,7 +89,7 @@ struct Descriptor {
     std::unique_ptr<Scheme> (*make)(const Scene&, const Settings&);  // throws Refusal or BadScene
 };
 
-constexpr unsigned plugin_abi = 1;
+constexpr unsigned plugin_abi = 2;
 struct Plugin {
     unsigned abi;  // plugin_abi
     const Descriptor* schemes;

@@ -47,6 +47,12 @@ SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Set
     return s;
 }
 
+std::vector<FreeMode> SitarString::free_modes() const {
+    std::vector<FreeMode> all;
+    for (int n = 1; n < cells; ++n) all.push_back({pi * n / (cells * dt), sigma});
+    return all;
+}
+
 void set_integer_length(SitarString& s) {
     s.cells = static_cast<int>(std::lround(0.5 / (s.dt * s.f0)));  // (4)
     if (s.cells < 3) throw Refusal("the string has fewer than 3 samples from end to end: raise the sample rate");

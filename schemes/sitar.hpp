@@ -36,6 +36,8 @@ struct SitarString {
     std::vector<double> profile;  // its height at nodes 1, 2, ... [m]
     std::vector<Fact> facts;      // what is approximated knowingly
 
+    // Of the string on the grid: node to node in one step, so its modes are those of the ideal string of this many cells.
+    std::vector<FreeMode> free_modes() const;
     double impedance() const { return tension * dt / dx; }                            // Z [kg/s]
     double wave_energy(double slopes) const { return 0.25 * tension / dx * slopes; }  // of a sum of squared differences [m^2] -> [J]
 };

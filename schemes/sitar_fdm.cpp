@@ -35,6 +35,7 @@ public:
         if (!s_.profile.empty()) ledger_.report(facts);
         return facts;
     }
+    std::vector<FreeMode> free_modes() const override { return s_.free_modes(); }
 
 private:
     double read(const SitarTap&) const;

@@ -110,6 +110,11 @@ public:
         all.insert(all.end(), own_.begin(), own_.end());
         return all;
     }
+    std::vector<FreeMode> free_modes() const {
+        std::vector<FreeMode> all;
+        for (int i = 1; i < g_.grid.intervals; ++i) all.push_back(three_point_mode(g_, dt_, m_, m4_, i));
+        return all;
+    }
 
 private:
     void mirror(double* u) const noexcept {  // odd about both ends

@@ -1,0 +1,15 @@
+// Which scheme is the cheapest that is as accurate as asked: 10 %, 1 % and 0.1 % of the waveform, 3 dB and 1 dB of the third octaves.
+#pragma once
+
+#include "bench/records.hpp"
+
+namespace jvari {
+
+// From the rows of cells.csv. Columns scene, <swept keys>, measure (a column of cells.csv), target, scheme, options, rate, modes, error,
+// cost_s_per_s, ties: the other schemes with a cell that meets the target and whose quartiles touch. A row per scene and target; empty from
+// `scheme` on where no cell gets there. Only cells that are ok, timed, and have no flags against them count. `waveform`: which window.
+Table cheapest_of(const Table& cells, const std::string& waveform = "error_l2_50ms", const std::string& scene = "");
+
+std::string cheapest_text(const Table& cheapest);  // for the terminal; "" without rows
+
+}  // namespace jvari
