@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "bench/arguments.hpp"
+#include "bench/map_file.hpp"
 
 namespace jvari {
 
@@ -54,6 +55,7 @@ struct CellSet {
 struct Suite {
     std::string name, source;
     std::vector<CellSet> sets;
+    std::vector<Map> maps;
 };
 
 // A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12: cells.0.raets: unknown key; did you mean rates?".
