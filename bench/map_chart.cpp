@@ -140,7 +140,7 @@ std::string map_spec(const Map& map, const MapRun& run) {
                 {"background", "white"},
                 {"columns", panels.size() < 3 ? panels.size() : 3},
                 {"concat", concat},
-                {"config", {{"view", {{"stroke", nullptr}}}, {"font", "DejaVu Sans, sans-serif"}}}}
+                {"config", {{"aria", false}, {"view", {{"stroke", nullptr}}}, {"font", "DejaVu Sans, sans-serif"}}}}
         .dump();
 }
 

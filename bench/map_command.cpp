@@ -1,7 +1,7 @@
 #include "bench/map_command.hpp"
 
+#include "bench/failures.hpp"
 #include "bench/fresh_file.hpp"
-#include "bench/map_tables.hpp"
 #include "bench/suite_plan.hpp"
 #include "bench/vega.hpp"
 
@@ -14,7 +14,7 @@ std::vector<std::string> chart_maps(const Suite& suite, const Catalogue& catalog
     if (suite.maps.empty()) return {};
     const fs::path folder = r.out;
     if (!r.out.empty())
-        for (const char* name : {"points", "maps"}) {
+        for (const char* name : {"points", "maps", "failures"}) {
             std::error_code error;
             fs::create_directories(folder / name, error);
             must_be_writable(folder / name / "any");
@@ -30,7 +30,11 @@ std::vector<std::string> chart_maps(const Suite& suite, const Catalogue& catalog
         files.push_back((folder / name).string());
     };
     write("maps.csv", csv(maps_table(run)));
-    write("boundaries.csv", csv(boundaries_table(run, {})));
+    const std::vector<Reproducer> failures = reproducers_of(run, truths, jobs);
+    Reproducers files_of;
+    for (const Reproducer& f : failures) files_of[{f.trial.scheme->name, f.expected.verdict}] = "failures/" + f.file;
+    write_failures(folder / "failures", failures);
+    write("boundaries.csv", csv(boundaries_table(run, files_of)));
     const Vega vega = find_vega();
     std::string why = vega.missing;
     for (const Map& m : suite.maps) {

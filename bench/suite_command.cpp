@@ -36,10 +36,10 @@ std::string manifest_of(const Suite& suite, const SuitePlan& plan) {
     const Machine& m = machine();
     std::map<std::string, std::string> sources;
     for (const PlannedCell& c : plan.cells) sources[c.cell.scheme->name] = c.cell.scheme->source;
-    return Json{{"program", "jvari"},         {"version", m.version}, {"commit", m.commit},  {"compiler", m.compiler},
-                {"flags", m.flags},           {"build", m.build},     {"cpu", m.cpu},        {"cores", m.cores},
-                {"system", m.system},         {"date", now_utc()},    {"suite", suite.name}, {"source", suite.source},
-                {"cells", plan.cells.size()}, {"schemes", sources}}
+    return Json{{"program", "jvari"},         {"version", m.version},      {"commit", m.commit},  {"compiler", m.compiler},
+                {"flags", m.flags},           {"build", m.build},          {"cpu", m.cpu},        {"cores", m.cores},
+                {"system", m.system},         {"date", now_utc()},         {"suite", suite.name}, {"source", suite.source},
+                {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}}
         .dump(2);
 }
 
