@@ -27,6 +27,17 @@ Look look_of(Verdict v) {
     return {"#ffffff", "?"};
 }
 
+std::string title_of(const std::string& key) {  // string.0.barrier.0.stiffness -> barrier stiffness
+    std::string text;
+    for (std::size_t at = 0; at < key.size();) {
+        const std::size_t end = std::min(key.find('.', at), key.size());
+        const std::string word = key.substr(at, end - at);
+        if (word != "string" && word.find_first_not_of("0123456789") != std::string::npos) text += (text.empty() ? "" : " ") + word;
+        at = end + 1;
+    }
+    return text == "rate" ? "rate [Hz]" : text;
+}
+
 std::string legend_text(Verdict v) {
     return std::string(look_of(v).letter) + "  " + name_of(v);
 }
@@ -59,7 +70,7 @@ std::string short_text(const std::string& value) {  // 1.0000000000000000e4 -> 1
 std::string map_spec(const Map& map, const MapRun& run) {
     const bool numbers = !map.x.at.empty(), log = logarithmic(map.x);
     Json rows = Json::array();
-    const std::string y_title = map.y.key.empty() ? "" : map.y.key;
+    const std::string y_title = title_of(map.y.key);
     for (auto y = map.y.values.rbegin(); y != map.y.values.rend(); ++y) rows.push_back(short_text(*y));
     if (rows.empty()) rows.push_back("");
 
@@ -80,16 +91,14 @@ std::string map_spec(const Map& map, const MapRun& run) {
     for (const Boundary& b : run.boundaries) {
         if (b.map != &map || map.refine == 0) continue;
         const std::string y = short_text(b.y);
-        lines[b.scheme->name].push_back(
-            {{"y", y}, {"x", 0.5 * (number_of(b.x_low) + number_of(b.x_high))}, {"line", "boundary, by bisection"}});
+        lines[b.scheme->name].push_back({{"y", y}, {"x", 0.5 * (number_of(b.x_low) + number_of(b.x_high))}, {"line", "boundary"}});
         if (!std::isnan(b.theory)) lines[b.scheme->name].push_back({{"y", y}, {"x", b.theory}, {"line", "theory"}});
     }
 
     Json names = Json::array(), colours = Json::array();
     for (const Verdict v : seen) names.push_back(legend_text(v)), colours.push_back(look_of(v).colour);
-    const Json colour{
-        {"field", "outcome"}, {"type", "nominal"}, {"scale", {{"domain", names}, {"range", colours}}}, {"legend", {{"title", nullptr}}}};
-    const Json x_axis{{"title", map.x.key}, {"format", ".2~g"}, {"labelOverlap", true}, {"labelFontSize", 10}};
+    Json colour{{"field", "outcome"}, {"type", "nominal"}, {"scale", {{"domain", names}, {"range", colours}}}};
+    const Json x_axis{{"title", title_of(map.x.key)}, {"format", ".2~g"}, {"labelOverlap", true}, {"labelFontSize", 10}};
     const Json y{{"field", "y"},
                  {"type", "ordinal"},
                  {"sort", rows},
@@ -97,6 +106,7 @@ std::string map_spec(const Map& map, const MapRun& run) {
                  {"axis", {{"title", y_title.empty() ? Json(nullptr) : Json(y_title)}}}};
     Json concat = Json::array();
     for (const std::string& scheme : panels) {
+        colour["legend"] = scheme == panels.front() ? Json{{"title", nullptr}, {"orient", "top"}} : Json(nullptr);
         Json x{{"field", "x"}, {"type", numbers ? "quantitative" : "ordinal"}, {"axis", x_axis}};
         if (!numbers) x["axis"].erase("format"), x["sort"] = map.x.values;
         Json area = x;
@@ -115,19 +125,24 @@ std::string map_spec(const Map& map, const MapRun& run) {
         Json layers = Json::array({rect,
                                    {{"mark", {{"type", "text"}, {"fontSize", 9}, {"color", "black"}}},
                                     {"encoding", {{"x", x}, {"y", y}, {"text", {{"field", "letter"}}}}}}});
-        if (!lines[scheme].empty())
+        const auto marks = [&](const char* line, const Json& mark) {
             layers.push_back({{"data", {{"values", lines[scheme]}}},
-                              {"mark", {{"type", "tick"}, {"orient", "vertical"}, {"bandSize", 26}, {"opacity", 1}}},
-                              {"encoding",
-                               {{"x", x},
-                                {"y", y},
-                                {"color",
-                                 {{"field", "line"},
-                                  {"type", "nominal"},
-                                  {"scale", {{"domain", {"boundary, by bisection", "theory"}}, {"range", {"#000000", "#ffffff"}}}},
-                                  {"legend", {{"title", nullptr}, {"symbolStrokeWidth", 2}, {"symbolStrokeColor", "#888888"}}}}},
-                                {"size", {{"condition", {{"test", "datum.line == 'theory'"}, {"value", 26}}}, {"value", 26}}},
-                                {"strokeWidth", {{"value", 1}}}}}});
+                              {"transform", Json::array({{{"filter", std::string("datum.line == '") + line + "'"}}})},
+                              {"mark", mark},
+                              {"encoding", {{"x", x}, {"y", y}}}});
+        };
+        if (!lines[scheme].empty()) {
+            marks("boundary",
+                  {{"type", "tick"}, {"orient", "vertical"}, {"bandSize", 26}, {"thickness", 2}, {"color", "black"}, {"opacity", 1}});
+            marks("theory", {{"type", "point"},
+                             {"shape", "triangle-down"},
+                             {"filled", true},
+                             {"size", 70},
+                             {"yOffset", -8},
+                             {"color", "black"},
+                             {"stroke", "white"},
+                             {"opacity", 1}});
+        }
         concat.push_back({{"title", {{"text", scheme}, {"fontSize", 11}}},
                           {"width", 210},
                           {"height", {{"step", 26}}},
@@ -136,7 +151,10 @@ std::string map_spec(const Map& map, const MapRun& run) {
                           {"resolve", {{"scale", {{"color", "independent"}}}}}});
     }
     return Json{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
-                {"title", {{"text", map.name}, {"subtitle", map.scene}, {"anchor", "start"}}},
+                {"title",
+                 {{"text", map.name},
+                  {"subtitle", map.scene + (map.refine > 0 ? "; line: boundary by bisection, triangle: theory" : "")},
+                  {"anchor", "start"}}},
                 {"background", "white"},
                 {"columns", panels.size() < 3 ? panels.size() : 3},
                 {"concat", concat},
