@@ -50,6 +50,7 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
             for (std::size_t i = next++; i < all.size(); i = next++) {
                 const Verdict wanted = all[i].expected.verdict;
                 all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths).judgement.verdict == wanted; });
+                all[i].trial.scene.name += "_minimised";
                 all[i].expected = run_trial(all[i].trial, truths).judgement;
             }
         });

@@ -102,13 +102,14 @@ Trial minimised(Trial t, const Fails& fails) {
     t.scene = listened(t.scene);
     t.scene.taps.resize(1);
     for (bool smaller = true; smaller;) {
-        smaller = shorten(t, fails);  // first: what follows is then quick to try
-        for (const Change& change : removals(t)) {
+        smaller = false;
+        for (const Change& change : removals(t)) {  // while there is time and bandwidth enough to fail without
             Trial x = t;
             if (!change(x) || !still(fails, x)) continue;
             t = std::move(x);
             smaller = true;
         }
+        smaller = shorten(t, fails) || smaller;
     }
     return t;
 }
