@@ -16,6 +16,7 @@
 #include "bench/figure_chart.hpp"
 #include "bench/fresh_file.hpp"
 #include "bench/machine.hpp"
+#include "bench/map_command.hpp"
 #include "bench/row_facet.hpp"
 #include "bench/suite_run.hpp"
 #include "bench/vega.hpp"
@@ -38,10 +39,10 @@ std::string manifest_of(const Suite& suite, const SuitePlan& plan) {
     const Machine& m = machine();
     std::map<std::string, std::string> sources;
     for (const PlannedCell& c : plan.cells) sources[c.cell.scheme->name] = c.cell.scheme->source;
-    return Json{{"program", "jvari"},         {"version", m.version}, {"commit", m.commit},  {"compiler", m.compiler},
-                {"flags", m.flags},           {"build", m.build},     {"cpu", m.cpu},        {"cores", m.cores},
-                {"system", m.system},         {"date", now_utc()},    {"suite", suite.name}, {"source", suite.source},
-                {"cells", plan.cells.size()}, {"schemes", sources}}
+    return Json{{"program", "jvari"},         {"version", m.version},      {"commit", m.commit},  {"compiler", m.compiler},
+                {"flags", m.flags},           {"build", m.build},          {"cpu", m.cpu},        {"cores", m.cores},
+                {"system", m.system},         {"date", now_utc()},         {"suite", suite.name}, {"source", suite.source},
+                {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}}
         .dump(2);
 }
 
@@ -126,7 +127,7 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
 
 int exit_code(const std::vector<SuiteRecord>& records) {
     const auto is = [](const char* status) { return [status](const SuiteRecord& r) { return r.row.at(0, "status") == status; }; };
-    if (std::any_of(records.begin(), records.end(), is("ok"))) return done;
+    if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return done;  // empty: a suite of maps alone
     return std::all_of(records.begin(), records.end(), is("refused")) ? refused : run_failed;
 }
 
@@ -149,22 +150,25 @@ int suite_command(const SuiteRequest& r) {
     const fs::path folder = r.out;
     if (!r.out.empty()) make_folder(folder);
     const int jobs = r.jobs > 0 ? r.jobs : std::max(1u, std::thread::hardware_concurrency());
+    const std::vector<std::string> mapped = chart_maps(suite, catalogue, r, jobs, console);
     const SuiteRun run = run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, jobs, console);
     const Table cells = table_of(plan, run.records);
     const std::string manifest = manifest_of(suite, plan);
-    console.print(suite.name + "\n" + table_text(plan, run));
+    if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
     const Table cheapest = cheapest_of(cells);
     if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
 
-    Json files = Json::array();
+    Json files = mapped;
     if (!r.out.empty()) {
         const auto write = [&](const char* name, const std::string& content) {
             write_fresh(folder / name, content);
             files.push_back((folder / name).string());
         };
-        write("cells.csv", csv(cells));
-        write("errors.csv", csv(errors_only(cells)));
-        write("cost.csv", csv(clock_only(cells)));
+        if (!plan.cells.empty()) {
+            write("cells.csv", csv(cells));
+            write("errors.csv", csv(errors_only(cells)));
+            write("cost.csv", csv(clock_only(cells)));
+        }
         for (const RowFacet& f : row_facets())
             if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty())
                 write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));

@@ -24,6 +24,7 @@
 
 #include "bench/arguments.hpp"
 #include "bench/figure_file.hpp"
+#include "bench/map_file.hpp"
 
 namespace jvari {
 
@@ -59,6 +60,7 @@ struct Suite {
     std::string name, source;
     std::vector<CellSet> sets;
     std::vector<Figure> figures;
+    std::vector<Map> maps;
 };
 
 // A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12: cells.0.raets: unknown key; did you mean rates?".

@@ -54,13 +54,24 @@ bool makes_rows(const CellSet& set) {
 }
 }  // namespace
 
+std::string hash_of(const std::string& text) {
+    std::uint64_t h = 0xcbf29ce484222325;
+    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3;
+    return fmt::format("{:016x}", h);
+}
+
 std::string options_text(const Settings& s) {
     return options_text(s.options);
 }
 
-SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vector<std::string>& plugins) {
+std::string program_identity(const std::vector<std::string>& plugins) {
     Json program{"jvari", machine().version, machine().commit, machine().build};
     for (const std::string& path : plugins) program.push_back(hash_of(read_whole(path)));
+    return program.dump();
+}
+
+SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vector<std::string>& plugins) {
+    const Json program = Json::parse(program_identity(plugins));
     SuitePlan all;
     std::set<std::string> seen;
     for (const SuitePoint& point : points_of(suite)) {

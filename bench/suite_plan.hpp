@@ -35,6 +35,10 @@ struct SuitePlan {
 // `plugins` are files whose contents count as part of the program. Throws UsageError, SceneFileError, BadScene, Refusal.
 SuitePlan plan_of(const Suite&, const Catalogue&, const std::vector<std::string>& plugins);
 
+// JSON: version, commit, build type, plugins by their contents.
+std::string program_identity(const std::vector<std::string>& plugins);
+
+std::string hash_of(const std::string&);    // 16 hexadecimal digits (FNV-1a)
 std::string options_text(const Settings&);  // "control=none tolerance=1e-9"
 
 }  // namespace jvari

@@ -221,8 +221,7 @@ Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, do
     const double finest = s.length / limit, most = std::floor(finest * (1 + 1e-12));
     const double over = number_option(settings, "over_limit", 0), asked = number_option(settings, "grid", 0);
     if (over != 0 && !(over > 1)) throw Refusal("option over_limit: found " + std::to_string(over) + ", expected a factor above 1");
-    if (over != 0 && asked != 0) throw Refusal("options grid and over_limit exclude each other");
-    if (asked > most)
+    if (asked > std::max(most, over * finest))
         throw Refusal(std::string(d.name) + ": " + std::to_string(std::lround(asked)) + " intervals are over the stability limit, " +
                       std::to_string(std::lround(most)) + " at " + std::to_string(settings.sample_rate) +
                       " Hz; option over_limit goes there on purpose");

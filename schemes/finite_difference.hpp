@@ -67,7 +67,8 @@ GridMode explicit_mode(const String&, const LossFit&, const Grid&, double dt, in
 GridMode theta_mode(const String&, const LossFit&, const Grid&, double dt, double theta, int mode);
 GridMode midpoint_mode(const String&, const LossFit&, const Grid&, double dt, int mode);
 
-// ---- The grid a scheme takes: option `grid`, or the finest that the limit allows, or `over_limit` times finer than the limit on purpose.
+// ---- The grid a scheme takes: option `grid`, or the finest that the limit allows, or `over_limit` times finer than the limit on purpose;
+// with both, `grid`, which may then be up to `over_limit` times finer than the limit.
 // Settings::modes asks for modes, which a grid does not have; the grid comes from the rate, and fact `grid_intervals` reports it.
 Grid grid_for(const Descriptor&, const String&, const Settings&, double spacing_limit);
 Grid grid_of(const Descriptor&, const String&, double intervals);  // Refusal unless a whole number, 5 or more

@@ -505,7 +505,10 @@ TEST(GridLimit, AGridOverItIsRefusedAndOneUnderItIsTaken) {
         EXPECT_EQ(fact(run_at(name, scene, 44100, {{"grid", std::to_string(N)}}), "grid_intervals"), N);
         EXPECT_EQ(fact(run_at(name, scene, 44100, {{"grid", "60"}}), "grid_intervals"), 60);
         EXPECT_THROW(run_at(name, scene, 44100, {{"grid", "60.5"}}), Refusal);
-        EXPECT_THROW(run_at(name, scene, 44100, {{"grid", "60"}, {"over_limit", "1.1"}}), Refusal);
+        const auto past = [&](int grid) { return run_at(name, scene, 44100, {{"grid", std::to_string(grid)}, {"over_limit", "1.1"}}); };
+        EXPECT_EQ(fact(past(N + 2), "grid_intervals"), N + 2);  // on purpose, and that far
+        EXPECT_EQ(fact(past(60), "grid_intervals"), 60);
+        EXPECT_THROW(past(2 * N), Refusal);
         EXPECT_THROW(run_at(name, scene, 44100, {{"over_limit", "0.9"}}), Refusal);
         EXPECT_THROW(run_at(name, scene, 44100, {{"mesh", "1"}}), Refusal);
     }

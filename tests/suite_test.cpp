@@ -91,7 +91,10 @@ TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {
 }
 
 TEST(SuiteFile, EverySuiteOfTheLibraryCanBePlanned) {
-    for (const std::string& name : library_suites()) EXPECT_FALSE(plan_of(read_suite(name), Catalogue(), {}).cells.empty()) << name;
+    for (const std::string& name : library_suites()) {
+        const Suite suite = read_suite(name);
+        EXPECT_FALSE(plan_of(suite, Catalogue(), {}).cells.empty() && suite.maps.empty()) << name;
+    }
     EXPECT_EQ(plan_of(read_suite("paper-deshmukh"), Catalogue(), {}).cells.size(), 16u);  // eight variants, two schemes
 }
 

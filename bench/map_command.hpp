@@ -1,0 +1,17 @@
+// The maps of a suite, from its file to DIR: maps.csv, boundaries.csv, maps/<name>.svg, and minimised reproducers in failures/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/catalogue.hpp"
+#include "bench/suite_file.hpp"
+
+namespace jvari {
+
+class Console;
+
+// Files written; none where the suite has no maps. r.out "": nothing is written, the text is printed all the same.
+std::vector<std::string> chart_maps(const Suite&, const Catalogue&, const SuiteRequest& r, int jobs, const Console&);
+
+}  // namespace jvari

@@ -1,0 +1,24 @@
+// Maps as rows (maps.csv, boundaries.csv), as pictures and as text.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "bench/map_run.hpp"
+#include "bench/records.hpp"
+
+namespace jvari {
+
+Table maps_table(const MapRun&);
+
+// Files of minimised reproducers by scheme and outcome. A boundary names that of the side that fails, of the upper one where both do.
+using Reproducers = std::map<std::pair<std::string, Verdict>, std::string>;
+Table boundaries_table(const MapRun&, const Reproducers&);
+
+std::string maps_text(const MapRun&);  // for the terminal: outcomes of each map and scheme, boundaries that have a theory
+
+// One map as a Vega-Lite specification: a panel per scheme, outcomes by colour and letter, boundaries and theory as lines.
+std::string map_spec(const Map&, const MapRun&);
+
+}  // namespace jvari

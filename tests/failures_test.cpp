@@ -1,0 +1,95 @@
+// Every way in which a scheme is known to fail, from its smallest reproducer; and the minimiser that made them, on a toy.
+// `jvari suite stability --out DIR` writes them to DIR/failures; copied to tests/failures they are what is replayed here.
+#include "bench/failures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <set>
+
+#include "bench/minimise.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::test {
+namespace {
+
+const Catalogue& catalogue() {
+    static const Catalogue c;
+    return c;
+}
+
+TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
+    Truths truths(catalogue());
+    const auto all = read_failures(JVARI_FAILURES, catalogue());
+    ASSERT_FALSE(all.empty());
+    for (const Reproducer& r : all) {
+        const Tried t = run_trial(r.trial, truths);
+        EXPECT_STREQ(name_of(t.judgement.verdict), name_of(r.expected.verdict)) << r.file << ": " << t.judgement.detail;
+        EXPECT_LE(t.judgement.step, 2 * r.expected.step) << r.file;  // a growth from rounding is as long as its logarithm
+        EXPECT_GE(2 * t.judgement.step, r.expected.step) << r.file;
+    }
+}
+
+TEST(Failures, EveryControlHasOne) {
+    std::set<std::string> failing;
+    for (const Reproducer& r : read_failures(JVARI_FAILURES, catalogue())) failing.insert(r.trial.scheme->name);
+    for (const char* control :
+         {"modal_explicit_penalty", "modal_impulse_invariant", "modal_two_point_trapezoidal", "modal_quadratised_two_point_raw",
+          "modal_quadratised_three_point_raw", "finite_difference_explicit", "finite_difference_theta", "modal_spatial_newton"})
+        EXPECT_TRUE(failing.contains(control)) << control;
+}
+
+Trial large() {
+    Trial t{&catalogue().find("modal_two_point"), read_scene("tanpura_c3_release"), {}, "none"};
+    t.settings.sample_rate = t.settings.tap_rate = 44100;
+    t.scene.duration = 0.1;
+    return t;
+}
+
+TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
+    const Trial t = minimised(large(), [](const Trial& x) {  // fails with a thread, from 17 modes and 23 rows on
+        return x.scene.strings[0].thread && x.settings.modes >= 17 && x.scene.duration * x.settings.tap_rate > 22.5;
+    });
+    EXPECT_EQ(t.settings.modes, 17);
+    EXPECT_EQ(std::lround(t.scene.duration * t.settings.tap_rate), 23);
+    const String& s = t.scene.strings[0];
+    EXPECT_TRUE(s.thread);
+    EXPECT_TRUE(s.barriers.empty());
+    EXPECT_EQ(s.bending_stiffness, 0);
+    EXPECT_TRUE(std::holds_alternative<NoDamping>(s.damping));
+    EXPECT_EQ(t.scene.taps.size(), 1u);
+}
+
+TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
+    const Trial t = minimised(large(), [](const Trial& x) {
+        if (x.scene.strings[0].barriers.empty()) throw std::runtime_error("nothing to fail at");
+        return x.scene.strings[0].thread.has_value() || x.scene.strings[0].bending_stiffness > 0;  // either will do
+    });
+    const String& s = t.scene.strings[0];
+    EXPECT_EQ(s.barriers.size(), 1u);
+    EXPECT_NE(s.thread.has_value(), s.bending_stiffness > 0);
+    EXPECT_EQ(t.settings.modes, 1);
+}
+
+TEST(Minimiser, WhatItWritesReadsBackAsTheSameFailure) {
+    Truths truths(catalogue());
+    Trial t = large();
+    t.scheme = &catalogue().find("modal_explicit_penalty");
+    const auto diverges = [&truths](const Trial& x) { return run_trial(x, truths).judgement.verdict == Verdict::diverged; };
+    ASSERT_TRUE(diverges(t));
+    t = minimised(t, diverges);
+    EXPECT_LT(t.settings.modes, 133);
+    const auto folder = std::filesystem::temp_directory_path() / ("jvari-failures-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    write_failures(folder, {{"a.toml", t, run_trial(t, truths).judgement}});
+    const auto back = read_failures(folder, catalogue());
+    std::filesystem::remove_all(folder);
+    ASSERT_EQ(back.size(), 1u);
+    EXPECT_EQ(identity_of(back[0].trial), identity_of(t));
+    EXPECT_EQ(back[0].expected.verdict, Verdict::diverged);
+}
+
+}  // namespace
+}  // namespace jvari::test

@@ -1,0 +1,214 @@
+// Maps of suites: the file, bisection, boundaries against theory, and that a map which was stopped ends like one that was not.
+#include <cmath>
+#include <thread>
+
+#include "bench/map_tables.hpp"
+#include "bench/suite_file.hpp"
+#include "command_line.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string refusal_of(const std::string& text) {
+    try {
+        parse_suite(text, "a.toml");
+    } catch (const SceneFileError& e) {
+        return e.what();
+    }
+    return "read";
+}
+
+// ---- The file
+
+TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
+    const Suite s = parse_suite(R"(
+        [[map]]
+        name = "a"
+        scene = "free_string"
+        x = { key = "string.0.tension", from = 1e4, to = 1e16, points = 7 }
+        y = { key = "modes", from = 10, to = 40, points = 3 }
+        rate = 48000
+        options = { grid = 100 }
+        set = { "string.0.damping.law" = "none" }
+    )",
+                                "a.toml");
+    ASSERT_EQ(s.maps.size(), 1u);
+    const Map& m = s.maps[0];
+    ASSERT_EQ(m.x.values.size(), 7u);
+    EXPECT_EQ(m.x.at[1], 1e6);
+    EXPECT_EQ(m.x.at[6], 1e16);
+    EXPECT_EQ(m.y.values, (std::vector<std::string>{"10", "20", "40"}));
+    EXPECT_TRUE(m.y.whole);
+    EXPECT_FALSE(m.x.whole);
+    EXPECT_EQ(m.fixed, (std::vector<Assignment>{{"rate", "48000"}, {"option:grid", "100"}, {"string.0.damping.law", "\"none\""}}));
+}
+
+TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
+    const std::string head = "[[map]]\nname = \"a\"\nscene = \"b\"\n", x = "x = { key = \"rate\", values = [1, 2] }\n";
+    const std::pair<std::string, const char*> cases[] = {
+        {"[[map]]\nname = \"a\"\n" + x, "a.toml:1: map.0: the key scene is missing"},
+        {head + x + "schmes = [\"c\"]", "a.toml:5: map.0: unknown key \"schmes\"; did you mean \"schemes\"?"},
+        {head + "x = { key = \"rate\", valeus = [1] }", "a.toml:4: map.0.x: unknown key \"valeus\"; did you mean \"values\"?"},
+        {head + "x = { key = \"rate\" }", "a.toml:4: map.0.x: the key from is missing"},
+        {head + "x = { key = \"rate\", from = 2, to = 1, points = 3 }", "map.0.x.to: found 1, expected more than from"},
+        {head + "x = { key = \"rate\", from = 1, to = 2, points = 1 }", "map.0.x.points: found 1, expected 2 or more"},
+        {head + "x = { key = \"rate\", from = 1, values = [1] }", "map.0.x.from: found 1, expected either values or from, to and points"},
+        {head + "x = { key = \"rate\", values = [2, 1] }", "expected numbers that ascend"},
+        {head + "x = { key = \"rate\", values = [-2] }", "a.toml:4: map.0.x.values.0: found -2, expected a number > 0"},
+        {head + "x = { key = \"modes\", values = [2.5] }", "a.toml:4: map.0.x.values.0: found 2.5, expected a whole number > 0"},
+        {head + x + "rate = 3", "map.0.x.key: found \"rate\", expected a key that is not set for all points as well"},
+        {head + x + "theory = \"grid\"", "a.toml:5: map.0.theory: unknown theory \"grid\""},
+        {head + "x = { key = \"string.0.damping.law\", values = [\"none\"] }\nrefine = 3",
+         "map.0.refine: found 3, expected an axis x of numbers"},
+        {head + x + head + x, "map.1.name: found \"a\", expected a name of its own"},
+        {"[[map]]\nname = \"A b\"\nscene = \"b\"\n" + x, "a.toml:2: map.0.name"},
+    };
+    for (const auto& [text, expected] : cases) EXPECT_NE(refusal_of(text).find(expected), std::string::npos) << refusal_of(text);
+}
+
+// ---- Bisection
+
+TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
+    int asked = 0;
+    const auto past_pi = [&asked](double x) { return ++asked, x < 3.14159265 ? Verdict::sound : Verdict::diverged; };
+    const Bracket b = bisect({1, 100, Verdict::sound, Verdict::diverged}, 20, false, past_pi);
+    EXPECT_EQ(asked, 20);
+    EXPECT_LT(b.low, 3.14159265);
+    EXPECT_GE(b.high, 3.14159265);
+    EXPECT_LT(b.high / b.low - 1, std::log(100) / (1 << 20) * 1.1);
+}
+
+TEST(Bisection, OfWholeNumbersEndsAtNeighbours) {
+    const auto past = [](double x) { return x <= 137 ? Verdict::sound : Verdict::refused; };
+    const Bracket b = bisect({100, 400, Verdict::sound, Verdict::refused}, 60, true, past);
+    EXPECT_EQ(b.low, 137);
+    EXPECT_EQ(b.high, 138);
+}
+
+TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereSoundnessEnds) {
+    const auto three = [](double x) { return x < 2 ? Verdict::sound : x < 3 ? Verdict::adhesive : Verdict::diverged; };
+    const Bracket end = bisect({1, 10, Verdict::sound, Verdict::diverged}, 30, false, three);
+    EXPECT_NEAR(end.low, 2, 1e-6);
+    EXPECT_EQ(end.at_high, Verdict::adhesive);
+    const auto mirrored = [&three](double x) { return three(11 - x); };
+    const Bracket start = bisect({1, 10, Verdict::diverged, Verdict::sound}, 30, false, mirrored);
+    EXPECT_NEAR(start.high, 9, 1e-6);
+    EXPECT_EQ(start.at_low, Verdict::adhesive);
+}
+
+// ---- Boundaries against theory
+
+constexpr const char* limits = R"(
+    [[map]]
+    name = "grid"
+    scene = "free_string"
+    schemes = ["finite_difference_explicit", "finite_difference_theta"]
+    x = { key = "rate", from = 22050, to = 88200, points = 3 }
+    options = { grid = 120, over_limit = 100 }
+    set = { "string.0.damping.law" = "none" }
+    duration = 0.1
+    reference = "none"
+    theory = "grid_limit"
+    refine = 9
+    [[map]]
+    name = "penalty"
+    scene = "tanpura_c3"
+    schemes = ["modal_explicit_penalty"]
+    x = { key = "rate", from = 1e5, to = 1e6, points = 2 }
+    set = { "string.0.barrier.0.stiffness" = 4.39e6 }
+    modes = 60
+    duration = 0.02
+    reference = "none"
+    theory = "penalty_limit"
+    refine = 8
+)";
+
+MapRun run_of(const Suite& suite, const fs::path& folder = {}, bool resume = false, int jobs = 1) {
+    static const Catalogue catalogue;
+    Truths truths(catalogue);
+    return run_maps(suite.maps, truths, "\"tests\"", folder, resume, jobs, Console(false, true));
+}
+
+TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
+    const Suite suite = parse_suite(limits, "a.toml");
+    const MapRun run = run_of(suite);
+    ASSERT_EQ(run.boundaries.size(), 3u);
+    for (const Boundary& b : run.boundaries) {
+        EXPECT_LT(std::abs(b.relative_difference()), 0.01) << b.map->name << " " << b.scheme->name << " " << b.theory;
+        EXPECT_EQ(b.high, Verdict::sound);
+        EXPECT_NE(b.low, Verdict::sound);
+    }
+}
+
+TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
+    const Suite suite = parse_suite(R"(
+        [[map]]
+        name = "a"
+        scene = "free_string"
+        schemes = ["modal_two_point", "finite_difference_explicit"]
+        x = { key = "modes", values = [10, 2000] }
+        y = { key = "amplitude", values = [1, 2] }
+        duration = 0.005
+    )",
+                                    "a.toml");
+    const MapRun run = run_of(suite);
+    const Table t = maps_table(run);
+    ASSERT_EQ(t.rows.size(), 8u);
+    EXPECT_EQ(t.at(0, "outcome"), "sound");
+    EXPECT_EQ(t.at(0, "reference"), "exact_linear");
+    EXPECT_EQ(t.at(1, "outcome"), "refused");
+    EXPECT_NE(t.at(1, "detail").find("half the sample rate"), std::string::npos) << t.at(1, "detail");
+    const Table boundaries = boundaries_table(run, {{{"modal_two_point", Verdict::refused}, "failures/a.toml"}});
+    ASSERT_GE(boundaries.rows.size(), 2u);
+    EXPECT_EQ(boundaries.at(0, "between"), "sound|refused");
+    EXPECT_EQ(boundaries.at(0, "reproducer"), "failures/a.toml");
+    EXPECT_NE(map_spec(suite.maps[0], run).find("\"letter\":\"R\""), std::string::npos);
+}
+
+// ---- Stopped and taken up again
+
+TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
+    const Scratch scratch;
+    const Suite suite = parse_suite(limits, "a.toml");
+    const MapRun whole = run_of(suite, scratch.path);
+    EXPECT_EQ(whole.read_back, 0);
+    int removed = 0;  // as if the suite had been stopped: a part of its points, and one that was cut off
+    for (const auto& entry : fs::directory_iterator(scratch.path)) {
+        if (++removed % 3 == 0) fs::remove(entry.path());
+        if (removed % 7 == 0) std::ofstream(entry.path()) << "{";
+    }
+    const MapRun resumed = run_of(suite, scratch.path, true, 2);
+    EXPECT_GT(resumed.read_back, 0);
+    EXPECT_GT(resumed.ran, 0);
+    EXPECT_EQ(resumed.ran + resumed.read_back, whole.ran);
+    EXPECT_EQ(csv(maps_table(resumed)), csv(maps_table(whole)));
+    EXPECT_EQ(csv(boundaries_table(resumed, {})), csv(boundaries_table(whole, {})));
+    EXPECT_EQ(run_of(suite, scratch.path, true).ran, 0);
+}
+
+TEST(Maps, TheProgramWritesTablesForASuiteOfMapsAlone) {
+    const Scratch scratch;
+    std::ofstream(scratch / "s.toml") << R"(
+        [[map]]
+        name = "a"
+        scene = "free_string"
+        schemes = ["modal_two_point"]
+        x = { key = "rate", values = [44100, 88200] }
+        duration = 0.005
+    )";
+    const auto r = jvari(scratch, "suite " + (scratch / "s.toml") + " --out " + (scratch / "out"), "JVARI_NODE_MODULES=/nowhere");
+    EXPECT_EQ(r.code, 0) << r.err;
+    const Table t = read_csv(content(scratch / "out/maps.csv"));
+    ASSERT_EQ(t.rows.size(), 2u);
+    EXPECT_EQ(t.at(1, "outcome"), "sound");
+    EXPECT_TRUE(fs::exists(scratch / "out/boundaries.csv"));
+    EXPECT_FALSE(fs::exists(scratch / "out/cells.csv"));
+    const auto bad = jvari(scratch, "suite " + (scratch / "none.toml"));
+    EXPECT_EQ(bad.code, 2);
+}
+
+}  // namespace
+}  // namespace jvari::test
