@@ -60,8 +60,9 @@ std::string config_of(Medium medium, bool has_legend) {
     Json config{{"font", "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif"},
                 {"view", {{"stroke", nullptr}}},
                 {"axis", {{"gridOpacity", 0.45}, {"domainOpacity", 0.6}, {"labelFontSize", 11}}},
-                {"title", {{"fontSize", 16}, {"subtitleFontSize", 12}}},
-                {"legend", {{"labelFontSize", 11}, {"labelLimit", 600}, {"symbolSize", 90}, {"symbolStrokeWidth", 0}}}};
+                {"title", {{"fontSize", 16}, {"subtitleFontSize", 12}}}};
+    if (medium == Medium::print)
+        config["legend"] = {{"labelFontSize", 11}, {"labelLimit", 600}, {"symbolSize", 90}, {"symbolStrokeWidth", 0}, {"symbolOpacity", 1}};
     if (medium == Medium::print && has_legend) config["legend"].update({{"orient", "bottom"}, {"columns", 2}, {"offset", 34}});
     return config.dump();
 }

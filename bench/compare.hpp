@@ -12,6 +12,7 @@
 #include "bench/catalogue.hpp"
 #include "bench/console.hpp"
 #include "bench/errors.hpp"
+#include "bench/sound.hpp"
 #include "bench/summary.hpp"
 
 namespace jvari {
@@ -23,6 +24,7 @@ struct Cell {
     std::string reason;  // of a refusal or a failure
     Summary summary{};   // of the accuracy run; empty where refused
     Errors errors;
+    Sound sound{};  // of the headline's nut tap, where the run reached its end
     Spread wall{};  // of the timed runs [s], of the whole scene or up to the failure
     int modes() const { return refused ? settings.modes : summary.modes; }
 };
@@ -35,6 +37,7 @@ struct Comparison {
     Summary reference_summary;
     std::string reference_note;  // why this one, where it was not asked for
     Errors floor;                // of the reference started 1e-12 apart
+    Sound reference_sound;
     std::vector<Cell> cells;
 };
 

@@ -41,7 +41,8 @@ std::vector<Observed> observed_in(const WorkPrecision& w) {
             std::vector<double> rates, errors;
             for (const std::size_t i : lines[key]) {
                 rates.push_back(w.cells.number(i, "rate"));
-                errors.push_back(w.cells.number(i, a.column));
+                const double e = w.cells.number(i, a.column);
+                errors.push_back(e <= floor_of(w, key.first, a.column) ? std::nan("") : e);  // a tie with the truth has no order
             }
             if (const Order o = observed_order(rates, errors); o.points >= 2) all.push_back({key.first, key.second, a.column, o});
         }

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-// A logarithmic axis where all values are positive and span more than thirty to one; names where they are no numbers.
+// A logarithmic axis where all values are positive and span more than five to one; names where they are no numbers.
 void add_axis(Words& words, const Table& t, const std::string& which) {
     double least = HUGE_VAL, most = -HUGE_VAL;
     bool numbers = true;
@@ -22,7 +22,8 @@ void add_axis(Words& words, const Table& t, const std::string& which) {
         most = std::fmax(most, x);
     }
     words.emplace_back("@type_" + which, numbers ? "quantitative" : "ordinal");
-    words.emplace_back("@scale_" + which, !numbers ? "point" : least > 0 && most > 30 * least ? "log" : "linear");
+    words.emplace_back("@scale_" + which, !numbers ? "point" : least > 0 && most > 5 * least ? "log" : "linear");
+    words.emplace_back("@format_" + which, most >= 1e6 || (least > 0 && least < 1e-3) ? "~e" : "~r");
     words.emplace_back("@title_" + which, t.at(0, which + "_key"));
 }
 
@@ -50,6 +51,16 @@ Json rows_json(const Table& cells, const Table& boundaries, bool numbers) {
     return rows;
 }
 
+Json on_frame(const std::string& spec) {  // a linear axis need not begin at zero, and names have no format
+    Json chart = Json::parse(spec);
+    for (const char* axis : {"x", "y"}) {
+        Json& channel = chart["encoding"][axis];
+        if (channel["type"] == "ordinal") channel["axis"].erase("format");
+        else if (channel["scale"]["type"] == "linear") channel["scale"]["zero"] = false;
+    }
+    return chart;
+}
+
 Json panels_of(Json chart) {  // for papers: every scheme side by side
     Json inner{{"width", 200}, {"height", 150}, {"encoding", chart.at("encoding")}, {"layer", chart.at("layer")}};
     for (const char* key : {"width", "height", "encoding", "layer", "transform"}) chart.erase(key);
@@ -66,11 +77,11 @@ Chart map_chart(const std::string& name, const Table& cells, const Table& bounda
     add_axis(f.words, cells, "y");
     const bool numbers = std::all_of(f.words.begin(), f.words.end(), [](const auto& w) { return w.second != "ordinal"; });
     f.datasets = {{"rows", rows_json(cells, boundaries, numbers).dump()}};
-    Chart c{"what becomes of a scheme: " + name, chart_of("map.json", f, Medium::page), false, {}, {}};
+    Chart c{"what becomes of a scheme: " + name, on_frame(chart_of("map.json", f, Medium::page)).dump(), false, {}, {}};
     Menu menu{name + ": scheme", "series_field", {}};
     for (const std::string& s : series) menu.choices.emplace_back(json_text(s), s);
     c.menus.push_back(std::move(menu));
-    c.twins.push_back({"map-" + file_part(name) + ".svg", panels_of(Json::parse(chart_of("map.json", f, Medium::print))).dump()});
+    c.twins.push_back({"map-" + file_part(name) + ".svg", panels_of(on_frame(chart_of("map.json", f, Medium::print))).dump()});
     return c;
 }
 }  // namespace

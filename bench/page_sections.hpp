@@ -14,6 +14,7 @@ Section convergence_section(const Results&);
 Section cost_section(const Results&);
 Section map_section(const Results&);
 Section spectrogram_section(const Results&);
+Section waveform_section(const Results&);
 Section picture_section(const Results&, const std::vector<std::string>& own);  // SVGs in the folder that are none of `own`
 Section cell_section(const Results&);
 

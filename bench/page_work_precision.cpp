@@ -104,13 +104,16 @@ Section work_precision_section(const Results& r) {
     s.charts.push_back(std::move(c));
     s.notes = {
         "Down is more accurate, left is cheaper. The grey track is the Pareto front; crosses at the upper edge are runs that failed. "
-        "What lies in the grey band is a tie (the reference's own sensitivity), in the blue one below what the reference is "
-        "certain to. Numbers at the points are rates: \u00d71 is the lowest."};
+        "Numbers at the points are rates: \u00d71 is the lowest."};
+    if (!w.bands.empty())
+        s.notes.emplace_back(
+            "What lies in a grey band is a tie (the reference's own sensitivity), in a blue one below what the reference is certain to.");
     return s;
 }
 
 Section cell_section(const Results& r) {
-    Section s{"cells", "Cells", {"Each run, failures and refusals too. Marked rows are on the Pareto front."}};
+    Section s{"cells", "Cells", {"Each run, failures and refusals too."}};
+    if (r.cells.column("pareto") >= 0) s.notes[0] += " Marked rows are on the Pareto front.";
     std::vector<std::string> columns;  // that say something
     for (std::size_t k = 0; k < r.cells.columns.size(); ++k)
         if (r.cells.columns[k] != "problem" && r.cells.columns[k] != "series" &&

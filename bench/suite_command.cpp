@@ -107,8 +107,8 @@ int suite_command(const SuiteRequest& r) {
         write("errors.csv", csv(errors_only(cells)));
         write("cost.csv", csv(clock_only(cells)));
         for (const RowFacet& f : row_facets())
-            if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty())
-                write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
+            if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
+            else if (!rows.rows.empty()) write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
         write("manifest.json", manifest + "\n");
         for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
         console.print("written: " + folder.string());

@@ -18,8 +18,8 @@ namespace jvari {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr std::array facet_names = {"errors", "cost", "spectrogram"};
-constexpr std::array all_facets = {Facet::errors, Facet::cost, Facet::spectrogram};
+constexpr std::array facet_names = {"errors", "cost", "spectrogram", "sound"};
+constexpr std::array all_facets = {Facet::errors, Facet::cost, Facet::spectrogram, Facet::sound};
 static_assert(facet_names.size() == all_facets.size());
 
 class Reader {

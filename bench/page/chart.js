@@ -7,7 +7,8 @@ function config() {
   return {
     background: "transparent",
     axis: {...colours, gridColor: grid, domainColor: ink, tickColor: ink},
-    legend: narrow.matches ? {...colours, orient: "bottom", columns: 1} : {...colours, orient: "right", offset: 14},
+    legend: {...colours, symbolSize: 90, symbolStrokeWidth: 0, symbolOpacity: 1,
+             ...(narrow.matches ? {orient: "bottom", columns: 1, offset: 38, labelFontSize: 10, labelLimit: 235} : {orient: "right", offset: 14, labelFontSize: 11, labelLimit: 600})},
     title: {color: ink, subtitleColor: ink}, header: colours,
     text: {color: ink}, rule: {color: ink}
   };
@@ -30,7 +31,7 @@ function chart_of(chart) {
     frame.setAttribute("data-drawn", "false");
     if (view) view.finalize();
     ({view} = await vegaEmbed(frame, chart.spec, {
-      config: config(), renderer: chart.scrolls ? "canvas" : "svg", logLevel: vega.Warn, tooltip: {theme: dark.matches ? "dark" : "light"},
+      config: config(), renderer: chart.scrolls ? "canvas" : "svg", logLevel: vega.Error, tooltip: {theme: dark.matches ? "dark" : "light"},
       actions: {export: true, source: false, compiled: false, editor: false}
     }));
     await apply();
