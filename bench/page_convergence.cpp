@@ -67,7 +67,7 @@ Json orders_json(const Results& r, const std::vector<Observed>& observed) {
 }
 
 Table table_of(const std::vector<Observed>& observed, const std::string& headline, bool several_problems) {
-    Table t{{"problem", "scheme", "error", "order", "half_width", "points"}, {}};
+    Table t{{"scene", "scheme", "error", "order", "half_width", "points"}, {}};
     for (const Observed& o : observed)
         if (o.error == headline || o.error == "error_l2_10ms" || o.error == "error_l2_whole" || o.error == "third_octave_db")
             t.rows.push_back({o.problem, o.series, o.error, fmt::format("{:.4f}", o.order.order), text_of(o.order.half_width),

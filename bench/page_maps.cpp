@@ -56,7 +56,8 @@ Json on_frame(const std::string& spec) {  // a linear axis need not begin at zer
     for (const char* axis : {"x", "y"}) {
         Json& channel = chart["encoding"][axis];
         if (channel["type"] == "ordinal") channel["axis"].erase("format");
-        else if (channel["scale"]["type"] == "linear") channel["scale"]["zero"] = false;
+        else channel["scale"].update({{"nice", false}, {"padding", 14}});
+        if (channel["scale"]["type"] == "linear") channel["scale"]["zero"] = false;
     }
     return chart;
 }

@@ -99,10 +99,11 @@ struct Waveforms {
     double longest = 0;  // [s]
 };
 
-Waveforms waveforms_of(const Table& t, const std::vector<Track>& tracks, std::size_t most) {
+Waveforms waveforms_of(const Table& t, std::vector<Track> tracks, std::size_t most) {
     Waveforms w;
-    for (std::size_t k = 0; k < std::min(tracks.size(), most); ++k) {
-        const Track& track = tracks[k];
+    if (tracks.size() > most) tracks.erase(tracks.begin() + static_cast<long>(most), tracks.end());
+    std::sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) { return a.row < b.row; });
+    for (const Track& track : tracks) {
         const bool reference = is_reference(t, track.row);
         Json row{{"sound", track.file},
                  {"who", reference ? "reference" : "scheme"},
@@ -136,16 +137,19 @@ void add_sounds(Section& s, const std::vector<Track>& tracks) {
     for (const Track& t : tracks) level = std::min(level, loudest_level(t.sound));
     std::size_t size = 0, left_out = 0;
     bool shortened = false;
+    std::vector<std::pair<std::size_t, Heard>> heard;
     for (const Track& t : tracks) {
         std::string wav = wav_of(levelled(t.sound, level, longest_heard));
-        if (size + wav.size() * 4 / 3 > sounds_limit || s.sounds.size() >= most_heard) {
+        if (size + wav.size() * 4 / 3 > sounds_limit || heard.size() >= most_heard) {
             ++left_out;
             continue;
         }
         size += wav.size() * 4 / 3;
         shortened = shortened || static_cast<double>(t.sound.samples.size()) > longest_heard * t.sound.rate;
-        s.sounds.push_back({t.name, t.detail, std::move(wav)});
+        heard.emplace_back(t.row, Heard{t.name, t.detail, std::move(wav)});
     }
+    std::sort(heard.begin(), heard.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& [row, sound] : heard) s.sounds.push_back(std::move(sound));
     if (shortened) s.left_out.push_back(fmt::format("Sounds end after {} s here; the files in sounds/ are whole.", longest_heard));
     if (left_out > 0) s.left_out.push_back(fmt::format("{} sounds are left out for the page's size; they lie in sounds/.", left_out));
 }

@@ -97,7 +97,7 @@ Results read_results(const fs::path& folder) {
     r.folder = folder;
     std::error_code error;
     if (!fs::is_regular_file(folder / "cells.csv", error) && !fs::is_regular_file(folder / "maps.csv", error))
-        throw UsageError(fmt::format("{}: holds neither cells.csv nor maps.csv", folder.string()));
+        throw UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
     read_manifest(r);
     const std::pair<const char*, Table*> files[] = {{"cells.csv", &r.cells},
                                                     {"dispersion.csv", &r.dispersion},

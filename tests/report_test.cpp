@@ -121,7 +121,7 @@ TEST(Report, ErrorsBelowTheirNoiseFloorHaveNoOrder) {
     const Section s = convergence_section(read_results(folder.path));
     int seen = 0;
     for (std::size_t i = 0; i < s.table.rows.size(); ++i)
-        if (s.table.at(i, "problem") == "a, string.0.tension = 30" && s.table.at(i, "scheme") == "one" &&
+        if (s.table.at(i, "scene") == "a, string.0.tension = 30" && s.table.at(i, "scheme") == "one" &&
             s.table.at(i, "error") == "error_l2_50ms") {
             EXPECT_EQ(s.table.at(i, "points"), "3");  // 0.1 x 4^-3 = 1.56e-3 lies below the floor of 2e-3
             ++seen;
