@@ -13,16 +13,12 @@ namespace jvari {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// Okabe & Ito's palette without its yellow and black, which vanish on a light or a dark page; with six shapes 42 schemes stay apart.
-constexpr const char* palette[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c8c8c"};
-constexpr const char* shapes[] = {"circle", "square", "triangle-up", "diamond", "triangle-down", "cross"};
-constexpr int dashes[][2] = {{1, 0}, {6, 3}, {2, 2}};  // the next each time round the palette
-constexpr std::size_t direct_labels = 4;               // up to so many schemes every point says its rate, beyond only the front's
+constexpr std::size_t direct_labels = 4;  // up to so many series every point says its rate, beyond only the front's
 
 struct Encodings {
     Json x, y, colour, shape, dash, faint;
     Json of_point, of_failure;  // what hovering shows
-    std::size_t schemes;
+    std::size_t series;
 };
 
 // Decades are labelled; on an axis of less than three decades 2 and 5 as well.
@@ -38,10 +34,6 @@ Json axis(const char* field) {
             {"axis", {{"title", nullptr}, {"labelExpr", label}, {"labelOverlap", true}}}};
 }
 
-Json by_scheme(const std::vector<std::string>& schemes, const Json& range, const Json& legend) {
-    return {{"field", "scheme"}, {"type", "nominal"}, {"scale", {{"domain", schemes}, {"range", range}}}, {"legend", legend}};
-}
-
 Json column(const char* field, const char* title, const char* format = nullptr) {
     Json j{{"field", field}, {"title", title}};
     if (format) j["format"] = format;
@@ -49,34 +41,26 @@ Json column(const char* field, const char* title, const char* format = nullptr) 
 }
 
 Encodings encodings_of(const WorkPrecision& w) {
-    const auto schemes = drawn_schemes(w.cells);
-    Json colours = Json::array(), marks = Json::array(), strokes = Json::array(), legend;
-    for (std::size_t i = 0; i < schemes.size(); ++i) {
-        const auto& dash = dashes[i / std::size(palette) % std::size(dashes)];
-        colours.push_back(palette[i % std::size(palette)]);
-        marks.push_back(shapes[i % std::size(shapes)]);
-        strokes.push_back({dash[0], dash[1]});
-    }
-    if (schemes.size() > 1)
-        legend = {{"title", nullptr},          {"orient", w.wide ? "right" : "bottom"},
-                  {"columns", w.wide ? 1 : 2}, {"labelLimit", 600},
-                  {"symbolSize", 90},          {"symbolStrokeWidth", 0}};
+    const auto series = drawn_series(w.cells);
     return {axis("x"),
             axis("y"),
-            by_scheme(schemes, colours, legend),
-            by_scheme(schemes, marks, legend),
-            by_scheme(schemes, strokes, legend),
-            {{"condition", {{"param", "pick"}, {"value", 1}}}, {"value", 0.12}},
-            Json::array({column("scheme", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
+            Json::parse(colour_of_series(series)),
+            Json::parse(shape_of_series(series)),
+            Json::parse(dash_of_series(series)),
+            {{"condition", {{"test", {{"and", {{{"param", "pick"}}, "brought_out == '' || brought_out == datum.series"}}}}, {"value", 1}}},
+             {"value", 0.12}},
+            Json::array({column("series", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
                          column("y", "error", ".3e"), column("x", "cost", ",.3~r"), column("below", "below floor")}),
-            Json::array({column("scheme", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
+            Json::array({column("series", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
                          column("x", "cost", ",.3~r"), column("reason", "reason")}),
-            schemes.size()};
+            series.size()};
 }
 
 Json chosen(const char* condition) {  // x and y of the columns that are chosen, then the rows that satisfy the condition
-    return Json::array(
-        {{{"calculate", "datum[cost_field]"}, {"as", "x"}}, {{"calculate", "datum[error_field]"}, {"as", "y"}}, {{"filter", condition}}});
+    return Json::array({{{"filter", "datum.problem == problem_field"}},
+                        {{"calculate", "datum[cost_field]"}, {"as", "x"}},
+                        {{"calculate", "datum[error_field]"}, {"as", "y"}},
+                        {{"filter", condition}}});
 }
 constexpr const char* sound = "isValid(datum.x) && isValid(datum.y) && datum.x > 0 && datum.y > 0 && datum.status == 'ok'";
 
@@ -84,15 +68,18 @@ Json once(Json mark) {  // a mark without rows
     return {{"data", {{"values", Json::array({Json::object()})}}}, {"mark", std::move(mark)}};
 }
 
-void add_floor(Json& layers) {  // from the level of the chosen error's noise floor down to the lower edge
-    const std::string level = "isValid(floors[error_field]) ? clamp(scale('y', floors[error_field]), 0, height) : height";
+// From the level of what limits the chosen error down to the lower edge.
+void add_band(Json& layers, const std::string& field, const char* name, const char* colour, double opacity) {
+    const std::string known = fmt::format("bands[problem_field + '|' + error_field]{}", field);
+    const std::string level =
+        fmt::format("bands[problem_field + '|' + error_field] && isValid({0}) ? clamp(scale('y', {0}), 0, height) : height", known);
     layers.push_back(once({{"type", "rect"},
                            {"x", 0},
                            {"x2", {{"expr", "width"}}},
                            {"y", {{"expr", level}}},
                            {"y2", {{"expr", "height"}}},
-                           {"color", "#888"},
-                           {"opacity", 0.18},
+                           {"color", colour},
+                           {"opacity", opacity},
                            {"tooltip", nullptr}}));
     layers.push_back(once({{"type", "text"},
                            {"x", 6},
@@ -101,13 +88,15 @@ void add_floor(Json& layers) {  // from the level of the chosen error's noise fl
                            {"align", "left"},
                            {"fontSize", 10},
                            {"opacity", 0.75},
-                           {"text", {{"expr", "(" + level + ") < height - 14 ? 'noise floor' : ''"}}}}));
+                           {"text", {{"expr", fmt::format("({}) < height - 14 ? '{}' : ''", level, name)}}}}));
 }
 
 void add_front(Json& layers, const Encodings& e) {
     layers.push_back(
         {{"data", {{"name", "fronts"}}},
-         {"transform", Json::array({{{"filter", "datum.error == error_field && datum.cost == cost_field && datum.y > 0"}}})},
+         {"transform",
+          Json::array(
+              {{{"filter", "datum.problem == problem_field && datum.error == error_field && datum.cost == cost_field && datum.y > 0"}}})},
          {"mark",
           {{"type", "line"}, {"strokeWidth", 9}, {"opacity", 0.28}, {"color", "#888"}, {"strokeCap", "round"}, {"strokeJoin", "round"}}},
          {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}}}});
@@ -123,11 +112,12 @@ void add_schemes(Json& layers, const Encodings& e) {
         {{"transform", chosen(sound)},
          {"mark", {{"type", "point"}, {"filled", true}, {"size", 75}}},
          {"params",
-          Json::array({{{"name", "pick"}, {"select", {{"type", "point"}, {"fields", Json::array({"scheme"})}}}, {"bind", "legend"}}})},
+          Json::array({{{"name", "pick"}, {"select", {{"type", "point"}, {"fields", Json::array({"series"})}}}, {"bind", "legend"}}})},
          {"encoding", {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"shape", e.shape}, {"opacity", e.faint}, {"tooltip", e.of_point}}}});
     Json labelled = chosen(sound);
-    if (e.schemes > direct_labels) {
-        labelled.push_back({{"calculate", "error_field + '|' + cost_field + '|' + datum.scheme + '|' + datum.rate"}, {"as", "key"}});
+    if (e.series > direct_labels) {
+        labelled.push_back(
+            {{"calculate", "problem_field + '|' + error_field + '|' + cost_field + '|' + datum.series + '|' + datum.rate"}, {"as", "key"}});
         labelled.push_back({{"lookup", "key"},
                             {"from", {{"data", {{"name", "fronts"}}}, {"key", "key"}, {"fields", Json::array({"key"})}}},
                             {"as", Json::array({"front"})}});
@@ -174,32 +164,36 @@ Json parameter(const char* name, Json value) {
 
 std::string work_precision_spec(const WorkPrecision& w) {
     const Encodings e = encodings_of(w);
-    Json floors = Json::object(), layers = Json::array();
-    for (const Axis& error : w.errors)
-        if (const double f = floor_of(w, error.column); f > 0 && std::isfinite(f)) floors[error.column] = f;
-    add_floor(layers);
+    Json bands = Json::object(), layers = Json::array();
+    for (const Band& b : w.bands) {
+        Json& levels = bands[b.problem + "|" + b.error] = Json::object();
+        if (b.floor > 0 && std::isfinite(b.floor)) levels["floor"] = b.floor;
+        if (b.certificate > 0 && std::isfinite(b.certificate)) levels["certificate"] = b.certificate;
+    }
+    add_band(layers, ".certificate", "the reference is certain to here", "#56b4e9", 0.16);
+    add_band(layers, ".floor", "noise floor", "#888", 0.18);
     add_front(layers, e);
     add_schemes(layers, e);
     add_failures(layers, e);
     add_axis_names(layers);
 
-    Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
-              {"title", {{"text", w.title}, {"subtitle", w.subtitle}, {"anchor", "start"}, {"offset", 26}, {"subtitlePadding", 5}}},
-              {"width", w.wide ? Json("container") : Json(760)},
-              {"height", 470},
-              {"padding", 12}};
-    if (!w.wide) spec["background"] = "white";
+    const bool print = w.medium == Medium::print;
+    const std::string shown = !w.problem.empty() || w.cells.rows.empty() ? w.problem : problem_of(w.cells, 0);
+    Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"}};
+    if (print) spec["title"] = {{"text", w.title}, {"subtitle", w.subtitle}, {"anchor", "start"}, {"offset", 26}, {"subtitlePadding", 5}};
+    spec.update({{"width", print ? Json(760) : Json("container")}, {"height", 470}, {"padding", 12}});
+    if (print) spec["background"] = "white";
     spec["params"] = {parameter("error_field", w.errors.empty() ? "" : w.errors.front().column),
-                      parameter("cost_field", w.costs.empty() ? "" : w.costs.front().column), parameter("floors", floors),
-                      parameter("error_titles", titles_json(w.errors)), parameter("cost_titles", titles_json(w.costs))};
+                      parameter("cost_field", w.costs.empty() ? "" : w.costs.front().column),
+                      parameter("bands", bands),
+                      parameter("problem_field", shown),
+                      parameter("brought_out", ""),
+                      parameter("error_titles", titles_json(w.errors)),
+                      parameter("cost_titles", titles_json(w.costs))};
     spec["datasets"] = {{"cells", Json::parse(chart_cells(w))}, {"fronts", Json::parse(chart_fronts(w))}};
     spec["data"] = {{"name", "cells"}};
     spec["layer"] = layers;
-    spec["config"] = {{"font", "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif"},
-                      {"view", {{"stroke", nullptr}}},
-                      {"axis", {{"gridOpacity", 0.45}, {"domainOpacity", 0.6}, {"labelFontSize", 11}}},
-                      {"title", {{"fontSize", 16}, {"subtitleFontSize", 12}}},
-                      {"legend", {{"labelFontSize", 11}, {"offset", w.wide ? 14 : 34}}}};
+    spec["config"] = Json::parse(config_of(w.medium, e.series > 1));
     return spec.dump();
 }
 

@@ -1,10 +1,11 @@
-// Charts as Vega-Lite specifications (https://vega.github.io/vega-lite), made here and drawn by vl2svg or in a page by vega-embed.
+// The work-precision chart as a Vega-Lite specification (https://vega.github.io/vega-lite), drawn by vl2svg or in a page by vega-embed.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bench/chart_style.hpp"
 #include "bench/records.hpp"
 
 namespace jvari {
@@ -13,16 +14,22 @@ struct Axis {
     std::string column, title;
 };
 
-struct WorkPrecision {
-    std::string title, subtitle;
-    Table cells;                                         // as compare writes them
-    std::vector<Axis> errors, costs;                     // what a reader can choose between; the first of each is shown
-    std::vector<std::pair<std::string, double>> floors;  // noise floor of an error column
-    bool wide = false;                                   // fills its container (a page) in place of a fixed width
+struct Band {  // what is not known better of an error: a tie below the noise floor, no finding below the reference's own certificate
+    std::string problem, error;
+    double floor, certificate;  // NaN: not known
 };
 
-// Cost across, error up, both logarithmic: a line per scheme through its rates, the Pareto front behind, the noise floor as a band,
-// failures at the upper edge. The signals `error_field` and `cost_field` choose the columns.
+struct WorkPrecision {
+    std::string title, subtitle;
+    Table cells;                      // as compare writes them; with `problem` and `series` where they are of several
+    std::vector<Axis> errors, costs;  // what a reader can choose between; the first of each is shown
+    std::vector<Band> bands;
+    std::string problem;  // that is shown; "": the first
+    Medium medium = Medium::print;
+};
+
+// Cost across, error up, both logarithmic: a line per series through its rates, the Pareto front behind, noise floor and certificate as
+// bands, failures at the upper edge. The signals `error_field`, `cost_field`, `problem_field` and `brought_out` choose.
 std::string work_precision_spec(const WorkPrecision&);
 
 std::vector<Axis> error_axes(const Table& cells, const std::vector<std::string>& taps,

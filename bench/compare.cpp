@@ -112,6 +112,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     c.reference_note = reference.choice.note;
     c.reference_summary = summary_of(*c.reference, c.scene, c.reference_settings, reference.run);
     c.floor = errors_of(reference.moved.trace, reference.run.trace);
+    c.reference_sound = sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
     if (!c.reference_note.empty()) console.note(c.reference_note);
     if (!c.trust.any())
         console.note(reference.choice.oversampled
@@ -128,7 +129,9 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
         for (Cell& cell : c.cells) {
             const double next = finished + cell.settings.sample_rate;
             try {
-                measure(cell, c.scene, &reference.run.trace, shown_on(progress, *cell.scheme, cell.settings, finished / work, next / work));
+                const Trace trace = measure(cell, c.scene, &reference.run.trace,
+                                            shown_on(progress, *cell.scheme, cell.settings, finished / work, next / work));
+                if (cell.reason.empty()) cell.sound = sound_of(trace.column(c.headline.nut), trace.tap_rate);
             } catch (const Refusal& e) {
                 cell.refused = true;
                 cell.reason = e.what();

@@ -14,6 +14,7 @@
 #include "bench/certificate_library.hpp"
 #include "bench/console.hpp"
 #include "bench/errors.hpp"
+#include "bench/sound.hpp"
 #include "bench/summary.hpp"
 
 namespace jvari {
@@ -25,6 +26,7 @@ struct Cell {
     std::string reason;  // of a refusal or a failure
     Summary summary{};   // of the accuracy run; empty where refused
     Errors errors;
+    Sound sound{};  // of the headline's nut tap, where the run reached its end
     Spread wall{};  // of the timed runs [s], of the whole scene or up to the failure
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
     int modes() const { return refused ? settings.modes : summary.modes; }
@@ -40,6 +42,7 @@ struct Comparison {
     std::string reference_note;  // why this one, where it was not asked for
     Errors floor;                // of the reference started 1e-12 apart
     Trust trust;                 // the figures of its certificate
+    Sound reference_sound;
     std::vector<Cell> cells;
 };
 

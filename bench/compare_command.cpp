@@ -103,6 +103,7 @@ int compare_command(const CompareRequest& r) {
         write_fresh(folder / "errors.csv", csv(errors_only(cells)));
         write_fresh(folder / "cost.csv", csv(cost_only(cells)));
         write_fresh(folder / "manifest.json", manifest + "\n");
+        write_sounds(c, folder);
         for (const char* name : {"cells.csv", "errors.csv", "cost.csv", "manifest.json"}) files.push_back((folder / name).string());
         for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
         console.print("written: " + folder.string());

@@ -113,6 +113,8 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front,
     row.count("repeats", cell.wall.count, ran);
     row.text("pareto", on_front ? "1" : "0");
     row.text("below_floor", ties_of(c, cell));
+    for (std::size_t k = 0; k < measures().size(); ++k)
+        if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column, c.floor[c.headline.tap(measures()[k])][k]);
     row.number("energy_residual_per_step", ran ? s.energy_residual_per_step : nan);
     row.number("energy_residual_accumulated", ran ? s.energy_residual_accumulated : nan);
     row.number("smallest_contact_force", ran ? s.smallest_contact_force : nan);

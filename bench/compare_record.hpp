@@ -4,6 +4,7 @@
 // the clock said: only those two are committed, for numbers of the two kinds never share a committed file.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace jvari {
 
 Table cells_of(const Comparison&);
 std::string manifest_of(const Comparison&, const CompareRequest&);  // JSON
+
+// sounds/ and sounds.csv: the reference, and of each scheme its lowest and its highest rate; the rates between while all are small.
+void write_sounds(const Comparison&, const std::filesystem::path& folder);
 
 Table errors_only(const Table& cells);
 Table cost_only(const Table& cells);

@@ -2,92 +2,64 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "bench/charts.hpp"
 #include "bench/fresh_file.hpp"
-#include "bench/records.hpp"
-#include "bench/report_page.hpp"
+#include "bench/page_sections.hpp"
 #include "bench/vega.hpp"
 
 namespace jvari {
 
-namespace {
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-WorkPrecision work_precision_of(const Table& cells, const Json& manifest) {
-    WorkPrecision w;
-    w.cells = cells;
-    const Json &scene = manifest.at("scene"), &reference = manifest.at("reference"), &headline = manifest.at("headline");
-    std::vector<std::string> taps{""};
-    for (const Json& tap : scene.at("taps")) taps.push_back(tap.at("name"));
-    w.errors = error_axes(cells, taps, headline.at("error"));
-    w.costs = cost_axes();
-    for (const auto& [name, value] : manifest.at("noise_floor").items())
-        if (value.is_number()) w.floors.emplace_back(name, value.get<double>());
-    double lowest = HUGE_VAL;
-    for (std::size_t i = 0; i < cells.rows.size(); ++i) lowest = std::fmin(lowest, cells.number(i, "rate"));
-    w.title = fmt::format("{}: error and cost", scene.at("name").get<std::string>());
-    w.subtitle =
-        fmt::format("against {}, {} s; nut tap {}, bridge tap {}{}", reference.at("name").get<std::string>(),
-                    scene.at("duration").get<double>(), headline.at("nut").get<std::string>(), headline.at("bridge").get<std::string>(),
-                    std::isfinite(lowest) ? fmt::format("; \u00d71 = {:.6g} kHz", lowest / 1000) : "");
-    return w;
+std::vector<Menu> problem_menu(const std::vector<std::string>& problems) {
+    if (problems.size() < 2) return {};
+    Menu m{"scene", "problem_field", {}};
+    for (const std::string& p : problems) m.choices.emplace_back(json_text(p), p);
+    return {m};
 }
 
-Json table_json(const Table& t) {
-    return {{"columns", t.columns}, {"rows", t.rows}};
+std::string twin_file(const std::string& chart, const std::string& problem, std::size_t problems) {
+    return chart + (problems > 1 ? "-" + file_part(problem) : "") + ".svg";
 }
-}  // namespace
+
+Table rows_where(const Table& t, const std::string& column, const std::string& text) {
+    Table rows{t.columns, {}};
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (t.at(i, column) == text) rows.rows.push_back(t.rows[i]);
+    return rows;
+}
 
 std::vector<std::string> write_report(const fs::path& folder, const Console& console) {
-    const Table cells = [&folder] {
-        try {
-            return read_csv(read_whole(folder / "cells.csv"));
-        } catch (const UsageError&) {
-            throw;
-        } catch (const std::runtime_error& e) {
-            throw UsageError(fmt::format("{}: {}", (folder / "cells.csv").string(), e.what()));
-        }
-    }();
-    Json manifest;
-    WorkPrecision chart;
-    try {
-        manifest = Json::parse(read_whole(folder / "manifest.json"));
-        chart = work_precision_of(cells, manifest);
-    } catch (const Json::exception& e) {
-        throw UsageError(fmt::format("{}: {}", (folder / "manifest.json").string(), e.what()));
-    }
+    const Results results = read_results(folder);
     must_be_writable(folder / "report.html");
-
-    std::vector<std::string> written;
-    const Vega vega = find_vega();
     Page page;
-    page.title = chart.title;
-    page.manifest = manifest.dump();
-    page.table = table_json(cells).dump();
+    page.title = results.name;
+    page.about = results.source + (results.source.empty() ? "" : " \u2014 ") + results.about;
+    page.manifest = results.manifest;
+    page.sections = {work_precision_section(results), dispersion_section(results), convergence_section(results),
+                     cost_section(results),           map_section(results),        spectrogram_section(results),
+                     waveform_section(results)};
+
+    std::vector<std::string> written, own;
+    const Vega vega = find_vega();
     page.missing = vega.missing;
-    if (vega.missing.empty()) {
-        std::string why;
-        if (const auto svg = svg_of(vega, work_precision_spec(chart), why)) {
-            write_fresh(folder / "work_precision.svg", *svg);
-            written.emplace_back("work_precision.svg");
-        } else {
-            console.note(why);
-        }
-        chart.wide = true;
-        page.spec = work_precision_spec(chart);
-        page.scripts = vega_scripts(vega).value_or("");
-    } else {
-        console.note(vega.missing);
-    }
-    Json errors = Json::array(), costs = Json::array();
-    for (const Axis& a : chart.errors) errors.push_back({a.column, a.title});
-    for (const Axis& a : chart.costs) costs.push_back({a.column, a.title});
-    page.choices = Json{{"errors", errors}, {"costs", costs}}.dump();
-    write_fresh(folder / "report.html", page_of(page));
+    if (vega.missing.empty()) page.scripts = vega_scripts(vega).value_or("");
+    else console.note(vega.missing);
+    for (const Section& s : page.sections)
+        for (const Chart& c : s.charts)
+            for (const Twin& t : c.twins) {
+                own.push_back(t.file);
+                if (!vega.missing.empty()) continue;
+                std::string why;
+                const auto svg = svg_of(vega, t.spec, why);
+                if (svg) write_fresh(folder / t.file, *svg);
+                else console.note(t.file + ": " + why);
+                if (svg) written.push_back(t.file);
+            }
+    page.sections.push_back(picture_section(results, own));
+    page.sections.push_back(cell_section(results));
+    const std::string html = page_of(page);
+    if (html.size() > page_limit) console.note(fmt::format("report.html is larger than meant: {} bytes", html.size()));
+    write_fresh(folder / "report.html", html);
     written.emplace_back("report.html");
     return written;
 }

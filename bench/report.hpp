@@ -1,4 +1,4 @@
-// From cells.csv and manifest.json of a folder: work_precision.svg and report.html beside them.
+// From what lies in a folder of compare or of suite: report.html beside it, and each of its charts as a picture.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace jvari {
 
-// Returns the names of the files written. Without node or its packages the page comes with tables alone, the picture not at all, and a note
-// says what is missing. Throws UsageError where the folder does not hold the two files or they cannot be read.
+// Returns the names of the files written. Without node or its packages the page comes with tables and sounds alone, the pictures not at
+// all, and a note says what is missing. Throws UsageError where the folder does not hold results or they cannot be read.
 std::vector<std::string> write_report(const std::filesystem::path& folder, const Console&);
 
 }  // namespace jvari

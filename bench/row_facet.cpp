@@ -2,13 +2,19 @@
 
 #include "bench/dispersion_facet.hpp"
 #include "bench/figure_rows.hpp"
+#include "bench/sound_facet.hpp"
 
 namespace jvari {
 
 std::span<const RowFacet> row_facets() {
     static constexpr RowFacet facets[] = {
-        {Facet::dispersion, dispersion_rows}, {Facet::trace, trace_rows},       {Facet::extent, extent_rows},
-        {Facet::profile, profile_rows},       {Facet::envelope, envelope_rows}, {Facet::centroid, centroid_rows},
+        {Facet::dispersion, dispersion_rows},
+        {Facet::trace, trace_rows},
+        {Facet::extent, extent_rows},
+        {Facet::profile, profile_rows},
+        {Facet::envelope, envelope_rows},
+        {Facet::centroid, centroid_rows},
+        {Facet::sound, sound_rows, write_sound_rows},
     };
     return facets;
 }

@@ -2,6 +2,7 @@
 // function and gathered over all cells into a file of the facet's name.
 #pragma once
 
+#include <filesystem>
 #include <span>
 
 #include "bench/records.hpp"
@@ -24,6 +25,8 @@ struct MeasuredCell {  // a cell whose accuracy run reached its end or its failu
 struct RowFacet {
     Facet facet;
     Table (*rows)(const MeasuredCell&);  // may come without rows; repeats bit for bit
+    // Lays what was gathered into the folder of the suite in another form than <facet>.csv.
+    void (*write)(const std::filesystem::path& folder, const Table& gathered) = nullptr;
 };
 std::span<const RowFacet> row_facets();
 

@@ -1,12 +1,11 @@
-// jvari suite: a declared set of comparisons and spectrograms. DIR gets cells/, cells.csv, errors.csv, cost.csv, manifest.json,
-// spectrograms.svg where some were asked for, and report.html.
+// jvari suite: a declared set of comparisons and spectrograms. DIR gets cells/, cells.csv, errors.csv, cost.csv, a file per row facet,
+// manifest.json and the report.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <thread>
 
 #include "bench/cheapest.hpp"
@@ -17,9 +16,9 @@
 #include "bench/fresh_file.hpp"
 #include "bench/machine.hpp"
 #include "bench/map_command.hpp"
+#include "bench/report.hpp"
 #include "bench/row_facet.hpp"
 #include "bench/suite_run.hpp"
-#include "bench/vega.hpp"
 
 namespace jvari {
 
@@ -44,59 +43,6 @@ std::string manifest_of(const Suite& suite, const SuitePlan& plan) {
                 {"system", m.system},         {"date", now_utc()},         {"suite", suite.name}, {"source", suite.source},
                 {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}}
         .dump(2);
-}
-
-std::vector<Panel> panels_of(const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
-    std::set<double> rates;
-    for (const PlannedCell& c : plan.cells)
-        if (c.set->measures(Facet::spectrogram)) rates.insert(c.cell.settings.sample_rate);
-    std::vector<Panel> panels;
-    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
-        const PlannedCell& c = plan.cells[i];
-        if (!c.set->measures(Facet::spectrogram)) continue;
-        Panel p{c.point->scene.name, c.cell.scheme->name, records[i].row.at(0, "status"), records[i].levels};
-        for (const auto& [key, value] : c.point->swept) p.across += fmt::format(", {} = {}", key, value);
-        if (rates.size() > 1) p.down += fmt::format(" at {} Hz", c.cell.settings.sample_rate);
-        if (c.cell.settings.modes > 0) p.down += fmt::format(", {} modes", c.cell.settings.modes);
-        if (const std::string options = options_text(c.cell.settings); !options.empty()) p.down += ", " + options;
-        panels.push_back(std::move(p));
-    }
-    return panels;
-}
-
-std::string escaped(const std::string& text) {
-    std::string html;
-    for (const char c : text) html += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-    return html;
-}
-
-std::string page_of(const Suite& suite, const Table& cells, const std::string& svg, const std::string& manifest) {
-    std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
-        "<title>{0}</title>\n<style>:root{{color-scheme:light dark}}body{{font:15px/1.5 system-ui,'DejaVu Sans',sans-serif;margin:24px}}"
-        ".scroll{{overflow:auto;max-height:70vh}}table{{border-collapse:collapse;font-size:13px}}th,td{{padding:4px 9px;text-align:left;"
-        "white-space:nowrap;border-bottom:1px solid #8886}}</style></head>\n<body><h1>{0}</h1><p>{1}</p>\n",
-        escaped(suite.name), escaped(suite.source));
-    if (!svg.empty()) html += "<div style=\"overflow:auto\">" + svg + "</div>\n";
-    std::vector<std::string> shown;  // columns that say something
-    for (std::size_t k = 0; k < cells.columns.size(); ++k)
-        if (std::any_of(cells.rows.begin(), cells.rows.end(), [k](const auto& row) { return !row[k].empty(); }))
-            shown.push_back(cells.columns[k]);
-    const Table table = cells.only(shown);
-    html += "<div class=\"scroll\"><table><tr>";
-    for (const std::string& name : table.columns) html += "<th>" + escaped(name) + "</th>";
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        html += "</tr>\n<tr>";
-        for (std::size_t k = 0; k < table.columns.size(); ++k) {
-            const std::string &name = table.columns[k], &field = table.rows[i][k];
-            const double x = number_of(field);
-            const bool shorten = field.size() > 9 && !std::isnan(x) && field.find('.') != std::string::npos;
-            const bool below = x < certificate_of(table, i, name);
-            html += "<td>" + escaped(below || shorten ? error_text(table, i, name, "{:.4g}") : field) + "</td>";
-        }
-    }
-    return html + "</tr></table></div>\n<details><summary>Measured with</summary><pre>" + escaped(manifest) +
-           "</pre></details></body></html>\n";
 }
 
 std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
@@ -170,22 +116,12 @@ int suite_command(const SuiteRequest& r) {
             write("cost.csv", csv(clock_only(cells)));
         }
         for (const RowFacet& f : row_facets())
-            if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty())
-                write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
+            if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
+            else if (!rows.rows.empty()) write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
         if (const Table orders = convergence_of(cells); !orders.rows.empty()) write("convergence.csv", csv(orders));
         write("manifest.json", manifest + "\n");
         for (const DrawnFigure& f : draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
-        std::string svg;
-        if (const auto panels = panels_of(plan, run.records); !panels.empty()) {
-            const Vega vega = find_vega();
-            std::string why = vega.missing;
-            std::string tap = plan.points.front().scene.taps.at(plan.points.front().tap).name;
-            const std::string spec = spectrogram_spec(suite.name, fmt::format("spectrograms of {}; {}", tap, suite.source), panels);
-            if (why.empty()) svg = svg_of(vega, spec, why).value_or("");
-            if (svg.empty()) console.note(why);
-            else write("spectrograms.svg", svg);
-        }
-        write("report.html", page_of(suite, cells, svg, manifest));
+        for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
         console.print("written: " + folder.string());
     }
     const int code = exit_code(run.records);

@@ -17,9 +17,10 @@ namespace jvari {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr std::array facet_names = {"errors", "cost", "spectrogram", "dispersion", "trace", "extent", "profile", "envelope", "centroid"};
-constexpr std::array all_facets = {Facet::errors, Facet::cost,    Facet::spectrogram, Facet::dispersion, Facet::trace,
-                                   Facet::extent, Facet::profile, Facet::envelope,    Facet::centroid};
+constexpr std::array facet_names = {"errors", "cost",   "spectrogram", "sound",    "dispersion",
+                                    "trace",  "extent", "profile",     "envelope", "centroid"};
+constexpr std::array all_facets = {Facet::errors, Facet::cost,   Facet::spectrogram, Facet::sound,    Facet::dispersion,
+                                   Facet::trace,  Facet::extent, Facet::profile,     Facet::envelope, Facet::centroid};
 static_assert(facet_names.size() == all_facets.size());
 
 CellSet set_of(const SuiteReader& read, const Value& v, const std::string& within) {

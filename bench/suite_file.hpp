@@ -8,7 +8,7 @@
 //   reference = "exact_contact"                                       (absent: the highest that represents the scene)
 //   options = { "modal_controls:control" = ["a", "b"], name = "x" }   [SCHEME:]NAME, one value or several to vary
 //   sweep = { "string.0.barrier.0.stiffness" = [1e6, 1e8] }           any scene key, each with the values to vary
-//   measure = ["errors", "cost", "spectrogram", "dispersion"]         cost goes with errors alone: no speed without an error
+//   measure = ["errors", "cost", "spectrogram", "sound", "dispersion"]   cost goes with errors alone: no speed without an error
 //   tap = "y03"                        of the spectrogram             (absent: the scene's first)
 //   time_limit_s = 60                  of one accuracy run            (absent: none)
 //   taps, trace, extent, profile, envelope, centroid                  figure_facets.hpp
@@ -28,7 +28,18 @@
 
 namespace jvari {
 
-enum class Facet { errors, cost, spectrogram, dispersion, trace, extent, profile, envelope, centroid };  // what is measured of a cell
+enum class Facet {
+    errors,
+    cost,
+    spectrogram,
+    sound,
+    dispersion,
+    trace,
+    extent,
+    profile,
+    envelope,
+    centroid
+};  // what is measured of a cell
 std::span<const Facet> facets();
 const char* name_of(Facet);
 

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/page.hpp"
+#include "bench/page_text.hpp"
 #include "bench/pareto.hpp"
-#include "bench/report_page.hpp"
 #include "bench/vega.hpp"
 
 namespace jvari {
@@ -25,7 +26,7 @@ WorkPrecision sample() {
                     {"c", "44100", "133", "refused", "", "", "", "", "", "", "", "", "has no </script> thread"}};
     w.errors = error_axes(w.cells, {"", "nut"}, "error_l2_50ms");
     w.costs = cost_axes();
-    w.floors = {{"error_l2_50ms", 1e-12}};
+    w.bands = {{"", "error_l2_50ms", 1e-12, 1e-9}};
     return w;
 }
 
@@ -39,7 +40,8 @@ TEST(Charts, TheSpecificationHoldsEveryCellThatRan) {
     EXPECT_EQ(cells[1].at("label"), "\u00d72");
     EXPECT_TRUE(cells[3].at("error_l2_50ms").is_null());
     EXPECT_EQ(spec.at("params")[0].at("value"), "error_l2_50ms");
-    EXPECT_EQ(spec.at("params")[2].at("value").at("error_l2_50ms"), 1e-12);
+    EXPECT_EQ(spec.at("params")[2].at("value").at("|error_l2_50ms").at("floor"), 1e-12);
+    EXPECT_EQ(spec.at("params")[2].at("value").at("|error_l2_50ms").at("certificate"), 1e-9);
 }
 
 TEST(Charts, TheFrontIsOfSoundCellsAndOfEachChoice) {
@@ -65,13 +67,16 @@ TEST(Charts, NothingInThePageEndsAScriptEarly) {
     EXPECT_EQ(inside_script("x</g,1<2"), "x</g,1<2");
     Page page;
     page.title = "<b>";
-    page.table = R"({"reason": "</script>"})";
-    page.spec = page.manifest = page.choices = "{}";
+    page.manifest = R"({"note": "<!-- </script>"})";
+    page.sections = {{"cells", "Cells"}};
+    page.sections[0].table = {{"reason"}, {{"</script><script>"}}};
     const std::string text = page_of(page);
     EXPECT_NE(text.find("<title>&lt;b></title>"), std::string::npos);
-    EXPECT_NE(text.find(R"("<\/script>")"), std::string::npos);
-    for (const char* mark : {"@TITLE@", "@SCRIPTS@", "@SPEC@", "@TABLE@", "@MANIFEST@", "@CHOICES@", "@MISSING@"})
-        EXPECT_EQ(text.find(mark), std::string::npos) << mark;
+    const std::string data = text.substr(text.find("id=\"data\">") + 10);
+    const auto read = nlohmann::json::parse(data.substr(0, data.find("</script>")));
+    EXPECT_EQ(read.at("sections")[0].at("table").at("rows")[0][0], "</script><script>");
+    EXPECT_EQ(read.at("manifest").at("note"), "<!-- </script>");
+    for (const char* mark : {"@TITLE@", "@STYLE@", "@SCRIPTS@", "@DATA@", "@PROGRAM@"}) EXPECT_EQ(text.find(mark), std::string::npos) << mark;
 }
 
 TEST(Charts, TheSpecificationIsDrawnWhereThePackagesAreInstalled) {

@@ -1,0 +1,12 @@
+// Base64 (RFC 4648, section 4): bytes as text, in a record and in a page.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace jvari {
+
+std::string base64(std::string_view bytes);
+std::string bytes_of_base64(std::string_view text);  // throws std::runtime_error where the text is none
+
+}  // namespace jvari

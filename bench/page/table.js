@@ -1,0 +1,64 @@
+"use strict";
+// Tables that sort: {columns, rows, first}; a button in each heading, its state in aria-sort.
+const element = (name, properties = {}, ...children) => {
+  const e = Object.assign(document.createElement(name), properties);
+  e.append(...children);
+  return e;
+};
+
+function table_of(table, caption) {
+  const at = Object.fromEntries(table.columns.map((name, k) => [name, k]));
+  const number = text => text === "inf" ? Infinity : text === "-inf" ? -Infinity : text === "" || text === undefined ? NaN : Number(text);
+  const texts = new Set(table.columns.filter(name => table.rows.some(row => row[at[name]] !== "" && Number.isNaN(number(row[at[name]])))));
+  const all = element("input", {type: "checkbox"});
+  const head = element("thead"), body = element("tbody");
+  let sorted = null, downward = false;
+
+  const certificate = (row, name) => name.startsWith("error_l2_") ? number(row[at[name.replace("error", "certificate")]]) : NaN;
+  function written(row, name) {
+    const text = row[at[name]];
+    if (texts.has(name) || text === "") return text;
+    const x = number(text), known = certificate(row, name);
+    if (x < known) return "\u2264" + known.toExponential(2);  // the reference is not certain to less
+    if (!Number.isFinite(x)) return x > 0 ? "\u221e" : "\u2212\u221e";
+    if (Number.isInteger(x) && Math.abs(x) < 1e9) return String(x);
+    return Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6 ? x.toExponential(2) : String(Number(x.toPrecision(4)));
+  }
+  function compare(a, b) {
+    const x = a[at[sorted]], y = b[at[sorted]], sign = downward ? -1 : 1;
+    if (texts.has(sorted)) return sign * x.localeCompare(y);
+    const p = number(x), q = number(y);
+    return Number.isNaN(p) ? (Number.isNaN(q) ? 0 : 1) : Number.isNaN(q) ? -1 : p === q ? 0 : sign * (p < q ? -1 : 1);  // nothing goes last
+  }
+  function fill(focused) {
+    const names = all.checked || !table.first.length ? table.columns : table.first.filter(name => name in at);
+    head.replaceChildren(element("tr", {}, ...names.map(name => {
+      const direction = name === sorted ? (downward ? "descending" : "ascending") : "none";
+      const button = element("button", {type: "button"}, name.replaceAll("_", " ") + {none: "", ascending: " \u2191", descending: " \u2193"}[direction]);
+      button.onclick = () => { downward = name === sorted && !downward; sorted = name; fill(name); };
+      const th = element("th", {scope: "col", className: texts.has(name) ? "text" : ""}, button);
+      th.setAttribute("aria-sort", direction);
+      if (name === focused) queueMicrotask(() => button.focus());
+      return th;
+    })));
+    const rows = sorted ? [...table.rows].sort(compare) : table.rows;
+    body.replaceChildren(...rows.map(row => {
+      const status = row[at.status];
+      const tr = element("tr", {className: row[at.pareto] === "1" ? "front" : status === undefined || status === "ok" ? "" : "bad"});
+      for (const name of names) {
+        const td = element("td", {className: (texts.has(name) ? "text " : "") + name}, written(row, name));
+        if (!texts.has(name)) td.title = row[at[name]] + (certificate(row, name) ? `; reference certain to ${certificate(row, name)}` : "");
+        tr.append(td);
+      }
+      return tr;
+    }));
+  }
+  all.onchange = () => fill();
+  fill();
+  const frame = element("div", {className: "scroll", tabIndex: 0}, element("table", {}, head, body));
+  frame.setAttribute("role", "region");
+  frame.setAttribute("aria-label", caption + ", a table");
+  const hint = element("p", {className: "soft"}, "The headings sort. ");
+  if (table.first.length && table.first.length < table.columns.length) hint.append(element("label", {}, all, " every column"));
+  return [hint, frame];
+}

@@ -1,0 +1,39 @@
+// What of a trace is to be heard: the force on the nut, which is what drives the body; 16 bit, scaled to its own peak.
+//
+// As the scheme gave it: not differentiated, no body. A scene without a nut force is heard at its first tap.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace jvari {
+
+struct Sound {
+    double rate = 0;                    // [Hz]
+    double peak = 0;                    // what 32767 stands for, in the tap's unit
+    std::vector<std::int16_t> samples;  // none: nothing to hear
+};
+// None for a signal that is not finite or silent, or a rate that is no whole number.
+Sound sound_of(std::span<const double> signal, double rate);
+
+std::string wav_of(const Sound&);                           // of a .wav file; its peak is not in it
+Sound read_wav(const std::filesystem::path&, double peak);  // throws UsageError
+
+// For ears: at most `longest` seconds, its mean taken away, the ends faded, its root mean square `level` (of full scale 1).
+Sound levelled(const Sound&, double level, double longest);
+double loudest_level(const Sound&);  // that it can be given with its peaks within 0.9 of full scale
+
+struct NamedSound {
+    std::vector<std::string> who;  // the cell columns
+    std::string file;              // without folder and extension
+    std::string tap, quantity;
+    const Sound* sound;
+    std::string reference;  // the file of its reference, "" where there is none
+};
+// sounds/<file>.wav and sounds.csv: who, tap, quantity, sample_rate, peak, file, reference_file.
+void write_sounds(const std::filesystem::path& folder, const std::vector<std::string>& who, const std::vector<NamedSound>&);
+
+}  // namespace jvari

@@ -1,0 +1,194 @@
+// The report of a folder: a section where there is data and none where there is not, each with what its files say. The folder is made up.
+#include "bench/report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/chart_data.hpp"
+#include "bench/page_sections.hpp"
+#include "command_line.hpp"
+
+namespace jvari::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+struct MadeUp : Scratch {  // some of the files
+    explicit MadeUp(const std::vector<std::string>& files) {
+        for (const std::string& name : files) fs::copy_file(fs::path(JVARI_MADE_UP_RESULTS) / name, path / name);
+    }
+};
+const std::vector<std::string> every_file{"manifest.json", "cells.csv", "dispersion.csv", "convergence.csv",
+                                          "scaling.csv",   "maps.csv",  "boundaries.csv", "others.svg"};
+
+Json data_of(const std::string& page) {
+    const auto from = page.find("id=\"data\">") + 10;
+    return Json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+std::vector<std::string> choices_of(const Chart& c, const std::string& signal) {
+    std::vector<std::string> choices;
+    for (const Menu& m : c.menus)
+        if (m.signal == signal)
+            for (const auto& [value, text] : m.choices) choices.push_back(Json::parse(value));
+    return choices;
+}
+
+Json value_of(const Json& spec, const std::string& parameter) {
+    for (const Json& p : spec.at("params"))
+        if (p.at("name") == parameter) return p.at("value");
+    return nullptr;
+}
+
+TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
+    const MadeUp folder(every_file);
+    const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    ASSERT_EQ(o.code, 0) << o.err;
+    const Json data = data_of(content(folder / "report.html"));
+    std::vector<std::string> headings;
+    for (const Json& s : data.at("sections")) headings.push_back(s.at("heading"));
+    EXPECT_EQ(headings, (std::vector<std::string>{"Convergence", "Cost", "Where methods fail", "Figures", "Cells"}));
+    EXPECT_NE(data.at("missing").get<std::string>().find("npm ci"), std::string::npos);
+    EXPECT_EQ(data.at("manifest").at("suite"), "made up");
+    for (const auto& entry : fs::directory_iterator(folder.path))
+        EXPECT_TRUE(entry.path().extension() != ".svg" || entry.path().filename() == "others.svg") << entry.path();
+}
+
+TEST(Report, SectionsWithoutDataDoNotAppear) {
+    const MadeUp folder({"manifest.json", "maps.csv"});
+    const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_TRUE(data_of(content(folder / "report.html")).at("sections").empty());  // no boundaries: a chart alone, and nothing draws
+    const Results r = read_results(folder.path);
+    EXPECT_EQ(map_section(r).charts.size(), 2u);
+    for (const Section& s : {work_precision_section(r), dispersion_section(r), convergence_section(r), cost_section(r),
+                             spectrogram_section(r), waveform_section(r), cell_section(r)})
+        EXPECT_TRUE(s.charts.empty() && s.table.rows.empty() && s.sounds.empty()) << s.id;
+}
+
+TEST(Report, AFolderWithoutResultsIsRefused) {
+    const Scratch empty;
+    EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
+    std::ofstream(empty / "cells.csv") << "scheme\na\n";
+    EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
+    std::ofstream(empty / "manifest.json") << "{";
+    EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
+}
+
+TEST(Report, OnlyRunsOfOneSceneAtOneSweptPointAreCompared) {
+    const MadeUp folder(every_file);
+    const Results r = read_results(folder.path);
+    const Section s = work_precision_section(r);
+    ASSERT_EQ(s.charts.size(), 1u);
+    const std::vector<std::string> problems{"a, string.0.tension = 30", "a, string.0.tension = 31", "b, string.0.tension = 30",
+                                            "b, string.0.tension = 31"};
+    EXPECT_EQ(choices_of(s.charts[0], "problem_field"), problems);
+    const Json spec = Json::parse(s.charts[0].spec);
+    // "one" has the least error at each rate and the least cost: it alone is on the front of each problem.
+    for (const Json& f : spec.at("datasets").at("fronts"))
+        EXPECT_EQ(f.at("cost") != "cost_s_per_s" || f.at("key").get<std::string>().find("|one|") != std::string::npos, true) << f.at("key");
+    EXPECT_EQ(s.charts[0].twins.size(), 4u);
+    const Json twin = Json::parse(s.charts[0].twins[2].spec);
+    EXPECT_EQ(s.charts[0].twins[2].file, "work_precision-b-string.0.tension-30.svg");
+    for (const Json& c : twin.at("datasets").at("cells")) EXPECT_EQ(c.at("problem"), problems[2]);
+}
+
+TEST(Report, NoiseFloorAndCertificateAreOfTheSceneAndTheErrorThatIsShown) {
+    const MadeUp folder(every_file);
+    const Json bands = value_of(Json::parse(work_precision_section(read_results(folder.path)).charts[0].spec), "bands");
+    EXPECT_EQ(bands.at("a, string.0.tension = 30|error_l2_50ms").at("floor"), 2e-3);
+    EXPECT_EQ(bands.at("a, string.0.tension = 30|error_l2_50ms").at("certificate"), 4e-3);
+    EXPECT_EQ(bands.at("b, string.0.tension = 30|error_l2_50ms").at("floor"), 1e-12);
+    EXPECT_FALSE(bands.at("b, string.0.tension = 30|error_l2_50ms").contains("certificate"));
+    EXPECT_FALSE(bands.contains("a, string.0.tension = 30|error_l2_10ms"));
+}
+
+TEST(Report, OrdersAreThoseOfTheFileWhereItHasThemElseOfTheCells) {
+    const MadeUp folder(every_file);
+    const Section s = convergence_section(read_results(folder.path));
+    const Json orders = value_of(Json::parse(s.charts.at(0).spec), "orders");
+    EXPECT_EQ(orders.at("a, string.0.tension = 30|one|error_l2_50ms"), "1.99 \u00b1 0.05");  // convergence.csv
+    const std::string own = orders.at("b, string.0.tension = 31|one|error_l2_50ms");         // 0.15 x 4^-k
+    EXPECT_EQ(own.substr(0, 5), "2.00 ");
+    const std::string three = orders.at("a, string.0.tension = 31|three <b>|error_l2_50ms");  // 0.1 x 2^-k
+    EXPECT_EQ(three.substr(0, 5), "1.00 ");
+    EXPECT_EQ(s.table.column("series"), -1);
+    EXPECT_EQ(s.table.rows.size(), 4u);
+}
+
+TEST(Report, ErrorsBelowTheirNoiseFloorHaveNoOrder) {
+    const MadeUp folder({"manifest.json", "cells.csv"});
+    const Section s = convergence_section(read_results(folder.path));
+    int seen = 0;
+    for (std::size_t i = 0; i < s.table.rows.size(); ++i)
+        if (s.table.at(i, "scene") == "a, string.0.tension = 30" && s.table.at(i, "scheme") == "one" &&
+            s.table.at(i, "error") == "error_l2_50ms") {
+            EXPECT_EQ(s.table.at(i, "points"), "3");  // 0.1 x 4^-3 = 1.56e-3 lies below the floor of 2e-3
+            ++seen;
+        }
+    EXPECT_EQ(seen, 1);
+}
+
+TEST(Report, DispersionIsDrawnRateByRateWithDecaysRelativeToTheTrueOnes) {
+    const MadeUp folder(every_file);
+    const Section s = dispersion_section(read_results(folder.path));
+    ASSERT_EQ(s.charts.size(), 1u);
+    EXPECT_EQ(choices_of(s.charts[0], "rate_field"), (std::vector<std::string>{"44100", "88200"}));
+    const Json rows = Json::parse(s.charts[0].spec).at("datasets").at("rows");
+    ASSERT_EQ(rows.size(), 120u);
+    EXPECT_NEAR(rows[70].at("own_decay").get<double>(), -1e-3 * rows[70].at("mode").get<double>(), 2e-5);
+    EXPECT_TRUE(rows[4].at("trace_decay").is_null());  // an empty field
+}
+
+TEST(Report, CostHasAChartOfWhatScalesAndOneOfWhatEachElementAdds) {
+    const MadeUp folder(every_file);
+    const Section s = cost_section(read_results(folder.path));
+    ASSERT_EQ(s.charts.size(), 2u);
+    EXPECT_EQ(choices_of(s.charts[0], "what_field"), (std::vector<std::string>{"modes", "contacts"}));
+    EXPECT_EQ(Json::parse(s.charts[1].spec).at("datasets").at("rows").size(), 10u);
+}
+
+TEST(Report, MapsHoldTheirBoundariesAndTheory) {
+    const MadeUp folder(every_file);
+    const Section s = map_section(read_results(folder.path));
+    ASSERT_EQ(s.charts.size(), 2u);
+    EXPECT_EQ(choices_of(s.charts[0], "series_field"), (std::vector<std::string>{"one", "two"}));
+    const Json spec = Json::parse(s.charts[0].spec);
+    EXPECT_EQ(spec.at("encoding").at("x").at("scale").at("type"), "log");
+    EXPECT_EQ(Json::parse(s.charts[1].spec).at("encoding").at("x").at("scale").at("type"), "linear");
+    int boundaries = 0;
+    for (const Json& row : spec.at("datasets").at("rows")) {
+        if (row.at("kind") != "boundary") continue;
+        ++boundaries;
+        EXPECT_NEAR(row.at("theory").get<double>() / row.at("x").get<double>(), 1.2, 1e-3);
+    }
+    EXPECT_EQ(boundaries, 8);
+    EXPECT_EQ(s.table.rows.size(), 8u);
+}
+
+TEST(Report, PicturesOfOthersStandInThePageAndItsOwnDoNot) {
+    const MadeUp folder(every_file);
+    std::ofstream(folder / "dispersion.svg") << "<svg/>";
+    const Results r = read_results(folder.path);
+    const Section s = picture_section(r, {"dispersion.svg"});
+    ASSERT_EQ(s.pictures.size(), 1u);
+    EXPECT_EQ(s.pictures[0].name, "others");
+}
+
+TEST(Report, ATableThatWouldBeTooLargeKeepsItsFirstColumnsAndSaysSo) {
+    Page page;
+    page.manifest = "{}";
+    page.sections = {{"cells", "Cells"}};
+    Section& s = page.sections[0];
+    s.table.columns = {"scheme", "rate", "much"};
+    s.first_columns = {"scheme", "rate"};
+    s.table.rows.assign(2000, {"a", "44100", std::string(1000, 'x')});
+    const std::string text = page_of(page);
+    EXPECT_LT(text.size(), table_limit);
+    const Json section = data_of(text).at("sections").at(0);
+    EXPECT_EQ(section.at("table").at("columns"), (std::vector<std::string>{"scheme", "rate"}));
+    EXPECT_EQ(section.at("left_out").size(), 1u);
+}
+
+}  // namespace
+}  // namespace jvari::test
