@@ -116,6 +116,9 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
         EXPECT_NEAR(profile.number(i, "displacement_m"), m.y(profile.number(i, "position_m"), t), digits);
     }
     EXPECT_NEAR(profile.number(9, "time_s"), 0.123456, 0.5 / 44100);
+    EXPECT_EQ(profile.number(0, "position_m"), 0);
+    EXPECT_EQ(profile.number(2, "position_m"), 0.25);
+    EXPECT_EQ(profile.number(8, "position_m"), 1);
 
     const Table trace = rows(Facet::trace);
     int energies = 0;
