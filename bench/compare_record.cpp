@@ -16,8 +16,17 @@ namespace jvari {
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* cost_columns[] = {"cost_s_per_s",       "cost_lower",  "cost_upper",      "wall_seconds", "wall_seconds_lower",
-                                        "wall_seconds_upper", "ns_per_step", "times_real_time", "worst_block_of_deadline", "repeats", "pareto"};
+constexpr const char* cost_columns[] = {"cost_s_per_s",
+                                        "cost_lower",
+                                        "cost_upper",
+                                        "wall_seconds",
+                                        "wall_seconds_lower",
+                                        "wall_seconds_upper",
+                                        "ns_per_step",
+                                        "times_real_time",
+                                        "worst_block_of_deadline",
+                                        "repeats",
+                                        "pareto"};
 
 double error_in(const Cell& cell, int tap, int measure) {
     return cell.errors.empty() ? nan : cell.errors[tap][measure];

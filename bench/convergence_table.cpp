@@ -89,9 +89,9 @@ Table convergence_of(const Table& cells, const std::string& scene) {
                 for (const std::string& name : naming) row.push_back(cells.at(rows.front(), name));
                 if (cells.column("options") < 0) row.emplace_back();
                 row.push_back(modes.size() == 1 ? *modes.begin() : "");
-                for (const std::string& field : {tap, std::string(w.name), text_of(o.order),
-                                                 std::isfinite(o.half_width) ? text_of(o.half_width) : std::string(),
-                                                 std::to_string(o.points), text_of(*low), text_of(*high)})
+                for (const std::string& field :
+                     {tap, std::string(w.name), text_of(o.order), std::isfinite(o.half_width) ? text_of(o.half_width) : std::string(),
+                      std::to_string(o.points), text_of(*low), text_of(*high)})
                     row.push_back(field);
             }
     return t;

@@ -28,7 +28,8 @@ double sample(const Timed& t, const Scene& scene) {
         const Run r = run(*scheme, scene, t.cell->settings, options);
         seconds += r.wall_seconds;
         const double deadline = options.block_rows / t.cell->settings.tap_rate;
-        if (r.worst_block > 0 && r.status.outcome == Outcome::ok) t.cell->worst_block = std::fmin(t.cell->worst_block, r.worst_block / deadline);
+        if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
+            t.cell->worst_block = std::fmin(t.cell->worst_block, r.worst_block / deadline);
     }
     return seconds / t.runs;
 }

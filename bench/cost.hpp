@@ -8,11 +8,11 @@
 
 namespace jvari {
 
-// The worst block: the longest of 64 rows over the time those rows sound, in the run where it was shortest, so that it is the scheme's worst
-// and not what the machine did meanwhile. The first block of a run and failed runs do not count.
+// The worst block: the longest of 64 rows over the time those rows sound, in the run where it was shortest, so that it is the scheme's
+// worst and not what the machine did meanwhile. The first block of a run and failed runs do not count.
 //
-// Fills Cell::wall and Cell::worst_block of every cell that was run. A sample of a short run is the mean of as many runs back to back as last 20 ms; a cell that
-// takes longer than 10 s for all its repeats gets fewer, two at least.
+// Fills Cell::wall and Cell::worst_block of every cell that was run. A sample of a short run is the mean of as many runs back to back as
+// last 20 ms; a cell that takes longer than 10 s for all its repeats gets fewer, two at least.
 void time_cells(std::vector<Cell>&, const Scene&, int repeats, const Console&);
 
 }  // namespace jvari

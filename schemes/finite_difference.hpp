@@ -93,7 +93,7 @@ struct GridString {
     std::optional<Pluck> pluck;
     Stencil pluck_stencil;
     double compliance = 0;  // of the first contact under a steady force, relative to the scene's string; 0 unless it is lumped
-    double narrowest = 0;  // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
+    double narrowest = 0;   // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
     std::vector<GridTap> taps;
 };
 // The same relations of a string on its grid; m and m4 as in three_point_string.hpp.

@@ -1,8 +1,8 @@
 // The seam for schemes on grids, and what their strings write and sum: one stepped string per string of the scene, each adding its part to
 // the taps and the energy columns.
 //
-// OneString has reset(), Status advance(const Block&) that adds to columns, dofs(), facts(), free_modes(). Strings do not act on each other, so each
-// runs through the whole block on its own.
+// OneString has reset(), Status advance(const Block&) that adds to columns, dofs(), facts(), free_modes(). Strings do not act on each
+// other, so each runs through the whole block on its own.
 #pragma once
 
 #include <algorithm>

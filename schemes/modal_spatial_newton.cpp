@@ -111,8 +111,7 @@ public:
 
     std::vector<FreeMode> free_modes() const override {
         std::vector<FreeMode> all;
-        for (int j = 0; j < p_.modes.count(); ++j)
-            all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
+        for (int j = 0; j < p_.modes.count(); ++j) all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
         return all;
     }
 

@@ -57,7 +57,9 @@ public:
         if (!s_.profile.empty()) ledger_.report(facts);
         return facts;
     }
-    std::vector<FreeMode> free_modes() const override { return planes == 1 && w_.peg.a.empty() ? s_.free_modes() : std::vector<FreeMode>{}; }
+    std::vector<FreeMode> free_modes() const override {
+        return planes == 1 && w_.peg.a.empty() ? s_.free_modes() : std::vector<FreeMode>{};
+    }
 
 private:
     // Circular rails: the wave at `distance` cells from the end it left lies that many places behind the head, before the loss on the way.

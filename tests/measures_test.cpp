@@ -1,0 +1,189 @@
+// What a suite measures beside errors: dispersion and compliance of the schemes, observed orders, the cheapest cells.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bench/catalogue.hpp"
+#include "bench/cheapest.hpp"
+#include "bench/convergence_table.hpp"
+#include "bench/dispersion_facet.hpp"
+#include "bench/summary.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari {
+namespace {
+
+using std::numbers::pi;
+
+const Descriptor& scheme_named(const std::string& name) {
+    for (const Descriptor& d : schemes())
+        if (name == d.name) return d;
+    throw std::runtime_error(name);
+}
+
+Table rows_for(const std::string& scheme, const std::string& scene_name, double rate, std::vector<std::string> set = {},
+               double duration = 0.3) {
+    const Scene scene = load_scene(scene_name, set, duration);
+    Settings settings;
+    settings.sample_rate = rate;
+    const Descriptor& d = scheme_named(scheme);
+    const Run r = run(d, scene, settings);
+    return dispersion_rows({scene, d, settings, r.trace, nullptr, 0});
+}
+
+// ---- Dispersion
+
+TEST(Dispersion, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
+    for (const char* name : {"modal_two_point", "modal_two_point_trapezoidal", "modal_spatial_newton", "modal_quadratised_three_point",
+                             "finite_difference_explicit", "finite_difference_theta", "finite_difference_hamiltonian"}) {
+        const Table t = rows_for(name, "free_string", 88200, {"string.0.initial.position=0.2137"});
+        ASSERT_EQ(t.rows.size(), 30u) << name;
+        for (std::size_t i = 0; i < t.rows.size(); ++i) {
+            EXPECT_NEAR(t.number(i, "own_cents"), t.number(i, "trace_cents"), 1e-5) << name << " mode " << i + 1;
+            EXPECT_NEAR(t.number(i, "own_decay_per_s"), t.number(i, "trace_decay_per_s"), 1e-4) << name << " mode " << i + 1;
+        }
+    }
+}
+
+TEST(Dispersion, ExactCoefficientsAreExactAndTrapezoidalOnesWarpByTheirArctangent) {
+    const double dt = 1 / 44100.0;
+    const Table exact = rows_for("modal_two_point", "free_string", 44100),
+                warped = rows_for("modal_two_point_trapezoidal", "free_string", 44100);
+    for (std::size_t i = 0; i < exact.rows.size(); ++i) {
+        const double omega = 2 * pi * exact.number(i, "frequency_hz");
+        EXPECT_NEAR(exact.number(i, "own_cents"), 0, 1e-9);
+        EXPECT_NEAR(exact.number(i, "own_decay_per_s"), exact.number(i, "decay_per_s"), 1e-9);
+        EXPECT_NEAR(warped.number(i, "own_cents"), 1200 * std::log2(2 / dt * std::atan(omega * dt / 2) / omega),
+                    1e-3);  // to sigma^2/omega^2
+    }
+}
+
+TEST(Dispersion, TheSitarOfIntegerLengthIsSharpByAsMuchAsThePaperSays) {
+    const Table t = rows_for("sitar_waveguide", "sitar_c5_decay", 44100);
+    ASSERT_GT(t.rows.size(), 10u);
+    EXPECT_NEAR(t.number(0, "own_cents"), 5.78, 0.01);  // 42 samples: 525 Hz in place of 523.25
+    EXPECT_NEAR(t.number(0, "trace_cents"), t.number(0, "own_cents"), 1e-6);
+    EXPECT_EQ(t.at(1, "note"), "not heard");  // plucked in the middle: even modes are silent
+    EXPECT_EQ(t.at(1, "trace_cents"), "");
+}
+
+TEST(Dispersion, AStringAgainstABridgeHasNoModesOfItsOwnToHear) {
+    const Table t = rows_for("modal_two_point", "tanpura_c3_release", 44100, {}, 0.05);
+    ASSERT_FALSE(t.rows.empty());
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        EXPECT_EQ(t.at(i, "trace_cents"), "");
+        EXPECT_EQ(t.at(i, "note"), "contact: the trace has no modes of its own");
+    }
+}
+
+// ---- Static compliance at the bridge
+
+double compliance(const std::string& scheme, double rate) {
+    const Scene scene = load_scene("tanpura_c3_release", {}, 0.001);
+    Settings settings;
+    settings.sample_rate = rate;
+    return fact(run(scheme_named(scheme), scene, settings).facts, "static_compliance");
+}
+
+TEST(Compliance, ExactModesDoNotMakeAnExactForcedResponse) {  // 0.926 and 1.045: an independent prototype's, C3, 133 modes, 44.1 kHz
+    EXPECT_NEAR(compliance("modal_two_point", 44100), 0.926, 5e-4);
+    EXPECT_NEAR(compliance("modal_quadratised", 44100), 0.926, 5e-4);
+    EXPECT_NEAR(compliance("modal_spatial_newton", 44100), 1.045, 5e-4);
+    EXPECT_NEAR(compliance("modal_explicit_penalty", 44100), 1.045, 5e-4);
+    EXPECT_NEAR(compliance("modal_two_point_trapezoidal", 44100), 1, 1e-12);  // omega0^2 dt^2/4 is the true stiffness
+}
+
+TEST(Compliance, GoesToTheTrueOneWithTheSquareOfTheStep) {
+    for (const char* name : {"modal_two_point", "modal_spatial_newton"}) {
+        const double coarse = compliance(name, 88200) - 1, fine = compliance(name, 176400) - 1;
+        EXPECT_NEAR(coarse / fine, 4, 0.1) << name;
+    }
+    EXPECT_NEAR(compliance("finite_difference_explicit", 1411200), 1, 2e-3);
+}
+
+// ---- Observed orders
+
+Table cells_with(const std::vector<std::vector<std::string>>& rows) {
+    Table t;
+    t.columns = {"cell",
+                 "scene",
+                 "scheme",
+                 "options",
+                 "rate",
+                 "modes",
+                 "status",
+                 "flags",
+                 "error_l2_50ms",
+                 "error_l2_10ms_nut",
+                 "floor_error_l2_10ms_nut",
+                 "third_octave_db",
+                 "cost_s_per_s",
+                 "cost_lower",
+                 "cost_upper"};
+    t.rows = rows;
+    return t;
+}
+
+TEST(ConvergenceTable, FitsWhatServesAndSaysFromWhereToWhere) {
+    const Table t = convergence_of(cells_with({
+        {"1", "s", "a", "", "100", "10", "ok", "", "", "1.5", "1e-9", "", "", "", ""},   // nothing of the waveform is right
+        {"2", "s", "a", "", "200", "20", "ok", "", "", "0.04", "1e-9", "", "", "", ""},  // order 2
+        {"3", "s", "a", "", "400", "40", "ok", "", "", "0.01", "1e-9", "", "", "", ""},
+        {"4", "s", "a", "", "800", "80", "ok", "", "", "0.0025", "1e-9", "", "", "", ""},
+        {"5", "s", "a", "", "1600", "160", "ok", "", "", "1e-9", "1e-9", "", "", "", ""},  // the floor
+        {"6", "s", "a", "", "3200", "320", "diverged", "", "", "inf", "1e-9", "", "", "", ""},
+        {"7", "s", "b", "", "100", "10", "ok", "", "", "0.1", "1e-9", "", "", "", ""},
+        {"8", "s", "b", "", "200", "10", "ok", "", "", "0.05", "1e-9", "", "", "", ""},
+    }));
+    ASSERT_EQ(t.rows.size(), 2u);
+    EXPECT_NEAR(t.number(0, "order"), 2, 1e-9);
+    EXPECT_NEAR(t.number(0, "half_width"), 0, 1e-6);
+    EXPECT_EQ(t.at(0, "points"), "3");
+    EXPECT_EQ(t.at(0, "from_hz"), "200");
+    EXPECT_EQ(t.at(0, "to_hz"), "800");
+    EXPECT_EQ(t.at(0, "modes"), "");  // a grid's change with the rate
+    EXPECT_EQ(t.at(0, "window"), "10ms");
+    EXPECT_EQ(t.at(0, "tap"), "nut");
+    EXPECT_NEAR(t.number(1, "order"), 1, 1e-9);
+    EXPECT_EQ(t.at(1, "modes"), "10");
+    EXPECT_EQ(t.at(1, "half_width"), "");  // two points leave no scatter to judge by
+}
+
+TEST(ConvergenceTable, ModesThatAreSweptAreSeriesOfTheirOwn) {
+    const Table t = convergence_of(cells_with({
+        {"1", "s", "a", "", "100", "10", "ok", "", "", "0.1", "0", "", "", "", ""},
+        {"2", "s", "a", "", "200", "10", "ok", "", "", "0.05", "0", "", "", "", ""},
+        {"3", "s", "a", "", "100", "20", "ok", "", "", "0.1", "0", "", "", "", ""},
+        {"4", "s", "a", "", "200", "20", "ok", "", "", "0.025", "0", "", "", "", ""},
+    }));
+    ASSERT_EQ(t.rows.size(), 2u);
+    EXPECT_NEAR(t.number(0, "order"), 1, 1e-9);
+    EXPECT_NEAR(t.number(1, "order"), 2, 1e-9);
+}
+
+// ---- The cheapest
+
+TEST(Cheapest, IsTheLeastCostAmongTheSoundCellsThatAreAccurateEnough) {
+    const Table t = cheapest_of(cells_with({
+        {"1", "s", "a", "", "100", "10", "ok", "", "0.2", "", "", "0.5", "1", "0.9", "1.1"},
+        {"2", "s", "a", "", "200", "10", "ok", "", "0.009", "", "", "0.5", "3", "2.9", "3.1"},
+        {"3", "s", "b", "", "100", "10", "ok", "", "0.05", "", "", "4", "2", "1.9", "2.1"},
+        {"4", "s", "c", "", "100", "10", "ok", "adhesion", "0.0001", "", "", "0.1", "0.5", "0.4", "0.6"},  // pulls
+        {"5", "s", "d", "", "100", "10", "diverged", "", "inf", "", "", "inf", "0.1", "0.1", "0.1"},
+        {"6", "s", "e", "", "100", "10", "ok", "", "0.04", "", "", "4", "2.2", "2.05", "2.3"},  // touches b
+    }));
+    ASSERT_EQ(t.rows.size(), 5u);
+    EXPECT_EQ(t.at(0, "scheme"), "b");  // 10 %
+    EXPECT_EQ(t.at(0, "ties"), "e");
+    EXPECT_EQ(t.at(1, "scheme"), "a");  // 1 %
+    EXPECT_EQ(t.at(1, "rate"), "200");
+    EXPECT_EQ(t.at(2, "scheme"), "");   // 0.1 %
+    EXPECT_EQ(t.at(3, "scheme"), "a");  // 3 dB
+    EXPECT_EQ(t.at(3, "rate"), "100");
+    EXPECT_NE(cheapest_text(t).find("within 0.1 %   none"), std::string::npos) << cheapest_text(t);
+}
+
+}  // namespace
+}  // namespace jvari

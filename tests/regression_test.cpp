@@ -1,0 +1,91 @@
+// The smoke suite against results/smoke: has a number of any scheme moved by more than rounding can move it?
+//
+// Tolerance of an error figure: 100 times its noise floor (what a relative change of the start of 1e-12 makes of the reference, on that
+// scene, window and tap) and 1e-9 of the figure. So it covers what changes of 1e-10 would do: another vector width or compiler changes the
+// order of sums, by 1e-13 to 4e-11 over these runs, and a changed equation is out by far more. Facts and the modes' own frequencies
+// follow from closed forms: 1e-9. What is read from a trace by the matrix pencil: 1e-4 cents.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "bench/records.hpp"
+#include "command_line.hpp"
+
+namespace jvari::test {
+namespace {
+
+constexpr double floors = 100, rounding = 1e-9;
+
+using Rows = std::map<std::string, std::size_t>;
+Rows rows_by_name(const Table& t, const std::vector<std::string>& names) {
+    Rows rows;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        std::string key;
+        for (const std::string& name : names) key += t.at(i, name) + " ";
+        rows[key] = i;
+    }
+    return rows;
+}
+
+struct Tally {
+    int compared = 0, different = 0;
+    void number(double then, double now, double tolerance, const std::string& what) {
+        ++compared;
+        if (std::isnan(then) && std::isnan(now)) return;
+        if (then == now || std::abs(then - now) <= tolerance) return;
+        if (++different <= 20) ADD_FAILURE() << what << ": was " << then << ", is " << now << ", tolerance " << tolerance;
+    }
+};
+
+TEST(Regression, TheSmokeSuiteIsWhatItWasWhenItWasRecorded) {
+    const std::filesystem::path kept = std::filesystem::path(JVARI_SOURCE) / "results" / "smoke";
+    const Scratch scratch;
+    std::string suite = content(std::filesystem::path(JVARI_SOURCE) / "bench" / "suites" / "smoke.toml");
+    for (std::size_t at; (at = suite.find("\"cost\"")) != std::string::npos;) suite.replace(at, 6, "\"errors\"");  // no clock here
+    std::ofstream(scratch / "smoke.toml") << suite;
+    const Outcome o = jvari(scratch, "suite " + (scratch / "smoke.toml") + " --jobs 2 --quiet --out " + (scratch / "now"));
+    ASSERT_EQ(o.code, 0) << o.err;
+
+    const Table then = read_csv(content(kept / "errors.csv")), now = read_csv(content(scratch / "now/errors.csv"));
+    const std::vector<std::string> names{"scene", "scheme", "options", "rate"};
+    const Rows was = rows_by_name(then, names), is = rows_by_name(now, names);
+    ASSERT_EQ(was.size(), is.size());
+    EXPECT_EQ(was.size(), then.rows.size()) << "two rows of one name";
+    Tally tally;
+    for (const auto& [name, i] : was) {
+        ASSERT_TRUE(is.contains(name)) << name;
+        const std::size_t k = is.at(name);
+        for (const char* column : {"modes", "status", "flags", "dofs", "state_bytes", "reference"})
+            EXPECT_EQ(then.at(i, column), now.at(k, column)) << name << column;
+        for (const std::string& column : then.columns) {
+            const std::string floor = "floor_" + column;
+            const double old = then.number(i, column);
+            if (then.column(floor) >= 0)
+                tally.number(old, now.number(k, column), floors * then.number(i, floor) + rounding * std::abs(old), name + column);
+        }
+        for (const char* fact : {"fact_static_compliance", "fact_start_phase_offset", "fact_loss_fit_misfit", "fact_grid_intervals"})
+            tally.number(then.number(i, fact), now.number(k, fact), rounding * std::abs(then.number(i, fact)), name + fact);
+    }
+    EXPECT_GT(tally.compared, 1000);
+
+    const Table modes_then = read_csv(content(kept / "dispersion.csv")), modes_now = read_csv(content(scratch / "now/dispersion.csv"));
+    const std::vector<std::string> mode{"scene", "scheme", "options", "rate", "mode"};
+    const Rows mode_was = rows_by_name(modes_then, mode), mode_is = rows_by_name(modes_now, mode);
+    ASSERT_EQ(mode_was.size(), mode_is.size());
+    for (const auto& [name, i] : mode_was) {
+        ASSERT_TRUE(mode_is.contains(name)) << name;
+        const std::size_t k = mode_is.at(name);
+        const auto number = [&](const char* column, double tolerance) {
+            tally.number(modes_then.number(i, column), modes_now.number(k, column), tolerance, name + column);
+        };
+        number("own_cents", 1e-8);
+        number("own_decay_per_s", 1e-8);
+        number("trace_cents", 1e-4);
+        number("trace_decay_per_s", 1e-3);
+    }
+    EXPECT_EQ(tally.different, 0) << "of " << tally.compared << " numbers";
+}
+
+}  // namespace
+}  // namespace jvari::test
