@@ -8,7 +8,7 @@
 //   3. the first sign change of any gap by Bernstein isolation: no contact deeper than 2 x the bound is missed
 //   4. the modal state at the end from the forces' moments                        (one pass over the modes)
 // Windows end at events, rows and the pluck's ends. After an event the gap is exactly zero, and the search divides that root out.
-// Leaves out: exponents other than 1, contact loss, profiles, several strings.
+// A profile acts as the points of profile_points.hpp. Leaves out: exponents other than 1, contact loss, several strings.
 #include <gsl/gsl_integration.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include "reference/bernstein.hpp"
 #include "reference/oscillators.hpp"
 #include "reference/pluck_series.hpp"
+#include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "reference/springs.hpp"
@@ -340,6 +341,7 @@ double ExactContact::stored() const noexcept {
 
 std::vector<Fact> ExactContact::facts() const {
     return {{"events", extremes_.events, ""},
+            {"contact_points", double(springs_.contacts), ""},
             {"windows", extremes_.windows, ""},
             {"smallest_contact_force", extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0, "N"},
             {"deepest_penetration", extremes_.deepest, "m"},
@@ -348,13 +350,14 @@ std::vector<Fact> ExactContact::facts() const {
 
 std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     refuse_missing(exact_contact, scene);
-    refuse_unknown_options(settings, {"window"});
+    refuse_unknown_options(settings, {"window", "nodes"});
     const double window = number_option(settings, "window", 1);
     if (!(window > 0 && window <= 1)) throw Refusal("option window: expected a factor above 0 and no larger than 1");
-    const String& s = scene.strings.at(0);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    return std::make_unique<ExactContact>(s, scene, modes_of(s, modes_for(s, unsampled)), settings.tap_rate, window);
+    const int modes = modes_for(scene.strings.at(0), unsampled);
+    const String s = with_points(scene.strings.at(0), modes, profile_points(settings));
+    return std::make_unique<ExactContact>(s, scene, modes_of(s, modes), settings.tap_rate, window);
 }
 }  // namespace
 
@@ -362,8 +365,8 @@ const Descriptor exact_contact = {"exact_contact",
                                   "piecewise linear system of van Walstijn et al. 2016, eqs 1-22, exact between events",
                                   Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
                                       Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                                      Features(Feature::several_barriers) | Features(Feature::thread) | Features(Feature::initial_shape) |
-                                      Features(Feature::pluck),
+                                      Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::thread) |
+                                      Features(Feature::initial_shape) | Features(Feature::pluck),
                                   Balance::to_tolerance,
                                   Clock::continuous,
                                   make};

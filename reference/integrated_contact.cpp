@@ -4,12 +4,13 @@
 // touched the motion is linear and flies exactly, its next contact isolated rigorously (flight.hpp); while one is, SUNDIALS integrates to a
 // stated tolerance and finds the crossings (integrator.hpp). With flight = integrate everything is integrated, by steps short enough for
 // root finding to see contacts, which is a belief and not a bound: it is there to be compared with.
-// Leaves out: profiles, several strings, polarisation.
+// A profile acts as the points of profile_points.hpp. Leaves out: several strings, polarisation.
 #include <algorithm>
 #include <cmath>
 
 #include "reference/flight.hpp"
 #include "reference/integrator.hpp"
+#include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 
@@ -189,10 +190,7 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
 }
 
 double IntegratedContact::pace() noexcept {
-    double fastest = flight_.springs.growth(untouched_.data()) * flight_.osc.rate;
-    for (int a = 0; a < equations_.contacts; ++a)
-        if (equations_.touched[a]) fastest = std::max(fastest, equations_.pace(a, integrator_.state()));
-    return fastest;
+    return std::max(flight_.springs.growth(untouched_.data()) * flight_.osc.rate, equations_.pace(integrator_.state()));
 }
 
 double IntegratedContact::stored() const noexcept {
@@ -214,6 +212,7 @@ double IntegratedContact::stored() const noexcept {
 std::vector<Fact> IntegratedContact::facts() const {
     const auto effort = integrator_.effort();
     std::vector<Fact> facts = {{"events", events_, ""},
+                               {"contact_points", double(equations_.contacts), ""},
                                {"integrator_steps", effort.steps, ""},
                                {"slope_evaluations", effort.slopes, ""},
                                {"linear_solves", effort.solves, ""},
@@ -243,7 +242,8 @@ double above_zero(const Settings& settings, const char* name, double fallback) {
 
 std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     refuse_missing(sundials, scene);
-    refuse_unknown_options(settings, {"method", "order", "rtol", "floor", "linear_solver", "flight", "first_step", "longest_step"});
+    refuse_unknown_options(settings,
+                           {"method", "order", "rtol", "floor", "linear_solver", "flight", "first_step", "longest_step", "nodes"});
     Choice choice;
     Integrator::Settings& i = choice.integrator;
     i.method = chosen<Method>(settings, "method", "erk",
@@ -265,21 +265,23 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     if (order != std::floor(order) || order < lowest || order > highest)
         throw Refusal("option order: expected a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
     i.order = static_cast<int>(order);
-    const String& s = scene.strings.at(0);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    return std::make_unique<IntegratedContact>(s, scene, modes_of(s, modes_for(s, unsampled)), settings.tap_rate, choice);
+    const int modes = modes_for(scene.strings.at(0), unsampled);
+    const String s = with_points(scene.strings.at(0), modes, profile_points(settings));
+    return std::make_unique<IntegratedContact>(s, scene, modes_of(s, modes), settings.tap_rate, choice);
 }
 }  // namespace
 
-const Descriptor sundials = {
-    "sundials",
-    "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
-    Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
-        Features(Feature::lumped_barrier) | Features(Feature::several_barriers) | Features(Feature::power_law_contact) |
-        Features(Feature::contact_loss) | Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck),
-    Balance::to_tolerance,
-    Clock::continuous,
-    make};
+const Descriptor sundials = {"sundials",
+                             "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
+                             Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                                 Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
+                                 Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+                                 Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) |
+                                 Features(Feature::initial_shape) | Features(Feature::pluck),
+                             Balance::to_tolerance,
+                             Clock::continuous,
+                             make};
 
 }  // namespace jvari

@@ -93,6 +93,9 @@ StringEquations::StringEquations(const Modes& modes, const String& s)
     force_.assign(points, 0.0);
     motion_.resize(points);
     pull_.resize(points);
+    stiffness_.assign(contacts, 0.0);
+    for (int a = 0; a < contacts; ++a)
+        for (int b = 0; b < contacts; ++b) couples_.push_back(std::abs(dot(row(weights_, a), row(gains_, b), padded)));
 }
 
 StringEquations::Motion StringEquations::motion(int a, const double* z) const noexcept {
@@ -149,11 +152,24 @@ double StringEquations::potential(int a, double y) const noexcept {
 }
 
 // An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/sum(g^2/m_i) what the modes have there.
-double StringEquations::pace(int a, const double* z) const noexcept {
-    const Point& q = point_[a];
-    const double give = dot(row(weights_, a), row(gains_, a), padded), v = penetration_speed(a, z);
-    const double depth = std::max(penetration(a, z), std::pow(v * v * (q.alpha + 1) / (2 * q.k * give), 1 / (q.alpha + 1)));
-    return std::sqrt(q.k * std::pow(depth, q.alpha - 1) * give);
+// Points close to each other push the same modes: their stiffnesses add up, as Gershgorin's circles do.
+double StringEquations::pace(const double* z) const noexcept {
+    for (int a = 0; a < contacts; ++a) {
+        stiffness_[a] = 0;
+        if (!touched[a]) continue;
+        const Point& q = point_[a];
+        const double give = couples_[a * contacts + a], v = penetration_speed(a, z);
+        const double depth = std::max(penetration(a, z), std::pow(v * v * (q.alpha + 1) / (2 * q.k * give), 1 / (q.alpha + 1)));
+        stiffness_[a] = q.k * std::pow(depth, q.alpha - 1);
+    }
+    double fastest = 0;
+    for (int a = 0; a < contacts; ++a) {
+        if (!touched[a]) continue;
+        double sum = 0;
+        for (int b = 0; b < contacts; ++b) sum += couples_[a * contacts + b] * stiffness_[b];
+        fastest = std::max(fastest, sum);
+    }
+    return std::sqrt(fastest);
 }
 
 void StringEquations::solve(double t, double gamma, const double* z, const double* b, double* x) noexcept {

@@ -33,7 +33,7 @@ struct StringEquations {
     double penetration_speed(int contact, const double* z) const noexcept;  // [m/s]
     double contact_force(int contact, const double* z) const noexcept;      // [N], whether touched or not
     double potential(int point, double y) const noexcept;                   // [J], of a barrier or the thread
-    double pace(int contact, const double* z) const noexcept;  // of the motion in a contact that is this deep and this fast [1/s]
+    double pace(const double* z) const noexcept;  // of the motion in contacts that are this deep and this fast, a bound [1/s]
 
     void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept;  // (I - gamma J(z)) x = b
     void jacobian(double t, const double* z, double* J) const noexcept;                        // dense, column by column
@@ -62,8 +62,10 @@ private:
     double gamma_ = 0;                          // of what follows
     std::vector<double> inverse_, compliance_;  // 1/(1 + 2 gamma sigma + (gamma omega0)^2); S_ab = sum_i g_a d_b/that
     std::vector<double> small_, force_;         // [point][point + 1], [point]
+    std::vector<double> couples_;               // |g_a d_b| [contact][contact]
     mutable std::vector<Motion> motion_;
     mutable std::vector<Pull> pull_;
+    mutable std::vector<double> stiffness_;  // [contact]
 };
 
 }  // namespace jvari

@@ -391,13 +391,12 @@ TEST(ExactContact, EqualBarriersOnASymmetricStringShareTheirEvents) {
 TEST(ExactContact, RefusesOtherLawsAndSettings) {
     Scene scene = c3();
     scene.name = "other";
-    scene.strings[0].barriers = {LumpedBarrier{0.1, 0, 0, {1e5}, 1.3, 0.2}, ProfileBarrier{}};
+    scene.strings[0].barriers = {LumpedBarrier{0.1, 0, 0, {1e5}, 1.3, 0.2}};
     try {
         exact_contact.make(scene, settings(5));
         FAIL() << "made";
     } catch (const Refusal& refusal) {
-        EXPECT_STREQ(refusal.what(),
-                     "exact_contact cannot represent scene other: it has no profile barrier, contact exponent other than 1, contact loss");
+        EXPECT_STREQ(refusal.what(), "exact_contact cannot represent scene other: it has no contact exponent other than 1, contact loss");
     }
     EXPECT_THROW(exact_contact.make(c3(), settings(5, "0")), Refusal);
     EXPECT_THROW(exact_contact.make(c3(), settings(5, "2")), Refusal);

@@ -1,0 +1,62 @@
+#include "reference/profile_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/barrier.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr double near_node = 1e-9;  // of an interval of the grid, as in spatial_ports.cpp
+
+std::vector<double> positions(const ProfileBarrier& b, double spacing, bool grid) {
+    std::vector<double> x;
+    if (!grid) {
+        const int count = static_cast<int>(std::round((b.to - b.from) / spacing));
+        for (int q = 0; q < count; ++q) x.push_back(b.from + (q + 0.5) * spacing);
+        return x;
+    }
+    const double slack = near_node * (1 + b.to / spacing);
+    for (double q = std::max(1.0, std::ceil(b.from / spacing - slack)); q <= b.to / spacing + slack; ++q)
+        x.push_back(std::clamp(q * spacing, b.from, b.to));
+    return x;
+}
+}  // namespace
+
+ProfilePoints profile_points(const Settings& settings) {
+    if (option(settings, "nodes", "") == "grid") return {0};
+    const double count = number_option(settings, "nodes", default_points);
+    if (count != std::floor(count) || count < 1 || count > most_points)
+        throw Refusal("option nodes: expected grid, or a whole number from 1 to " + std::to_string(most_points));
+    return {static_cast<int>(count)};
+}
+
+String with_points(String s, int modes, ProfilePoints points) {
+    std::vector<Barrier> barriers;
+    bool profiles = false;
+    for (const Barrier& barrier : s.barriers) {
+        const auto* b = std::get_if<ProfileBarrier>(&barrier);
+        if (!b) {
+            barriers.push_back(barrier);
+            continue;
+        }
+        profiles = true;
+        const bool grid = points.count == 0;
+        const double spacing = grid ? s.length / (modes + 1) : (b->to - b->from) / points.count;
+        auto x = positions(*b, spacing, grid);
+        std::erase_if(x, [&](double at) { return at >= s.length * (1 - near_node); });  // the string's end, which moves nothing
+        if (x.empty())
+            throw Refusal("no node of a grid of " + std::to_string(modes) + " lies on a profile barrier; ask for more modes, or for nodes");
+        const auto g = heights(b->curve, x);
+        for (std::size_t q = 0; q < x.size(); ++q)
+            barriers.push_back(LumpedBarrier{x[q], 0, g[q], {b->stiffness.K * spacing}, b->exponent, b->contact_loss});
+    }
+    if (profiles && barriers.size() > most_points)
+        throw Refusal("the profiles come to " + std::to_string(barriers.size()) + " points of contact; the references take " +
+                      std::to_string(most_points) + " at most");
+    s.barriers = std::move(barriers);
+    return s;
+}
+
+}  // namespace jvari

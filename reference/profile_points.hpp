@@ -1,0 +1,27 @@
+// A profile barrier as point barriers: the force of a density K [g(x) - y(x)]^alpha on mode i (Issanchou et al. 2016, eqs 3-4) is
+//
+//     int_from^to K [eta(x)]^alpha v_i(x) dx  ~  sum_q w K [eta(x_q)]^alpha v_i(x_q),
+//
+// by a rule of equal weights, for what is touched ends inside the profile, at a place that moves. Two choices: `count` points in the
+// middles of as many equal parts, which approach the integral as their number grows; or the nodes x_q = qL/N, N = modes + 1, of the grid of
+// modal_spatial_newton with its weight L/N: then both have the same equations, and the error of the integral is in neither's comparison.
+#pragma once
+
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+struct ProfilePoints {
+    int count = 0;  // per profile; 0: the grid's nodes
+};
+
+constexpr int most_points = 256;  // per string: the references' tables grow with its square
+
+// Option `nodes`: "grid" or a number of points per profile; default_points without it.
+constexpr int default_points = 32;
+ProfilePoints profile_points(const Settings&);
+
+// The string with its profiles replaced. Throws Refusal where they come to no point, or to more than most_points.
+String with_points(String, int modes, ProfilePoints);
+
+}  // namespace jvari
