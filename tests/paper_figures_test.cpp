@@ -139,7 +139,8 @@ TEST(Tanpura, Section41TheCentroidFallsAbove2kHzAndRisesAbove500Hz) {
     }
     const Series nearly_all = series(t, {{"scene", "tanpura_c3"}, {"string.0.thread.position", ""}}, "time_s", "centroid_hz");
     EXPECT_GT(mean_between(nearly_all, 0.58, 0.62), 1.7 * mean_between(nearly_all, 0.08, 0.12));
-    for (const auto& [position, f] : fall) RecordProperty("thread_" + position, std::to_string(f.first) + " " + std::to_string(f.second));
+    const std::map<std::string, double> expected{{"0.004", 450}, {"0.005", 524}, {"0.006", 591}, {"0.008", 506}};
+    for (const auto& [position, f] : fall) EXPECT_NEAR(f.first - f.second, expected.at(position), 10) << position;
 }
 
 TEST(Tanpura, Figure9TheBridgeIsTooStrongAbove15kHzAtEveryRateAndTheNutTooWeakAt44100Hz) {
@@ -154,6 +155,7 @@ TEST(Tanpura, Figure9TheBridgeIsTooStrongAbove15kHzAtEveryRateAndTheNutTooWeakAt
     EXPECT_NEAR(mean_difference(x2, exact, 15001, 20000), 3.9, 0.5);
     EXPECT_NEAR(mean_difference(x8, exact, 15001, 20000), 6.2, 0.5);  // eight times the rate is no truth there
     EXPECT_LT(rms_difference(x8, exact, 0, 5000), 0.3);
+    EXPECT_NEAR(rms_difference(x2, exact, 5001, 15000), 6.1, 0.3);
     const Series n1 = envelope("nut", "44100"), n2 = envelope("nut", "88200"), n8 = envelope("nut", "352800");
     EXPECT_LT(rms_difference(n1, n8, 0, 5000), 1);
     EXPECT_NEAR(mean_difference(n1, n8, 15001, 20000), -4.3, 0.5);
@@ -258,8 +260,11 @@ TEST(Obstacle, Figure3And8WithoutAnObstacleEveryFifthPartialIsSilentAndWithOneAl
         return levels;
     };
     for (const auto& [j, level] : partials(none)) EXPECT_EQ(level < -200, j == 5 || j == 10) << j << ": " << level;
-    for (const auto& where : {point, far_point, parabola})
-        for (const auto& [j, level] : partials(where)) EXPECT_GT(level, -64) << j;
+    const auto level = [](const auto& a, const auto& b) { return a.second < b.second; };
+    for (const auto& where : {point, far_point, parabola}) {
+        const Series all = partials(where);
+        EXPECT_LT(std::ranges::max_element(all, level)->second - std::ranges::min_element(all, level)->second, 13);
+    }
 }
 
 TEST(Obstacle, Figure4And7TheVelocityIsPositiveHalfOfTheTimeAndTheDisplacementNearlyAlways) {
