@@ -66,6 +66,20 @@ long shortened(long n, long least, const std::function<bool(long)>& fails_with) 
     return n;
 }
 
+// A grid takes no modes: they would only take them from the reference.
+bool has_modes(const Trial& t) {
+    const auto dofs = [&t](int modes) {
+        Settings s = t.settings;
+        s.modes = modes;
+        return t.scheme->make(t.scene, s)->dofs();
+    };
+    try {
+        return dofs(5) != dofs(6);
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
 bool shorten(Trial& t, const Fails& fails) {
     bool shorter = false;
     const auto try_out = [&](long& value, long least, const std::function<void(Trial&, long)>& apply) {
@@ -80,7 +94,7 @@ bool shorten(Trial& t, const Fails& fails) {
     };
     long rows = std::lround(t.scene.duration * t.settings.tap_rate);
     try_out(rows, 1, [](Trial& x, long k) { x.scene.duration = static_cast<double>(k) / x.settings.tap_rate; });
-    if (t.settings.modes > 0) {
+    if (t.settings.modes > 0 && has_modes(t)) {
         long modes = t.settings.modes;
         try_out(modes, 1, [](Trial& x, long k) { x.settings.modes = static_cast<int>(k); });
     }
@@ -94,7 +108,7 @@ bool shorten(Trial& t, const Fails& fails) {
 }  // namespace
 
 Trial minimised(Trial t, const Fails& fails) {
-    if (t.settings.modes == 0) {  // the default, said aloud
+    if (t.settings.modes == 0 && has_modes(t)) {  // the default, said aloud
         Trial explicit_modes = t;
         explicit_modes.settings.modes = modes_for(t.scene.strings.front(), t.settings);
         if (still(fails, explicit_modes)) t = std::move(explicit_modes);

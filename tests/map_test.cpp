@@ -187,6 +187,9 @@ TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     EXPECT_EQ(csv(maps_table(resumed)), csv(maps_table(whole)));
     EXPECT_EQ(csv(boundaries_table(resumed, {})), csv(boundaries_table(whole, {})));
     EXPECT_EQ(run_of(suite, scratch.path, true).ran, 0);
+    const auto first = fs::directory_iterator(scratch.path)->path(), second = std::next(fs::directory_iterator(scratch.path))->path();
+    fs::copy_file(first, second, fs::copy_options::overwrite_existing);  // a point under the name of another
+    EXPECT_EQ(run_of(suite, scratch.path, true).ran, 1);
 }
 
 TEST(Maps, TheProgramWritesTablesForASuiteOfMapsAlone) {

@@ -113,9 +113,9 @@ TEST(Outcome, ColumnsLeftEmptySayNothing) {
 
 TEST(Outcome, APullIsMeasuredAgainstTheHardestPushOfOneStep) {
     MadeUp m;  // 3 N over a row of two steps: 6 N at most
-    m.run.facts[0].value = -0.5 * 6e-6;
+    m.run.facts[0].value = -0.9 * 6e-6;
     EXPECT_EQ(m.verdict(), Verdict::sound);
-    m.run.facts[0].value = -2 * 6e-6;
+    m.run.facts[0].value = -1.1 * 6e-6;
     EXPECT_EQ(m.verdict(), Verdict::adhesive);
 }
 
