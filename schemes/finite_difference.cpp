@@ -1,4 +1,5 @@
-// See finite_difference.hpp for sources.
+// See finite_difference.hpp for sources. Long: weights, loss fit, limits, von Neumann relations, grid and band matrix stand in the header's
+// order, each a few functions that no other file needs apart.
 #include "schemes/finite_difference.hpp"
 
 #include <gsl/gsl_multifit.h>
