@@ -7,6 +7,7 @@
 
 #include "bench/compare.hpp"
 #include "bench/records.hpp"
+#include "reference/certificate.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -46,7 +47,7 @@ Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::st
         } else overrides.push_back(key + "=" + value);
     }
     t.settings.tap_rate = row_rate(t.settings.sample_rate);
-    t.scene = scaled(load_scene(scene, overrides, duration), amplitude);
+    t.scene = moved(load_scene(scene, overrides, duration), amplitude);
     return t;
 }
 
