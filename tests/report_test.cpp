@@ -175,6 +175,23 @@ TEST(Report, PicturesOfOthersStandInThePageAndItsOwnDoNot) {
     EXPECT_EQ(s.pictures[0].name, "others");
 }
 
+TEST(Report, WhatDoesNotFitIsLeftOutFromTheLastOnAndThePageSaysSo) {
+    Page page;
+    page.manifest = "{}";
+    page.sections = {{"sounds", "Sounds"}, {"figures", "Figures"}};
+    page.sections[0].sounds.assign(10, {"a", "44100 Hz", std::string(30000, 'x')});
+    page.sections[1].pictures.assign(2, {"b", std::string(30000, 'y')});
+    EXPECT_EQ(fitting_page_of(page), page_of(page));
+    const std::string text = fitting_page_of(page, page_of(page).size() - 150000);  // two pictures and two sounds of 40 kB
+    const Json sections = data_of(text).at("sections");
+    ASSERT_EQ(sections.size(), 2u);
+    EXPECT_EQ(sections[1].at("pictures").size(), 0u);
+    EXPECT_EQ(sections[1].at("left_out").size(), 1u);
+    EXPECT_EQ(sections[0].at("sounds").size(), 8u);
+    EXPECT_NE(sections[0].at("left_out")[0].get<std::string>().find("2 more sounds"), std::string::npos);
+    EXPECT_LT(text.size(), page_of(page).size() - 150000);
+}
+
 TEST(Report, ATableThatWouldBeTooLargeKeepsItsFirstColumnsAndSaysSo) {
     Page page;
     page.manifest = "{}";
