@@ -144,6 +144,7 @@ std::vector<Axis> error_axes(const Table& cells, const std::vector<std::string>&
 std::vector<Axis> cost_axes() {
     return {{"cost_s_per_s", "computing time per second of sound [s/s]"},
             {"ns_per_step", "time per step [ns]"},
+            {"worst_block_of_deadline", "worst block of 64 samples, as a fraction of its deadline"},
             {"rate", "sample rate [Hz]"},
             {"dofs", "state carried [doubles]"}};
 }

@@ -85,7 +85,7 @@ std::string page_of(const Page& page) {
     Json sections = Json::array();
     const bool drawn = !page.scripts.empty();
     for (const Section& s : page.sections)
-        if ((drawn && !s.charts.empty()) || !s.pictures.empty() || !s.sounds.empty() || !s.table.rows.empty())
+        if ((drawn && !s.charts.empty()) || !s.pictures.empty() || !s.sounds.empty() || !s.left_out.empty() || !s.table.rows.empty())
             sections.push_back(json_of(s, drawn));
     const Json data{{"title", page.title},
                     {"about", page.about},
@@ -107,6 +107,27 @@ std::string page_of(const Page& page) {
         rest.erase(0, at + std::string(mark).size());
     }
     return text + rest;
+}
+
+std::string fitting_page_of(Page page, std::size_t limit) {
+    std::string html = page_of(page);
+    std::size_t excess = html.size() > limit ? html.size() - limit + 2000 : 0;
+    if (excess == 0) return html;
+    const auto leave_out = [&excess](auto& parts, auto bytes, const char* what, Section& s) {
+        std::size_t count = 0;
+        for (; excess > 0 && !parts.empty(); ++count) {
+            excess -= std::min(excess, bytes(parts.back()) * 4 / 3);
+            parts.pop_back();
+        }
+        if (count > 0) s.left_out.push_back(fmt::format("{} {} are left out for the page's size; they lie beside it.", count, what));
+    };
+    for (Section& s : page.sections)
+        leave_out(
+            s.pictures, [](const Picture& p) { return p.svg.size(); }, "pictures", s);
+    for (Section& s : page.sections)
+        leave_out(
+            s.sounds, [](const Heard& h) { return h.wav.size(); }, "more sounds", s);
+    return page_of(page);
 }
 
 }  // namespace jvari

@@ -57,11 +57,12 @@ struct Page {
     std::string manifest;  // JSON
 };
 std::string page_of(const Page&);
+// The page in less than 15 MB: pictures, then sounds are left out from the last on, and the page says so.
+std::string fitting_page_of(Page, std::size_t limit = 14'900'000);
 
-// What a page may weigh, and how it is shared out.
-constexpr std::size_t page_limit = 15'000'000;   // [bytes]
-constexpr std::size_t sounds_limit = 7'500'000;  // of the WAV data as it stands in the page
-constexpr std::size_t pictures_limit = 2'500'000;
-constexpr std::size_t table_limit = 1'500'000;  // of one table; beyond, its first columns alone, then fewer rows
+// What parts of a page may weigh [bytes].
+constexpr std::size_t sounds_limit = 7'500'000;    // as the WAV data stands in the page
+constexpr std::size_t pictures_limit = 4'000'000;  // as files
+constexpr std::size_t table_limit = 1'500'000;     // one table; beyond, its first columns alone, then fewer rows
 
 }  // namespace jvari

@@ -27,24 +27,28 @@ void add_axis(Words& words, const Table& t, const std::string& which) {
     words.emplace_back("@title_" + which, t.at(0, which + "_key"));
 }
 
-Json rows_json(const Table& cells, const Table& boundaries, bool numbers) {
+struct Axes {
+    bool x, y;  // of numbers
+};
+
+Json rows_json(const Table& cells, const Table& boundaries, Axes numbers) {
     Json rows = Json::array();
-    const auto place = [numbers](const Table& t, std::size_t i, const std::string& which) {
-        return numbers ? Json(t.number(i, which)) : Json(t.at(i, which));
+    const auto place = [](const Table& t, std::size_t i, const char* which, bool number) {
+        return number ? Json(t.number(i, which)) : Json(t.at(i, which));
     };
     for (std::size_t i = 0; i < cells.rows.size(); ++i)
         rows.push_back({{"kind", "cell"},
                         {"series", cells.at(i, "series")},
-                        {"x", place(cells, i, "x")},
-                        {"y", place(cells, i, "y")},
+                        {"x", place(cells, i, "x", numbers.x)},
+                        {"y", place(cells, i, "y", numbers.y)},
                         {"outcome", cells.at(i, "outcome")},
                         {"detail", cells.at(i, "detail")}});
-    for (std::size_t i = 0; numbers && i < boundaries.rows.size(); ++i) {
+    for (std::size_t i = 0; numbers.x && i < boundaries.rows.size(); ++i) {
         const double low = boundaries.number(i, "x_low"), high = boundaries.number(i, "x_high");
         rows.push_back({{"kind", "boundary"},
                         {"series", boundaries.at(i, "series")},
                         {"x", low > 0 && high > 0 ? std::sqrt(low * high) : 0.5 * (low + high)},
-                        {"y", boundaries.number(i, "y")},
+                        {"y", place(boundaries, i, "y", numbers.y)},
                         {"between", boundaries.at(i, "between")},
                         {"theory", boundaries.number(i, "theory")}});
     }
@@ -76,8 +80,10 @@ Chart map_chart(const std::string& name, const Table& cells, const Table& bounda
     Filling f{name, cells.at(0, "scene"), {}, {}, {}, {{"series_field", json_text(series.front())}}};
     add_axis(f.words, cells, "x");
     add_axis(f.words, cells, "y");
-    const bool numbers = std::all_of(f.words.begin(), f.words.end(), [](const auto& w) { return w.second != "ordinal"; });
-    f.datasets = {{"rows", rows_json(cells, boundaries, numbers).dump()}};
+    const auto of_numbers = [&f](const char* type) {
+        return std::find(f.words.begin(), f.words.end(), std::pair<std::string, std::string>(type, "quantitative")) != f.words.end();
+    };
+    f.datasets = {{"rows", rows_json(cells, boundaries, {of_numbers("@type_x"), of_numbers("@type_y")}).dump()}};
     Chart c{"what becomes of a scheme: " + name, on_frame(chart_of("map.json", f, Medium::page)).dump(), false, {}, {}};
     Menu menu{name + ": scheme", "series_field", {}};
     for (const std::string& s : series) menu.choices.emplace_back(json_text(s), s);

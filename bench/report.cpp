@@ -1,6 +1,6 @@
 #include "bench/report.hpp"
 
-#include <fmt/core.h>
+#include <utility>
 
 #include "bench/fresh_file.hpp"
 #include "bench/page_sections.hpp"
@@ -57,9 +57,7 @@ std::vector<std::string> write_report(const fs::path& folder, const Console& con
             }
     page.sections.push_back(picture_section(results, own));
     page.sections.push_back(cell_section(results));
-    const std::string html = page_of(page);
-    if (html.size() > page_limit) console.note(fmt::format("report.html is larger than meant: {} bytes", html.size()));
-    write_fresh(folder / "report.html", html);
+    write_fresh(folder / "report.html", fitting_page_of(std::move(page)));
     written.emplace_back("report.html");
     return written;
 }

@@ -54,12 +54,6 @@ bool makes_rows(const CellSet& set) {
 }
 }  // namespace
 
-std::string hash_of(const std::string& text) {
-    std::uint64_t h = 0xcbf29ce484222325;
-    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3;
-    return fmt::format("{:016x}", h);
-}
-
 std::string options_text(const Settings& s) {
     return options_text(s.options);
 }

@@ -38,7 +38,6 @@ SuitePlan plan_of(const Suite&, const Catalogue&, const std::vector<std::string>
 // JSON: version, commit, build type, plugins by their contents.
 std::string program_identity(const std::vector<std::string>& plugins);
 
-std::string hash_of(const std::string&);    // 16 hexadecimal digits (FNV-1a)
 std::string options_text(const Settings&);  // "control=none tolerance=1e-9"
 
 }  // namespace jvari

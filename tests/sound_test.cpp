@@ -38,6 +38,7 @@ TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
     EXPECT_EQ(bytes_of_base64(base64(all)), all);
     EXPECT_THROW(bytes_of_base64("abc"), std::runtime_error);
     EXPECT_THROW(bytes_of_base64("ab!d"), std::runtime_error);
+    EXPECT_THROW(bytes_of_base64("Zg==Zg=="), std::runtime_error);  // it ends at its padding
 }
 
 TEST(Sounds, APeakAndSixteenBitsGiveTheSignalBack) {
