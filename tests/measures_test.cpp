@@ -30,8 +30,8 @@ Table rows_for(const std::string& scheme, const std::string& scene_name, double 
     settings.sample_rate = rate;
     const Descriptor& d = scheme_named(scheme);
     const Run r = run(d, scene, settings);
-    const CellSet set;
-    return dispersion_rows({scene, d, settings, r.trace, nullptr, 0, set});
+    const CellSet cells;
+    return dispersion_rows({scene, d, settings, r.trace, nullptr, 0, cells});
 }
 
 // ---- Dispersion
