@@ -414,7 +414,7 @@ TEST(SuiteWithACertificate, EveryRowHasTheFiguresLast) {
     const std::string out = shelf / "out";
     const Outcome o = jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(content(out + "/report.html").find("<td>\u22640.25</td>"), std::string::npos);
+    EXPECT_NE(content(out + "/report.html").find("certificate_l2_whole"), std::string::npos);  // what the page makes of it: tests/browser
     const Table t = read_csv(content(out + "/errors.csv"));
     ASSERT_EQ(t.rows.size(), 4u);
     EXPECT_EQ(t.number(0, "certificate_l2_whole"), 0.25);
