@@ -3,7 +3,6 @@
 #include "bench/failures.hpp"
 #include "bench/fresh_file.hpp"
 #include "bench/suite_plan.hpp"
-#include "bench/vega.hpp"
 
 namespace jvari {
 
@@ -14,7 +13,7 @@ std::vector<std::string> chart_maps(const Suite& suite, const Catalogue& catalog
     if (suite.maps.empty()) return {};
     const fs::path folder = r.out;
     if (!r.out.empty())
-        for (const char* name : {"points", "maps", "failures"}) {
+        for (const char* name : {"points", "failures"}) {
             std::error_code error;
             fs::create_directories(folder / name, error);
             must_be_writable(folder / name / "any");
@@ -35,13 +34,6 @@ std::vector<std::string> chart_maps(const Suite& suite, const Catalogue& catalog
     for (const Reproducer& f : failures) files_of[{f.trial.scheme->name, f.expected.verdict}] = "failures/" + f.file;
     write_failures(folder / "failures", failures);
     write("boundaries.csv", csv(boundaries_table(run, files_of)));
-    const Vega vega = find_vega();
-    std::string why = vega.missing;
-    for (const Map& m : suite.maps) {
-        if (!why.empty()) break;
-        if (const auto svg = svg_of(vega, map_spec(m, run), why)) write(fs::path("maps") / (m.name + ".svg"), *svg);
-    }
-    if (!why.empty()) console.note(why);
     return files;
 }
 

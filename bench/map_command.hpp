@@ -1,4 +1,4 @@
-// The maps of a suite, from its file to DIR: maps.csv, boundaries.csv, maps/<name>.svg, and minimised reproducers in failures/.
+// The maps of a suite, from its file to DIR: maps.csv, boundaries.csv, and minimised reproducers in failures/. The report draws them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Maps as rows (maps.csv, boundaries.csv), as pictures and as text.
+// Maps as rows (maps.csv, boundaries.csv) and as text.
 #pragma once
 
 #include <map>
@@ -17,8 +17,5 @@ using Reproducers = std::map<std::pair<std::string, Verdict>, std::string>;
 Table boundaries_table(const MapRun&, const Reproducers&);
 
 std::string maps_text(const MapRun&);  // for the terminal: outcomes of each map and scheme, boundaries that have a theory
-
-// One map as a Vega-Lite specification: a panel per scheme, outcomes by colour and letter, boundaries and theory as lines.
-std::string map_spec(const Map&, const MapRun&);
 
 }  // namespace jvari
