@@ -8,6 +8,7 @@
 
 #include "bench/compare_plan.hpp"
 #include "bench/cost.hpp"
+#include "bench/kept_run.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari {
@@ -25,7 +26,8 @@ ProgressOf shown_on(Console::Progress& progress, const Descriptor& d, const Sett
 Run reference_run(const ReferenceChoice& choice, const Scene& scene, Console::Progress& progress, double from, double to) {
     RunOptions options;
     options.progress = shown_on(progress, *choice.scheme, choice.settings, from, to);
-    return run(*choice.scheme, scene, choice.settings, options);
+    const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
+    return choice.kept ? kept_run(kept_runs_folder(), run_key(*choice.scheme, scene, choice.settings), make) : make();
 }
 
 double last_instant(const Run& r) {

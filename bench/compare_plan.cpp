@@ -87,7 +87,7 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
                 s.options.emplace_back(r.options[k].name, r.options[k].value);
                 used[k] = true;
             }
-        choices.push_back({&d, s, note, stepped ? oversampling : 0});
+        choices.push_back({&d, s, note, stepped ? oversampling : 0, catalogue.is_reference(d)});
     };
     if (!r.reference.empty()) {
         add(catalogue.find(r.reference), "");

@@ -13,6 +13,7 @@ struct ReferenceChoice {
     Settings settings;
     std::string note;     // why this one, "" where it is the rule or was asked for
     int oversampled = 0;  // a scheme, and the multiple of the coarsest rate of three; 0: a reference
+    bool kept = false;    // its run may be one of before (kept_run.hpp): the reference is of this program and not of a plugin
     std::string name() const { return (oversampled ? "oversampled " : "") + std::string(scheme->name); }
 };
 

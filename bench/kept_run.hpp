@@ -1,0 +1,31 @@
+// Runs of references, kept from one program to the next: a reference may take minutes where a scheme takes milliseconds.
+//
+// A file per run, named by a hash of everything that its numbers depend on: scene, reference and settings, program (version, commit, build)
+// and processor. It appears by rename and is believed only where it is whole: its key, its checksum and its sizes are looked at. Nothing is
+// kept of a program with uncommitted changes, whose commit does not say what it computes, or of a run of less than half a second.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "schemes/run.hpp"
+
+namespace jvari {
+
+// $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari; may be emptied at any time. "", for nowhere, where JVARI_CACHE is empty
+// and where this program keeps none.
+std::filesystem::path kept_runs_folder();
+bool keeps_runs(const std::string& commit);
+
+std::string run_key(const Descriptor&, const Scene&, const Settings&);
+
+void write_run(const std::filesystem::path&, const std::string& key, const Run&);  // throws UsageError
+std::optional<Run> read_run(const std::filesystem::path&,
+                            const std::string& key) noexcept;  // nothing where it is not whole or not of `key`
+
+// The run that is kept there, else what `make` gives, which is kept from then on. A folder that cannot be written to keeps nothing.
+Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make);
+
+}  // namespace jvari

@@ -1,0 +1,128 @@
+// Runs of references that are kept: what is read back is what was run, and nothing else is believed.
+#include "bench/kept_run.hpp"
+
+#include <cmath>
+
+#include "bench/catalogue.hpp"
+#include "command_line.hpp"
+#include "reference/references.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Settings settings{0, 44100, 20, {{"window", "0.5"}}};
+
+Scene released() {
+    return load_scene("tanpura_c3_release", {}, 5e-3);
+}
+
+jvari::Run a_run(double seconds = 1) {
+    jvari::Run r = run(exact_contact, released(), settings);
+    r.wall_seconds = seconds;
+    return r;
+}
+
+void overwrite(const fs::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST(KeptRun, IsTheRunToTheLastBit) {
+    const Scratch scratch;
+    jvari::Run before = a_run();
+    before.status = {jvari::Outcome::not_converged, 12};
+    before.facts.push_back({"nothing", std::nan(""), "m"});
+    write_run(scratch / "a.run", "key", before);
+    const auto after = read_run(scratch / "a.run", "key");
+    ASSERT_TRUE(after);
+    EXPECT_EQ(after->trace.tap, before.trace.tap);
+    EXPECT_EQ(after->trace.names, before.trace.names);
+    EXPECT_EQ(after->trace.rows, before.trace.rows);
+    EXPECT_EQ(after->trace.stride, before.trace.stride);
+    EXPECT_EQ(after->trace.tap_rate, before.trace.tap_rate);
+    EXPECT_EQ(after->status.outcome, jvari::Outcome::not_converged);
+    EXPECT_EQ(after->status.step, 12);
+    EXPECT_EQ(after->dofs, before.dofs);
+    EXPECT_EQ(after->steps, before.steps);
+    ASSERT_EQ(after->facts.size(), before.facts.size());
+    EXPECT_EQ(after->facts[0].name, before.facts[0].name);
+    EXPECT_EQ(after->facts[0].value, before.facts[0].value);
+    EXPECT_TRUE(std::isnan(after->facts.back().value));
+}
+
+TEST(KeptRun, IsNotBelievedWhereItIsBrokenAlteredOrOfAnother) {
+    const Scratch scratch;
+    const fs::path path = scratch / "a.run";
+    write_run(path, "key", a_run());
+    const std::string whole = content(path.string());
+    EXPECT_FALSE(read_run(path, "another"));
+    EXPECT_FALSE(read_run(scratch / "none.run", "key"));
+    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{16}, whole.size() / 2, whole.size() - 1}) {
+        overwrite(path, whole.substr(0, size));
+        EXPECT_FALSE(read_run(path, "key")) << size;
+    }
+    for (std::size_t k = 0; k < 9; ++k) {  // a number is 9 bytes long
+        std::string altered = whole;
+        altered[whole.size() / 2 + k] ^= 1;
+        overwrite(path, altered);
+        EXPECT_FALSE(read_run(path, "key"));
+    }
+    overwrite(path, whole);
+    EXPECT_TRUE(read_run(path, "key"));
+}
+
+TEST(KeptRun, IsMadeOnceAndAgainWhereTheFileIsBroken) {
+    const Scratch scratch;
+    const fs::path folder = scratch / "runs";
+    int made = 0;
+    const auto make = [&made] { return ++made, a_run(); };
+    const jvari::Run first = kept_run(folder, "key", make), second = kept_run(folder, "key", make);
+    EXPECT_EQ(made, 1);
+    EXPECT_EQ(first.trace.tap, second.trace.tap);
+    overwrite(folder / "key.run", "half");
+    kept_run(folder, "key", make);
+    EXPECT_EQ(made, 2);
+    kept_run(folder, "key", make);
+    EXPECT_EQ(made, 2);
+    kept_run({}, "key", make);
+    EXPECT_EQ(made, 3);
+}
+
+TEST(KeptRun, OfLessThanHalfASecondIsNotKeptAndAFolderThatCannotBeIsNoError) {
+    const Scratch scratch;
+    const fs::path folder = scratch / "runs";
+    kept_run(folder, "key", [] { return a_run(0.1); });
+    EXPECT_FALSE(fs::exists(folder / "key.run"));
+    overwrite(folder, "a file");
+    EXPECT_GT(kept_run(folder, "key", [] { return a_run(); }).trace.rows, 0);
+}
+
+TEST(KeptRun, HasAKeyOfEverythingThatItsNumbersDependOn) {
+    const Scene scene = released();
+    const std::string key = run_key(exact_contact, scene, settings);
+    EXPECT_EQ(run_key(exact_contact, released(), settings), key);
+    EXPECT_NE(run_key(sundials, scene, settings), key);
+    Scene longer = scene;
+    longer.duration *= 2;
+    EXPECT_NE(run_key(exact_contact, longer, settings), key);
+    Settings other = settings;
+    other.modes = 21;
+    EXPECT_NE(run_key(exact_contact, scene, other), key);
+    other = settings;
+    other.tap_rate = 48000;
+    EXPECT_NE(run_key(exact_contact, scene, other), key);
+    other = settings;
+    other.options[0].second = "1";
+    EXPECT_NE(run_key(exact_contact, scene, other), key);
+}
+
+TEST(KeptRun, IsOfAProgramWhoseCommitSaysWhatItComputes) {
+    EXPECT_TRUE(keeps_runs("029d78bebcb3"));
+    EXPECT_FALSE(keeps_runs("029d78bebcb3-dirty"));
+    EXPECT_FALSE(keeps_runs("unknown"));
+}
+
+}  // namespace
+}  // namespace jvari::test
