@@ -4,10 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/console.hpp"
-#include "scenes/document.hpp"
-#include "scenes/scene_file.hpp"
-#include "scenes/wording.hpp"
+#include "bench/suite_reader.hpp"
 
 namespace jvari {
 
@@ -15,37 +12,30 @@ namespace {
 constexpr double any = -std::numeric_limits<double>::infinity();
 
 struct Entry {  // a value and the way to it
-    const Document* document;
+    const SuiteReader* read;
     const Value* value;
     std::string key;
 
-    [[noreturn]] void refuse(const std::string& expected) const {
-        throw SceneFileError(document->place(value->place) + ": " + key + ": found " + value->found() + ", expected " + expected);
-    }
+    [[noreturn]] void refuse(const std::string& expected) const { read->refuse(*value, key, expected); }
+    const Table& table() const { return read->table(*value, key); }
     const Table& table(const std::vector<std::string>& known) const {
-        const auto* t = std::get_if<Table>(&value->content);
-        if (!t) refuse("a table");
-        for (const Member& m : *t)
-            if (!known.empty() && std::find(known.begin(), known.end(), m.key) == known.end())
-                throw SceneFileError(document->place(m.value.place) + ": " + key + ": " + unknown("key", m.key, known));
-        return *t;
+        const Table& t = table();
+        read->only(*value, key + ": ", known);
+        return t;
     }
     std::optional<Entry> at(const char* name) const {
         const Value* v = value->find(name);
-        return v ? std::optional(Entry{document, v, key + "." + name}) : std::nullopt;
+        return v ? std::optional(Entry{read, v, key + "." + name}) : std::nullopt;
     }
     Entry need(const char* name) const {
         if (auto e = at(name)) return *e;
-        throw SceneFileError(document->place(value->place) + ": " + key + ": the key " + name + " is missing");
+        throw SceneFileError(read->place(*value) + ": " + key + ": the key " + name + " is missing");
     }
-    std::string text() const {
-        if (const auto* s = std::get_if<std::string>(&value->content)) return *s;
-        refuse("a text");
-    }
+    std::string text() const { return read->text(*value, key); }
     std::string word(const std::vector<std::string>& known, const char* what) const {
         const std::string w = text();
         if (std::find(known.begin(), known.end(), w) != known.end()) return w;
-        throw SceneFileError(document->place(value->place) + ": " + key + ": " + unknown(what, w, known));
+        throw SceneFileError(read->place(*value) + ": " + key + ": " + unknown(what, w, known));
     }
     double number(double least = any) const {
         const auto* whole = std::get_if<std::int64_t>(&value->content);
@@ -73,7 +63,7 @@ struct Entry {  // a value and the way to it
         if (!array) return {*this};
         if (array->empty()) refuse("at least one value");
         std::vector<Entry> all;
-        for (std::size_t i = 0; i < array->size(); ++i) all.push_back({document, &(*array)[i], key + "." + std::to_string(i)});
+        for (std::size_t i = 0; i < array->size(); ++i) all.push_back({read, &(*array)[i], key + "." + std::to_string(i)});
         return all;
     }
     std::vector<std::string> texts() const {
@@ -167,25 +157,25 @@ Figure figure_of(const Entry& e) {
     if (const auto x = e.at("width")) f.width = x->count(4000);
     if (const auto x = e.at("height")) f.height = x->count(4000);
     if (const auto where = e.at("where"))
-        for (const Member& m : where->table({})) {
+        for (const Member& m : where->table()) {
             auto& [column, values] = f.where.emplace_back(m.key, std::vector<std::string>());
-            for (const Entry& one : Entry{e.document, &m.value, where->key + "." + m.key}.items()) values.push_back(one.scalar());
+            for (const Entry& one : Entry{e.read, &m.value, where->key + "." + m.key}.items()) values.push_back(one.scalar());
         }
     if (const auto labels = e.at("labels"))
-        for (const Member& m : labels->table({}))
-            f.labels.emplace_back(m.key, Entry{e.document, &m.value, labels->key + "." + m.key}.text());
+        for (const Member& m : labels->table())
+            f.labels.emplace_back(m.key, Entry{e.read, &m.value, labels->key + "." + m.key}.text());
     return f;
 }
 }  // namespace
 
-std::vector<Figure> figures_of(const Document& document) {
+std::vector<Figure> figures_of(const SuiteReader& read, const Value& root) {
     std::vector<Figure> all;
-    const Value* figures = document.root.find("figure");
+    const Value* figures = root.find("figure");
     if (!figures) return all;
     const auto* array = std::get_if<Array>(&figures->content);
-    if (!array) Entry{&document, figures, "figure"}.refuse("[[figure]] tables");
+    if (!array) read.refuse(*figures, "figure", "[[figure]] tables");
     for (std::size_t i = 0; i < array->size(); ++i) {
-        const Entry e{&document, &(*array)[i], "figure." + std::to_string(i)};
+        const Entry e{&read, &(*array)[i], "figure." + std::to_string(i)};
         all.push_back(figure_of(e));
         for (std::size_t k = 0; k < i; ++k)
             if (all[k].name == all[i].name) e.need("name").refuse("a name of its own");
@@ -193,8 +183,8 @@ std::vector<Figure> figures_of(const Document& document) {
     return all;
 }
 
-FigureFacets figure_facets_of(const Document& document, const Value& set, const std::string& within) {
-    const Entry e{&document, &set, within};
+FigureFacets figure_facets_of(const SuiteReader& read, const Value& set, const std::string& within) {
+    const Entry e{&read, &set, within};
     FigureFacets f;
     if (const auto taps = e.at("taps"))
         for (const Entry& one : taps->items()) f.taps.push_back(tap_of(one));
@@ -232,7 +222,7 @@ FigureFacets figure_facets_of(const Document& document, const Value& set, const 
     for (const auto& [name, said] : facets) {
         const bool asked = std::find(measured.begin(), measured.end(), name) != measured.end();
         if (asked && !said)
-            throw SceneFileError(document.place(set.place) + ": " + within + ": measure asks for " + name + ", the table " + name +
+            throw SceneFileError(read.place(set) + ": " + within + ": measure asks for " + name + ", the table " + name +
                                  " is missing");
         if (said && !asked) e.need(name).refuse(std::string("\"") + name + "\" in measure beside it");
     }

@@ -27,7 +27,7 @@
 
 namespace jvari {
 
-struct Document;
+class SuiteReader;
 struct Value;
 
 struct FigureAxis {
@@ -49,7 +49,7 @@ struct Figure {
 };
 
 // Both throw SceneFileError "suite.toml:12: figure.0.knid: ...".
-std::vector<Figure> figures_of(const Document&);
-FigureFacets figure_facets_of(const Document&, const Value& set, const std::string& within);
+std::vector<Figure> figures_of(const SuiteReader&, const Value& root);
+FigureFacets figure_facets_of(const SuiteReader&, const Value& set, const std::string& within);
 
 }  // namespace jvari

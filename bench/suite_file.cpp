@@ -107,6 +107,7 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     if (const Value* x = document.root.find("name")) suite.name = read.text(*x, "name");
     if (const Value* x = document.root.find("source")) suite.source = read.text(*x, "source");
     suite.maps = maps_of(read, document.root);
+    suite.figures = figures_of(read, document.root);
     const Value* cells = document.root.find("cells");
     if (!cells && !suite.maps.empty()) return suite;
     const auto* sets = cells ? std::get_if<Array>(&cells->content) : nullptr;
@@ -114,9 +115,8 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
         throw SceneFileError(read.place(cells ? *cells : document.root) + ": cells: expected at least one [[cells]]");
     for (std::size_t i = 0; i < sets->size(); ++i) {
         suite.sets.push_back(set_of(read, (*sets)[i], "cells." + std::to_string(i)));
-        suite.sets.back().figures = figure_facets_of(document, (*sets)[i], "cells." + std::to_string(i));
+        suite.sets.back().figures = figure_facets_of(read, (*sets)[i], "cells." + std::to_string(i));
     }
-    suite.figures = figures_of(document);
     return suite;
 }
 

@@ -9,18 +9,11 @@
 #include "command_line.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "suite_text.hpp"
 
 namespace jvari::test {
 namespace {
 
-std::string refusal_of(const std::string& text) {
-    try {
-        parse_suite(text, "a.toml");
-    } catch (const SceneFileError& e) {
-        return e.what();
-    }
-    return "read";
-}
 const std::string cells = "[[cells]]\nscenes = [\"free_string\"]\n";  // two lines
 
 // ---- The file

@@ -8,6 +8,7 @@
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
 #include "schemes/run.hpp"
+#include "tests/run_figures.hpp"
 
 namespace jvari {
 
@@ -17,22 +18,6 @@ namespace {
 
 using std::numbers::pi;
 using Options = std::vector<std::pair<std::string, std::string>>;
-
-double relative_l2(std::span<const double> got, std::span<const double> want) {
-    double difference = 0, norm = 0;
-    for (std::size_t n = 0; n < want.size(); ++n) {
-        difference += (got[n] - want[n]) * (got[n] - want[n]);
-        norm += want[n] * want[n];
-    }
-    return std::sqrt(difference / norm);
-}
-
-double fact(const Run& r, const std::string& name) {
-    for (const Fact& f : r.facts)
-        if (f.name == name) return f.value;
-    ADD_FAILURE() << "no fact " << name;
-    return 0;
-}
 
 String ideal_string() {
     String s;

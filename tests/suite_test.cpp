@@ -8,20 +8,12 @@
 #include "bench/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/scene_file.hpp"
+#include "suite_text.hpp"
 
 namespace jvari::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string refusal_of(const std::string& text) {
-    try {
-        parse_suite(text, "a.toml");
-    } catch (const SceneFileError& e) {
-        return e.what();
-    }
-    return "read";
-}
 
 // ---- The file
 

@@ -12,6 +12,7 @@
 #include "schemes/run.hpp"
 #include "tests/allocations.hpp"
 #include "tests/c3.hpp"
+#include "tests/run_figures.hpp"
 
 namespace jvari {
 namespace {
@@ -19,24 +20,8 @@ namespace {
 using std::numbers::pi;
 using Options = std::vector<std::pair<std::string, std::string>>;
 
-double relative_l2(std::span<const double> got, std::span<const double> want) {
-    double difference = 0, norm = 0;
-    for (std::size_t n = 0; n < want.size(); ++n) {
-        difference += (got[n] - want[n]) * (got[n] - want[n]);
-        norm += want[n] * want[n];
-    }
-    return std::sqrt(difference / norm);
-}
-
 Run integrated(const Scene& scene, int modes, const Options& options = {}, bool energy = false) {
     return run(sundials, scene, {0, 44100, modes, options}, {.energy = energy});
-}
-
-double fact(const Run& r, const std::string& name) {
-    for (const Fact& f : r.facts)
-        if (f.name == name) return f.value;
-    ADD_FAILURE() << "no fact " << name;
-    return 0;
 }
 
 // ---- The equations.

@@ -1,0 +1,20 @@
+// What reading a suite says of it.
+#pragma once
+
+#include <string>
+
+#include "bench/suite_file.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::test {
+
+inline std::string refusal_of(const std::string& text) {
+    try {
+        parse_suite(text, "a.toml");
+    } catch (const SceneFileError& e) {
+        return e.what();
+    }
+    return "read";
+}
+
+}  // namespace jvari::test
