@@ -162,8 +162,7 @@ Figure figure_of(const Entry& e) {
             for (const Entry& one : Entry{e.read, &m.value, where->key + "." + m.key}.items()) values.push_back(one.scalar());
         }
     if (const auto labels = e.at("labels"))
-        for (const Member& m : labels->table())
-            f.labels.emplace_back(m.key, Entry{e.read, &m.value, labels->key + "." + m.key}.text());
+        for (const Member& m : labels->table()) f.labels.emplace_back(m.key, Entry{e.read, &m.value, labels->key + "." + m.key}.text());
     return f;
 }
 }  // namespace
@@ -222,8 +221,7 @@ FigureFacets figure_facets_of(const SuiteReader& read, const Value& set, const s
     for (const auto& [name, said] : facets) {
         const bool asked = std::find(measured.begin(), measured.end(), name) != measured.end();
         if (asked && !said)
-            throw SceneFileError(read.place(set) + ": " + within + ": measure asks for " + name + ", the table " + name +
-                                 " is missing");
+            throw SceneFileError(read.place(set) + ": " + within + ": measure asks for " + name + ", the table " + name + " is missing");
         if (said && !asked) e.need(name).refuse(std::string("\"") + name + "\" in measure beside it");
     }
     for (const char* key : {"taps", "trace", "extent", "profile", "envelope", "centroid"})
