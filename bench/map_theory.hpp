@@ -5,6 +5,9 @@
 //                       k = m/(dt^2 sum_i g_i^2/(4 cos^2(omega_i dt/2))),
 //                   4 m/(dt^2 sum g^2) where all modes are far below half the rate. It is the limit of lasting contact.
 //   nyquist         the highest mode's frequency is half the rate
+//   equal_shares    modal_impulse_invariant without losses, started in one mode: the gain of true energy that is there once the obstacle
+//   has
+//                   given every mode the same share of the energy that the scheme conserves (modal_controls.cpp) is what outcome.hpp allows
 #pragma once
 
 #include <string>
