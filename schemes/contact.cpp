@@ -14,7 +14,7 @@ namespace jvari {
 
 namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int most_iterations = 60;  // 7 are seen at the worst
+constexpr int most_iterations = 60;  // 7 are seen at the worst up to exponent 5, 36 with exponent 50
 
 struct Quotient {
     double value, slope;
@@ -98,6 +98,9 @@ ContactSolution solve_power_contact(const ContactLaw& law, double eta, double b,
         const double rho = B > 0 ? 2 * S / (B + root) : 0.5 * (root - B);
         return {rho * eta, scale / rho};
     }
+    // Of p above 19 (1+z)^p can be beyond double's range where V(eta) is below it: beside the new depth's V it is nothing, but r ends at
+    // eta.
+    if (p > 19 && !(p * std::log1p(std::min(B, std::pow(B / S, 1 / (p - 1)))) < 700)) return enter(law.k, p, -eta, eta + b, theta);
     return stay(p, scale, eta, B, S);
 }
 

@@ -137,6 +137,31 @@ TEST(Contact, ForceTimesIncrementIsThePotentialGivenUp) {
         }
 }
 
+TEST(Contact, HighExponentsAreSolvedToo) {  // where powers of a depth leave double's range as well
+    std::mt19937_64 random(20260905);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto decade = [&](double low, double high) { return std::pow(10, low + (high - low) * unit(random)); };
+    for (double alpha : {5.0, 10.0, 20.0, 30.0, 50.0}) {
+        const ContactLaw example{4.4e13, alpha};
+        const auto graze = solve_contact(example, 1.1e-12, 9.2e-3, 4e-5);  // eta^30 is no double, (b/eta)^31 neither
+        ASSERT_TRUE(graze.converged) << alpha;
+        EXPECT_NEAR(graze.r, double(bisect(example, 1.1e-12, 9.2e-3, 4e-5).r), 1e-15) << alpha;
+        for (int i = 0; i < 300; ++i) {
+            const ContactLaw law{decade(0, 60), alpha};
+            const double theta = decade(-30, 0), eta = (unit(random) < 0.5 ? -1 : 1) * decade(-30, 0),
+                         b = (unit(random) < 0.5 ? -1 : 1) * decade(-30, 0);
+            const auto s = solve_contact(law, eta, b, theta);
+            const Truth truth = bisect(law, eta, b, theta);
+            const auto where = ::testing::Message() << "k " << law.k << " alpha " << alpha << " eta " << eta << " b " << b << " theta "
+                                                    << theta << " r " << s.r << " for " << double(truth.r);
+            ASSERT_TRUE(s.converged && std::isfinite(s.force)) << where;
+            // a power's rounding is that of its base as many times as the exponent says
+            ASSERT_LE(std::abs(s.r - truth.r), 4e-16L * (10 + alpha) * (std::abs(Real(b)) + std::abs(truth.r))) << where;
+            ASSERT_LE(s.iterations, 10 + 0.8 * alpha) << where;
+        }
+    }
+}
+
 TEST(Contact, WhatIsNotANumberDoesNotConverge) {
     const ContactLaw law{1e12, 1.3};
     EXPECT_FALSE(solve_power_contact(law, 1e-7, std::nan(""), 1e-9).converged);
