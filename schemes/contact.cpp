@@ -98,9 +98,10 @@ ContactSolution solve_power_contact(const ContactLaw& law, double eta, double b,
         const double rho = B > 0 ? 2 * S / (B + root) : 0.5 * (root - B);
         return {rho * eta, scale / rho};
     }
-    // Of p above 19 (1+z)^p can be beyond double's range where V(eta) is below it: beside the new depth's V it is nothing, but r ends at
-    // eta.
-    if (p > 19 && !(p * std::log1p(std::min(B, std::pow(B / S, 1 / (p - 1)))) < 700)) return enter(law.k, p, -eta, eta + b, theta);
+    // Where p is high, V(eta) can be below double's range or (1+z)^p above it: nothing beside V of the new depth, but r still ends at eta.
+    if (p > 12 && B > 1 &&
+        (scale < std::numeric_limits<double>::min() || !(p * std::log1p(std::min(B, std::pow(B / S, 1 / (p - 1)))) < 700)))
+        return enter(law.k, p, -eta, eta + b, theta);
     return stay(p, scale, eta, B, S);
 }
 
