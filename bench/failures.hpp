@@ -16,7 +16,7 @@ struct Reproducer {
     Judgement expected;
 };
 
-// Of each scheme and outcome that is neither sound nor refused, the failure that took the fewest steps.
+// Of each scheme and outcome that is neither sound nor refused, the failure that took the fewest steps, among maps that reproduce theirs.
 std::vector<Reproducer> reproducers_of(const MapRun&, Truths&, int jobs);
 
 void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>&);

@@ -73,7 +73,7 @@ Map map_of(const SuiteReader& read, const Value& v, const std::string& within) {
     read.table(v, within);
     read.only(v, within + ": ",
               {"name", "scene", "schemes", "x", "y", "duration", "amplitude", "rate", "modes", "options", "set", "reference", "theory",
-               "refine"});
+               "refine", "reproduce"});
     Map m;
     for (const char* name : {"name", "scene", "x"})
         if (!v.find(name)) throw SceneFileError(read.place(v) + ": " + within + ": the key " + name + " is missing");
@@ -100,6 +100,11 @@ Map map_of(const SuiteReader& read, const Value& v, const std::string& within) {
     if (const Value* x = v.find("reference")) m.reference = read.text(*x, within + ".reference");
     if (const Value* x = v.find("refine")) m.refine = read.count(*x, within + ".refine");
     if (m.refine > 0 && m.x.at.empty()) read.refuse(*v.find("refine"), within + ".refine", "an axis x of numbers");
+    if (const Value* x = v.find("reproduce")) {
+        const auto* asked = std::get_if<bool>(&x->content);
+        if (!asked) read.refuse(*x, within + ".reproduce", "true or false");
+        m.reproduce = *asked;
+    }
     if (const Value* x = v.find("theory")) {
         m.theory = read.text(*x, within + ".theory");
         if (!is_theory(m.theory))

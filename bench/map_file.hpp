@@ -8,6 +8,7 @@
 //   reference = "exact_contact" or "none"                      (absent: the highest that represents the scene)
 //   theory = "grid_limit"                                      a boundary that is known: map_theory.hpp
 //   refine = 12                                                bisections of each boundary along x (absent: 0)
+//   reproduce = false                                          its failures are not minimised (absent: they are)
 #pragma once
 
 #include <string>
@@ -36,6 +37,7 @@ struct Map {
     MapAxis x, y;                   // y without a key: one row
     std::vector<Assignment> fixed;  // the same at every point
     int refine = 0;
+    bool reproduce = true;
 };
 
 // The maps of a suite's root table. Throws SceneFileError with file, line and key.

@@ -26,7 +26,8 @@ Table boundaries_table(const MapRun& run, const Reproducers& reproducers) {
     for (const Boundary& b : run.boundaries) {
         std::string file;
         for (const Verdict side : {b.low, b.high})
-            if (const auto r = reproducers.find({b.scheme->name, side}); r != reproducers.end()) file = r->second;
+            if (const auto r = b.map->reproduce ? reproducers.find({b.scheme->name, side}) : reproducers.end(); r != reproducers.end())
+                file = r->second;
         t.rows.push_back({b.map->name, b.scheme->name, b.map->x.key, b.map->y.key, b.y,
                           fmt::format("{}|{}", name_of(b.low), name_of(b.high)), b.x_low, b.x_high, text_of(b.theory),
                           text_of(b.relative_difference()), file});

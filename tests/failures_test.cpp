@@ -32,6 +32,25 @@ TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
     }
 }
 
+TEST(Failures, AMapThatReproducesNoneHasNone) {
+    for (const bool reproduce : {true, false}) {
+        Map m;
+        m.name = "a";
+        m.scene = "tanpura_c3_release";
+        m.schemes = {"modal_explicit_penalty"};
+        m.x = {"rate", {"44100"}, {44100}, false};
+        m.fixed = {{"duration", "0.001"}, {"modes", "10"}, {"string.0.initial.amplitude", "-1e-6"}};
+        m.reference = "none";
+        m.reproduce = reproduce;
+        Truths truths(catalogue());
+        const std::vector<Map> maps = {m};
+        const MapRun run = run_maps(maps, truths, "\"tests\"", {}, false, 1, Console(false, true));
+        ASSERT_EQ(run.points.size(), 1u);
+        EXPECT_EQ(run.points[0].tried.judgement.verdict, Verdict::diverged);
+        EXPECT_EQ(reproducers_of(run, truths, 1).size(), reproduce ? 1u : 0u);
+    }
+}
+
 TEST(Failures, EveryControlHasOne) {
     std::set<std::string> failing;
     for (const Reproducer& r : read_failures(JVARI_FAILURES, catalogue())) failing.insert(r.trial.scheme->name);

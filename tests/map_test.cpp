@@ -35,6 +35,7 @@ TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
     EXPECT_EQ(m.y.values, (std::vector<std::string>{"10", "20", "40"}));
     EXPECT_TRUE(m.y.whole);
     EXPECT_FALSE(m.x.whole);
+    EXPECT_TRUE(m.reproduce);
     EXPECT_EQ(m.fixed, (std::vector<Assignment>{{"rate", "48000"}, {"option:grid", "100"}, {"string.0.damping.law", "\"none\""}}));
 }
 
@@ -52,6 +53,7 @@ TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
         {head + "x = { key = \"rate\", values = [-2] }", "a.toml:4: map.0.x.values.0: found -2, expected a number > 0"},
         {head + "x = { key = \"modes\", values = [2.5] }", "a.toml:4: map.0.x.values.0: found 2.5, expected a whole number > 0"},
         {head + x + "rate = 3", "map.0.x.key: found \"rate\", expected a key that is not set for all points as well"},
+        {head + x + "reproduce = 1", "a.toml:5: map.0.reproduce: found 1, expected true or false"},
         {head + x + "theory = \"grid\"", "a.toml:5: map.0.theory: unknown theory \"grid\""},
         {head + "x = { key = \"string.0.damping.law\", values = [\"none\"] }\nrefine = 3",
          "map.0.refine: found 3, expected an axis x of numbers"},
