@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/cell_rows.hpp"
 #include "bench/page_sections.hpp"
 
 namespace jvari {
@@ -16,6 +17,14 @@ Table elements_of(const Table& t) {
     std::erase_if(elements.rows, [&t](const auto& row) { return std::isnan(number_of(row[t.column("extra_ns")])); });
     for (auto& row : elements.rows) row[1] = row[t.column("what")];  // coloured by the element
     return elements;
+}
+
+// A scheme that was held at several rates or numbers of modes has a line for each.
+Table told_apart(Table t) {
+    for (const Rows& rows : alike(t, all_rows(t), {"problem", "series", "what"}))
+        if (alike(t, rows, {"at"}).size() > 1)
+            for (const std::size_t row : rows) t.rows[row][t.column("series")] += ", " + t.at(row, "at");
+    return t;
 }
 
 // What is scaled: those with two values of x in one series.
@@ -82,8 +91,8 @@ Chart element_chart(const Table& t) {
 Section cost_section(const Results& r) {
     Section s{"cost", "Cost"};
     if (r.scaling.rows.empty()) return s;
-    const Table elements = elements_of(r.scaling);
-    if (const auto whats = scaled_in(r.scaling); !whats.empty()) s.charts.push_back(scaling_chart(r.scaling, whats));
+    const Table scaling = told_apart(r.scaling), elements = elements_of(r.scaling);
+    if (const auto whats = scaled_in(scaling); !whats.empty()) s.charts.push_back(scaling_chart(scaling, whats));
     if (!elements.rows.empty()) s.charts.push_back(element_chart(elements));
     s.notes = {"Numbers of the clock, on the machine named at the foot of the page. Bars are quartiles: two that touch are a tie."};
     s.table = without_names(r.scaling);
