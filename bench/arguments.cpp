@@ -63,6 +63,12 @@ void add_options(CLI::App& verb, std::vector<std::string>& options) {
         ->allow_extra_args(false);
 }
 
+void add_jobs(CLI::App& verb, int& jobs) {
+    verb.add_option("--jobs", jobs, "accuracy runs side by side; as many as there are cores where absent. Timed runs go one at a time")
+        ->type_name("N")
+        ->check(counting);
+}
+
 std::vector<SchemeOption> scheme_options(const std::vector<std::string>& texts) {
     std::vector<SchemeOption> options;
     for (const std::string& text : texts) {
@@ -145,6 +151,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     compare_verb->add_option("--repeats", compare.repeats, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent")
         ->type_name("N")
         ->check(counting);
+    add_jobs(*compare_verb, compare.jobs);
     compare_verb
         ->add_option("--out", compare.out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
         ->type_name("DIR");
@@ -160,9 +167,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->add_option("--out", suite.out, "folder for cells/, cells.csv, errors.csv, cost.csv, manifest.json, spectrograms.svg, report.html")
         ->type_name("DIR");
     suite_verb->add_flag("--resume", suite.resume, "reads back the cells that DIR holds and runs the others");
-    suite_verb->add_option("--jobs", suite.jobs, "accuracy runs side by side; as many as there are cores where absent")
-        ->type_name("N")
-        ->check(counting);
+    add_jobs(*suite_verb, suite.jobs);
     suite_verb->footer("Example: jvari suite paper-deshmukh --out sitar --resume");
     add_common(*suite_verb, suite);
 

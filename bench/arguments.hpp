@@ -44,6 +44,7 @@ struct CompareRequest : Common {
     std::vector<std::string> set;
     std::vector<SchemeOption> options;
     int repeats = 5;
+    int jobs = 0;  // 0: as many as there are cores
 };
 
 struct ReportRequest : Common {

@@ -9,23 +9,19 @@
 #include "bench/compare_plan.hpp"
 #include "bench/cost.hpp"
 #include "bench/kept_run.hpp"
+#include "bench/side_by_side.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari {
 
 namespace {
-ProgressOf shown_on(Console::Progress& progress, const Descriptor& d, const Settings& settings, double from, double to) {
-    const std::string what = std::isfinite(settings.sample_rate) && settings.sample_rate > 0
-                                 ? fmt::format("{} at {} Hz", d.name, settings.sample_rate)
-                                 : std::string(d.name);
-    return [&progress, what, from, to](long done, long rows) {
-        progress.show(from + (to - from) * static_cast<double>(done) / static_cast<double>(rows), what);
-    };
+ProgressOf told_to(Done& done) {
+    return [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
 }
 
-Run reference_run(const ReferenceChoice& choice, const Scene& scene, Console::Progress& progress, double from, double to) {
+Run reference_run(const ReferenceChoice& choice, const Scene& scene, Done& done) {
     RunOptions options;
-    options.progress = shown_on(progress, *choice.scheme, choice.settings, from, to);
+    options.progress = told_to(done);
     const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
     return choice.kept ? kept_run(kept_runs_folder(), run_key(*choice.scheme, scene, choice.settings), make) : make();
 }
@@ -34,26 +30,24 @@ double last_instant(const Run& r) {
     return static_cast<double>(r.trace.rows - 1) / r.trace.tap_rate;
 }
 
-// A scheme at three rates, the highest of them those of `choice`: its run there and its own estimate.
-Reference oversampled_run(const ReferenceChoice& choice, const Scene& scene, Console::Progress& progress) {
+// A scheme at three rates, the highest of them those of `r.choice`: its run there and its own estimate.
+void run_oversampled(Reference& r, const Scene& scene, Done& done) {
     RunOptions options;
-    options.progress = shown_on(progress, *choice.scheme, choice.settings, 0, 0.25);
-    Settings coarsest = choice.settings;
-    coarsest.sample_rate /= choice.oversampled;
-    Reference r{choice, {}, {}, {}};
+    options.progress = told_to(done);
+    Settings coarsest = r.choice.settings;
+    coarsest.sample_rate /= r.choice.oversampled;
     try {
-        Oversampled o = oversampled(*choice.scheme, scene, coarsest, choice.oversampled, options);
-        if (o.rate == choice.settings.sample_rate) {
+        Oversampled o = oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled, options);
+        if (o.rate == r.choice.settings.sample_rate) {
             r.run = std::move(o.run);
             r.trust = trust_of(o, last_instant(r.run));
-            return r;
+            return;
         }
         r.trust.missing = fmt::format("at {:.6g} Hz it {}", o.rate, name_of(o.run.status.outcome));
     } catch (const Refusal& e) {
         r.trust.missing = e.what();
     }
-    r.run = reference_run(choice, scene, progress, 0.25, 0.5);  // a coarser one fails: no estimate
-    return r;
+    r.run = reference_run(r.choice, scene, done);  // a coarser one fails: no estimate
 }
 
 std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
@@ -66,17 +60,19 @@ std::string certify_command(const CompareRequest& r, const Comparison& c) {  // 
 }
 }  // namespace
 
-Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, const Console& console) {
+Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const Console& console) {
     std::string refusals;
     for (const ReferenceChoice& choice : choices) try {
-            Console::Progress progress(console, "reference");
-            Reference r = choice.oversampled ? oversampled_run(choice, scene, progress)
-                                             : Reference{choice, reference_run(choice, scene, progress, 0, 0.5), {}, {}};
+            Reference r{choice, {}, {}, {}};
+            side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, Done& done) {
+                if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), done);
+                else if (choice.oversampled) run_oversampled(r, scene, done);
+                else r.run = reference_run(choice, scene, done);
+            });
             if (r.run.trace.rows < 2) {
                 refusals += fmt::format("; {} failed at its start", choice.scheme->name);
                 continue;
             }
-            r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress, 0.5, 1);
             if (!choice.oversampled) r.trust = trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
             return r;
         } catch (const Refusal& e) {
@@ -106,7 +102,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     for (const std::string& note : plan.notes) console.note(note);
     c.cells = plan.cells;
 
-    const Reference reference = run_reference(plan.references, c.scene, console);
+    const Reference reference = run_reference(plan.references, c.scene, request.jobs, console);
     c.reference = reference.choice.scheme;
     c.reference_name = reference.choice.name();
     c.reference_settings = reference.choice.settings;
@@ -124,23 +120,18 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
         console.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
                                  name_of(reference.run.status.outcome), c.reference_summary.duration));
 
-    {
-        Console::Progress progress(console, "errors");
-        double work = 0, finished = 0;
-        for (const Cell& cell : c.cells) work += cell.settings.sample_rate;
-        for (Cell& cell : c.cells) {
-            const double next = finished + cell.settings.sample_rate;
-            try {
-                const Trace trace = measure(cell, c.scene, &reference.run.trace,
-                                            shown_on(progress, *cell.scheme, cell.settings, finished / work, next / work));
-                if (cell.reason.empty()) cell.sound = sound_of(trace.column(c.headline.nut), trace.tap_rate);
-            } catch (const Refusal& e) {
-                cell.refused = true;
-                cell.reason = e.what();
-            }
-            finished = next;
+    std::vector<double> sizes;
+    for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0));
+    side_by_side(sizes, request.jobs, console, "errors", [&](std::size_t i, Done& done) {
+        Cell& cell = c.cells[i];
+        try {
+            const Trace trace = measure(cell, c.scene, &reference.run.trace, told_to(done));
+            if (cell.reason.empty()) cell.sound = sound_of(trace.column(c.headline.nut), trace.tap_rate);
+        } catch (const Refusal& e) {
+            cell.refused = true;
+            cell.reason = e.what();
         }
-    }
+    });
     std::vector<Contender> contenders;
     for (Cell& cell : c.cells) contenders.push_back({&cell, &c.scene});
     time_cells(contenders, request.repeats, console);

@@ -2,13 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <atomic>
 #include <sstream>
-#include <thread>
 
 #include "bench/fresh_file.hpp"
 #include "bench/minimise.hpp"
+#include "bench/side_by_side.hpp"
 #include "bench/suite_plan.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -32,7 +30,7 @@ Verdict verdict_called(const std::string& name) {
 }
 }  // namespace
 
-std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jobs) {
+std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jobs, const Console& console) {
     std::map<std::pair<std::string, Verdict>, const JudgedPoint*> cheapest;
     for (const JudgedPoint& p : run.points) {
         const Verdict v = p.tried.judgement.verdict;
@@ -43,18 +41,12 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
     std::vector<Reproducer> all;
     for (const auto& [key, point] : cheapest)
         all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)), trial_at(point->at), point->tried.judgement});
-    std::atomic<std::size_t> next = 0;
-    std::vector<std::jthread> threads;
-    for (int k = 0; k < std::min<int>(jobs, static_cast<int>(all.size())); ++k)
-        threads.emplace_back([&] {
-            for (std::size_t i = next++; i < all.size(); i = next++) {
-                const Verdict wanted = all[i].expected.verdict;
-                all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths).judgement.verdict == wanted; });
-                all[i].trial.scene.name += "_minimised";
-                all[i].expected = run_trial(all[i].trial, truths).judgement;
-            }
-        });
-    threads.clear();  // waits for them
+    side_by_side(std::vector<double>(all.size(), 1), jobs, console, "failures", [&](std::size_t i, Done&) {
+        const Verdict wanted = all[i].expected.verdict;
+        all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths).judgement.verdict == wanted; });
+        all[i].trial.scene.name += "_minimised";
+        all[i].expected = run_trial(all[i].trial, truths).judgement;
+    });
     return all;
 }
 

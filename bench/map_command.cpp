@@ -8,8 +8,7 @@ namespace jvari {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> chart_maps(const Suite& suite, const Catalogue& catalogue, const SuiteRequest& r, int jobs,
-                                    const Console& console) {
+std::vector<std::string> chart_maps(const Suite& suite, const Catalogue& catalogue, const SuiteRequest& r, const Console& console) {
     if (suite.maps.empty()) return {};
     const fs::path folder = r.out;
     if (!r.out.empty())
@@ -19,8 +18,8 @@ std::vector<std::string> chart_maps(const Suite& suite, const Catalogue& catalog
             must_be_writable(folder / name / "any");
         }
     Truths truths(catalogue);
-    const MapRun run =
-        run_maps(suite.maps, truths, program_identity(r.plugins), r.out.empty() ? fs::path() : folder / "points", r.resume, jobs, console);
+    const MapRun run = run_maps(suite.maps, truths, program_identity(r.plugins), r.out.empty() ? fs::path() : folder / "points", r.resume,
+                                r.jobs, console);
     console.print(suite.name + "\n" + maps_text(run));
     std::vector<std::string> files;
     if (r.out.empty()) return files;
@@ -29,7 +28,7 @@ std::vector<std::string> chart_maps(const Suite& suite, const Catalogue& catalog
         files.push_back((folder / name).string());
     };
     write("maps.csv", csv(maps_table(run)));
-    const std::vector<Reproducer> failures = reproducers_of(run, truths, jobs);
+    const std::vector<Reproducer> failures = reproducers_of(run, truths, r.jobs, console);
     Reproducers files_of;
     for (const Reproducer& f : failures) files_of[{f.trial.scheme->name, f.expected.verdict}] = "failures/" + f.file;
     write_failures(folder / "failures", failures);

@@ -12,6 +12,6 @@ namespace jvari {
 class Console;
 
 // Files written; none where the suite has no maps. r.out "": nothing is written, the text is printed all the same.
-std::vector<std::string> chart_maps(const Suite&, const Catalogue&, const SuiteRequest& r, int jobs, const Console&);
+std::vector<std::string> chart_maps(const Suite&, const Catalogue&, const SuiteRequest& r, const Console&);
 
 }  // namespace jvari

@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
-#include <functional>
 #include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "bench/fresh_file.hpp"
 #include "bench/map_theory.hpp"
 #include "bench/records.hpp"
+#include "bench/side_by_side.hpp"
 #include "bench/suite_plan.hpp"
 
 namespace jvari {
@@ -69,8 +67,8 @@ std::optional<Tried> read_back(const fs::path& path, const std::string& identity
 
 class Laboratory {  // tries points, and keeps what came of them
 public:
-    Laboratory(Truths& truths, std::string program, fs::path folder, bool resume, int jobs)
-        : truths_(truths), program_(std::move(program)), folder_(std::move(folder)), resume_(resume), jobs_(jobs) {}
+    Laboratory(Truths& truths, std::string program, fs::path folder, bool resume)
+        : truths_(truths), program_(std::move(program)), folder_(std::move(folder)), resume_(resume) {}
 
     Tried operator()(const PointPlace& at) {
         const Trial trial = trial_at(at);
@@ -91,32 +89,6 @@ public:
         return tried;
     }
 
-    void for_all(std::size_t count, const char* what, const Console& console, const std::function<void(std::size_t)>& work) {
-        Console::Progress progress(console, what);
-        std::atomic<std::size_t> next = 0, finished = 0;
-        std::atomic<bool> stop = false;
-        std::exception_ptr failure;
-        std::mutex mutex;
-        {
-            std::vector<std::jthread> threads;
-            for (int k = 0; k < std::min<int>(jobs_, static_cast<int>(count)); ++k)
-                threads.emplace_back([&] {
-                    try {
-                        for (std::size_t i = next++; i < count && !stop; i = next++) {
-                            work(i);
-                            const std::size_t n = ++finished;
-                            const std::lock_guard lock(mutex);
-                            progress.show(static_cast<double>(n) / static_cast<double>(count), fmt::format("{} of {}", n, count));
-                        }
-                    } catch (...) {
-                        const std::lock_guard lock(mutex);
-                        failure = std::current_exception();
-                        stop = true;
-                    }
-                });
-        }
-        if (failure) std::rethrow_exception(failure);
-    }
     int ran() const { return ran_; }
     int kept() const { return kept_; }
 
@@ -125,7 +97,6 @@ private:
     const std::string program_;
     const fs::path folder_;
     const bool resume_;
-    const int jobs_;
     std::mutex writing_;
     std::atomic<int> ran_ = 0, kept_ = 0;
 };
@@ -205,9 +176,9 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
                 for (const std::string& x : m.x.values) result.points.push_back({{&m, d, x, y}, {}});
     }
     for (const JudgedPoint& p : result.points) trial_at(p.at);  // scenes and keys that are none are said before anything runs
-    Laboratory laboratory(truths, program, folder, resume, jobs);
-    laboratory.for_all(result.points.size(), "points", console,
-                       [&](std::size_t i) { result.points[i].tried = laboratory(result.points[i].at); });
+    Laboratory laboratory(truths, program, folder, resume);
+    side_by_side(std::vector<double>(result.points.size(), 1), jobs, console, "points",
+                 [&](std::size_t i, Done&) { result.points[i].tried = laboratory(result.points[i].at); });
 
     struct Pair {
         const JudgedPoint *low, *high;
@@ -219,7 +190,7 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
         if (same_row && !p.at.map->x.at.empty() && p.tried.judgement.verdict != q.tried.judgement.verdict) changes.push_back({&p, &q});
     }
     std::vector<std::optional<Boundary>> found(changes.size());
-    laboratory.for_all(changes.size(), "boundaries", console, [&](std::size_t i) {
+    side_by_side(std::vector<double>(changes.size(), 1), jobs, console, "boundaries", [&](std::size_t i, Done&) {
         const auto [low, high] = changes[i];
         const MapAxis& axis = low->at.map->x;
         const Bracket b = bisect({number_of(low->at.x), number_of(high->at.x), low->tried.judgement.verdict, high->tried.judgement.verdict},

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "bench/cheapest.hpp"
 #include "bench/commands.hpp"
@@ -96,9 +95,8 @@ int suite_command(const SuiteRequest& r) {
     const SuitePlan plan = plan_of(suite, catalogue, r.plugins);
     const fs::path folder = r.out;
     if (!r.out.empty()) make_folder(folder);
-    const int jobs = r.jobs > 0 ? r.jobs : std::max(1u, std::thread::hardware_concurrency());
-    const std::vector<std::string> mapped = chart_maps(suite, catalogue, r, jobs, console);
-    const SuiteRun run = run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, jobs, console);
+    const std::vector<std::string> mapped = chart_maps(suite, catalogue, r, console);
+    const SuiteRun run = run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
     const Table cells = table_of(plan, run.records);
     const std::string manifest = manifest_of(suite, plan);
     if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));

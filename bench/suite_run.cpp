@@ -4,19 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <ctime>
-#include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "bench/cost.hpp"
 #include "bench/fresh_file.hpp"
 #include "bench/row_facet.hpp"
+#include "bench/side_by_side.hpp"
 
 namespace jvari {
 
@@ -39,7 +36,7 @@ struct Truth {  // the run of a reference, made by the first cell that needs it,
     void make(const PlannedPoint& p) {
         std::call_once(once, [&] {
             try {
-                reference = std::make_unique<Reference>(run_reference(p.references, p.scene, Console(false, true)));
+                reference = std::make_unique<Reference>(run_reference(p.references, p.scene, 1, Console(false, true)));
                 floor = errors_of(reference->moved.trace, reference->run.trace);
             } catch (const std::exception& e) {
                 refused = e.what();
@@ -48,10 +45,10 @@ struct Truth {  // the run of a reference, made by the first cell that needs it,
     }
 };
 
-class Accuracy {  // the cells to run, and the threads that do
+class Accuracy {  // the cells to run
 public:
     Accuracy(const SuitePlan& plan, std::vector<std::size_t> missing, std::filesystem::path folder, SuiteRun& into)
-        : plan_(plan), todo_(std::move(missing)), folder_(std::move(folder)), into_(into), fraction_(todo_.size()) {
+        : plan_(plan), todo_(std::move(missing)), folder_(std::move(folder)), into_(into) {
         for (const std::size_t i : todo_)
             if (plan_.cells[i].set->measures(Facet::errors)) {
                 auto& truth = truths_[plan_.cells[i].point->reference_key];
@@ -61,57 +58,19 @@ public:
     }
 
     void run(int jobs, const Console& console) {
-        Console::Progress progress(console, "suite");
-        const auto start = std::chrono::steady_clock::now();
-        {
-            std::vector<std::jthread> threads;
-            for (int k = 0; k < std::min<int>(jobs, static_cast<int>(todo_.size())); ++k) threads.emplace_back([this] { work(); });
-            std::unique_lock lock(mutex_);
-            while (finished_ < todo_.size() && !failure_) {
-                changed_.wait_for(lock, std::chrono::milliseconds(250));
-                show(progress, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-            }
-        }
-        if (failure_) std::rethrow_exception(failure_);
+        std::vector<double> sizes;
+        for (const std::size_t i : todo_)
+            sizes.push_back(std::max(plan_.cells[i].cell.settings.sample_rate, 44100.0) * plan_.cells[i].point->scene.duration);
+        side_by_side(sizes, jobs, console, "cells", [this](std::size_t k, Done& done) {
+            const PlannedCell& planned = plan_.cells[todo_[k]];
+            SuiteRecord& record = into_.records[todo_[k]];
+            record = cell(planned, done);
+            if (!folder_.empty()) write_fresh(folder_ / (planned.id + ".json"), json_of(record, planned.identity));
+        });
     }
 
 private:
-    double weight(std::size_t k) const {
-        const PlannedCell& c = plan_.cells[todo_[k]];
-        return std::max(c.cell.settings.sample_rate, 44100.0) * c.point->scene.duration;
-    }
-
-    void show(Console::Progress& progress, double elapsed) const {
-        double all = 0, done = 0;
-        for (std::size_t k = 0; k < todo_.size(); ++k) {
-            all += weight(k);
-            done += weight(k) * fraction_[k].load(std::memory_order_relaxed);
-        }
-        const double left = done > 0 ? elapsed * (all - done) / done : 0;
-        progress.show(done / all, fmt::format("{} of {} cells, about {:.0f} s left", finished_, todo_.size(), left));
-    }
-
-    void work() {
-        try {
-            for (std::size_t k = next_++; k < todo_.size() && !stop_; k = next_++) {
-                SuiteRecord record = cell(plan_.cells[todo_[k]], fraction_[k]);
-                if (!folder_.empty())
-                    write_fresh(folder_ / (plan_.cells[todo_[k]].id + ".json"), json_of(record, plan_.cells[todo_[k]].identity));
-                fraction_[k] = 1;
-                const std::lock_guard lock(mutex_);
-                into_.records[todo_[k]] = std::move(record);
-                ++finished_;
-                changed_.notify_one();
-            }
-        } catch (...) {  // nothing can be written any more
-            const std::lock_guard lock(mutex_);
-            failure_ = std::current_exception();
-            stop_ = true;
-            changed_.notify_one();
-        }
-    }
-
-    SuiteRecord cell(const PlannedCell& planned, std::atomic<double>& fraction) {
+    SuiteRecord cell(const PlannedCell& planned, Done& fraction) {
         Truth* truth = nullptr;
         if (planned.set->measures(Facet::errors)) {
             truth = truths_.at(planned.point->reference_key).get();
@@ -157,13 +116,6 @@ private:
     const std::filesystem::path folder_;
     SuiteRun& into_;
     std::map<std::string, std::unique_ptr<Truth>> truths_;
-    std::vector<std::atomic<double>> fraction_;  // of each cell that is done
-    std::atomic<std::size_t> next_ = 0;
-    std::atomic<bool> stop_ = false;
-    std::mutex mutex_;  // of what follows and of the records
-    std::condition_variable changed_;
-    std::size_t finished_ = 0;
-    std::exception_ptr failure_;
 };
 
 // Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.

@@ -16,7 +16,7 @@ struct SuiteRun {
     int ran = 0, timed = 0, read_back = 0;
 };
 
-// `folder`: where cells are kept, "" for nowhere. `resume`: read back what lies there. `jobs` >= 1 threads.
+// `folder`: where cells are kept, "" for nowhere. `resume`: read back what lies there. `jobs` threads (0: as many as there are cores).
 SuiteRun run_suite(const SuitePlan&, const std::filesystem::path& folder, bool resume, int jobs, const Console&);
 
 }  // namespace jvari

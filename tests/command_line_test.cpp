@@ -53,6 +53,7 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"compare free_string --reference exact_liner", "did you mean \"exact_linear\""},
         {"compare free_string --option none=1 --duration 0.01", "no compared scheme has it"},
         {"compare free_string --repeats 0", "whole number > 0"},
+        {"compare free_string --jobs 0", "whole number > 0"},
         {"compare free_string --out /proc/nowhere", "/proc/nowhere"},
         {"report nowhere", "nowhere/cells.csv"},
     };
@@ -221,13 +222,20 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
     EXPECT_EQ(content(out + "/report.html"), page);
 }
 
-TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigit) {
+TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigitOneByOneAndSideBySide) {
     const Scratch scratch;
     const std::string arguments =
-        "compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.06 --repeats 1 --out ";
-    ASSERT_EQ(jvari(scratch, arguments + (scratch / "a")).code, 0);
-    ASSERT_EQ(jvari(scratch, arguments + (scratch / "b")).code, 0);
-    EXPECT_EQ(content(scratch / "a/errors.csv"), content(scratch / "b/errors.csv"));
+        "compare tanpura_c3_release --schemes modal_two_point,modal_quadratised,finite_difference_explicit --rates 44100,176400 "
+        "--duration 0.06 --repeats 1";
+    const auto to = [&](const char* folder, const char* jobs) {  // the reference is made each time
+        return jvari(scratch, arguments + jobs + " --out " + (scratch / folder), "JVARI_NODE_MODULES=/nowhere JVARI_CACHE=").code;
+    };
+    ASSERT_EQ(to("a", " --jobs 1"), 0);
+    ASSERT_EQ(to("b", " --jobs 4"), 0);
+    ASSERT_EQ(to("c", ""), 0);
+    for (const char* file : {"errors.csv", "convergence.csv", "sounds.csv"})
+        for (const char* folder : {"b/", "c/"})
+            EXPECT_EQ(content(scratch / (std::string("a/") + file)), content(scratch / (folder + std::string(file)))) << folder << file;
 
     const Table errors = read_csv(content(scratch / "a/errors.csv"));
     EXPECT_EQ(errors.at(0, "third_octave_db"), errors.at(0, "third_octave_db_bridge"));

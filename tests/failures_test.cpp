@@ -47,7 +47,7 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
         const MapRun run = run_maps(maps, truths, "\"tests\"", {}, false, 1, Console(false, true));
         ASSERT_EQ(run.points.size(), 1u);
         EXPECT_EQ(run.points[0].tried.judgement.verdict, Verdict::diverged);
-        EXPECT_EQ(reproducers_of(run, truths, 1).size(), reproduce ? 1u : 0u);
+        EXPECT_EQ(reproducers_of(run, truths, 1, Console(false, true)).size(), reproduce ? 1u : 0u);
     }
 }
 

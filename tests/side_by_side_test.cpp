@@ -1,0 +1,68 @@
+// Things side by side: each once, as many at a time as asked for, and failures as if they had gone one by one.
+#include "bench/side_by_side.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+namespace jvari::test {
+namespace {
+
+const Console quiet(false, true);
+void wait(int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+TEST(SideBySide, EachIsDoneOnceOnAsManyThreadsAsAskedFor) {
+    for (const int jobs : {0, 1, 3, 100}) {
+        std::vector<std::atomic<int>> times(20);
+        std::atomic<int> together = 0, most = 0;
+        side_by_side(std::vector<double>(20, 1), jobs, quiet, "", [&](std::size_t i, Done& done) {
+            const int n = ++together;
+            for (int seen = most; n > seen && !most.compare_exchange_weak(seen, n);) {
+            }
+            EXPECT_EQ(done, 0);
+            wait(5);
+            ++times[i];
+            --together;
+        });
+        for (const auto& t : times) EXPECT_EQ(t, 1);
+        if (jobs > 0) {
+            EXPECT_LE(most, jobs);
+        }
+        if (jobs > 1) {
+            EXPECT_GE(most, 2);
+        }
+    }
+    side_by_side({}, 4, quiet, "", [](std::size_t, Done&) { FAIL(); });
+}
+
+TEST(SideBySide, TheFirstFailureInOrderIsThrownWhicheverComesFirstAndEndsTheRest) {
+    for (const std::size_t late : {4, 5}) {
+        std::set<std::size_t> begun;
+        std::mutex mutex;
+        try {
+            side_by_side(std::vector<double>(50, 1), 3, quiet, "", [&](std::size_t i, Done&) {
+                {
+                    const std::lock_guard lock(mutex);
+                    begun.insert(i);
+                }
+                if (i >= 4) {
+                    wait(i == late ? 80 : 20);
+                    throw std::runtime_error(std::to_string(i));
+                }
+            });
+            FAIL();
+        } catch (const std::runtime_error& e) {
+            EXPECT_STREQ(e.what(), "4");
+        }
+        EXPECT_LE(begun.size(), 8u);
+    }
+}
+
+}  // namespace
+}  // namespace jvari::test
