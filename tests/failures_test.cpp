@@ -67,6 +67,18 @@ Trial large() {
     return t;
 }
 
+TEST(Failures, EveryOutcomeHasOne) {
+    std::set<Verdict> seen;
+    bool gains = false;
+    for (const Reproducer& r : read_failures(JVARI_FAILURES, catalogue())) {
+        seen.insert(r.expected.verdict);
+        gains = gains || (r.trial.scheme->name == std::string("modal_impulse_invariant") && r.expected.verdict == Verdict::energy_gaining);
+    }
+    for (const Verdict v : {Verdict::inaccurate, Verdict::adhesive, Verdict::energy_gaining, Verdict::not_converged, Verdict::diverged})
+        EXPECT_TRUE(seen.contains(v)) << name_of(v);
+    EXPECT_TRUE(gains);  // where modal_two_point is sound; its inaccurate points are everyone's
+}
+
 TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
     const Trial t = minimised(large(), [](const Trial& x) {  // fails with a thread, from 17 modes and 23 rows on
         return x.scene.strings[0].thread && x.settings.modes >= 17 && x.scene.duration * x.settings.tap_rate > 22.5;
