@@ -69,12 +69,13 @@ Chart scaling_chart(const Table& t, const std::vector<std::string>& whats) {
 Chart element_chart(const Table& t) {
     const auto problems = distinct(t, "problem");
     const auto filling = [](const Table& rows, const std::string& problem) {
-        return Filling{problem + ": what each element adds",
-                       "extra time per step",
-                       distinct(rows, "series"),
-                       {},
-                       {{"rows", rows_of(rows, {"problem", "series", "scheme"}, {"extra_ns", "ns_per_step"})}},
-                       {{"problem_field", json_text(problem)}}};
+        return Filling{
+            problem + ": what each element adds",
+            "extra time per step: median, and as far as the quartiles of both runs allow",
+            distinct(rows, "series"),
+            {},
+            {{"rows", rows_of(rows, {"problem", "series", "scheme"}, {"extra_ns", "extra_lower", "extra_upper", "ns_per_step"})}},
+            {{"problem_field", json_text(problem)}}};
     };
     Chart c{"extra time per step of each element of the scene",
             chart_of("elements.json", filling(t, problems.front()), Medium::page),
