@@ -205,9 +205,12 @@ public:
         int status;
         return waitpid(child_, &status, WNOHANG) == 0;
     }
-    int end() {  // the signal that ended it; -1: its own end
-        int status = 0;
-        waitpid(child_, &status, 0);
+    int end() {  // the signal that ended it; -1: its own end; SIGKILL: there was none within 5 s
+        int status = 0, k = 0;
+        while (waitpid(child_, &status, WNOHANG) == 0) {
+            if (++k == 500) kill(child_, SIGKILL);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
         return WIFSIGNALED(status) ? WTERMSIG(status) : -1;
     }
 
