@@ -160,7 +160,7 @@ TEST(Interruption, WhoDrawsAChartIsNotSpared) {
         fs::create_directories(scratch.path / library / "build");
         std::ofstream(scratch.path / library / "build" / (library + std::string(".min.js"))) << "//";
     }
-    std::ofstream(scratch / "node") << "#!/bin/sh\ngrep SigBlk /proc/self/status >" << scratch / "blocked"
+    std::ofstream(scratch / "node") << "#!/bin/bash\ngrep SigBlk /proc/self/status >" << scratch / "blocked"
                                     << "\nexec sleep 1\n";
     fs::permissions(scratch / "node", fs::perms::owner_all);
     Started compare(scratch,
@@ -219,18 +219,17 @@ private:
     pid_t child_;
 };
 
-TEST(Interruption, AFileThatIsBeingWrittenIsFinishedAndNothingIsDoneAfterIt) {
+TEST(Interruption, AFileThatIsBeingWrittenIsFinishedNoneIsBegunAndNothingIsDoneAfterIt) {
     const Scratch scratch;
     Child child([&](auto wait) {
-        {
-            FreshFile file(scratch.path / "x");
-            std::ofstream stream(file.path());
-            stream << "whole";
-            wait();
-            stream.close();
-            file.keep();
-        }
-        write_fresh(scratch.path / "y", "");
+        FreshFile file(scratch.path / "x");
+        std::ofstream stream(file.path());
+        stream << "whole";
+        wait();
+        std::thread([&scratch] { write_fresh(scratch.path / "y", ""); }).detach();
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        stream.close();
+        file.keep();
     });
     child.send(SIGTERM);
     EXPECT_TRUE(child.lives());
