@@ -161,10 +161,11 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
 
     SuiteRequest suite;
     auto* suite_verb =
-        app.add_subcommand("suite", "a declared set of cells: errors, cost and spectrograms over scenes, schemes and sweeps");
+        app.add_subcommand("suite", "a declared set of comparisons, sweeps, stability maps and figures over scenes and schemes");
     suite_verb->add_option("suite", suite.suite, "a suite file, or a name that `jvari list suites` shows")->required()->type_name("FILE");
     suite_verb
-        ->add_option("--out", suite.out, "folder for cells/, cells.csv, errors.csv, cost.csv, manifest.json, spectrograms.svg, report.html")
+        ->add_option("--out", suite.out,
+                     "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures")
         ->type_name("DIR");
     suite_verb->add_flag("--resume", suite.resume, "reads back the cells that DIR holds and runs the others");
     add_jobs(*suite_verb, suite.jobs);
@@ -203,8 +204,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     add_common(*certify_verb, certify);
 
     ReportRequest report;
-    auto* report_verb = app.add_subcommand("report", "page and picture from a folder that compare wrote");
-    report_verb->add_option("folder", report.folder, "holds cells.csv and manifest.json")->required()->type_name("DIR");
+    auto* report_verb = app.add_subcommand("report", "page and pictures, made again from a folder that compare or suite wrote");
+    report_verb->add_option("folder", report.folder, "holds manifest.json and cells.csv, maps.csv or both")->required()->type_name("DIR");
     report_verb->footer("Example: jvari report report");
     add_common(*report_verb, report);
 

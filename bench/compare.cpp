@@ -132,7 +132,9 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
             cell.reason = e.what();
         }
     });
-    time_cells(c.cells, c.scene, request.repeats, console);
+    std::vector<Contender> contenders;
+    for (Cell& cell : c.cells) contenders.push_back({&cell, &c.scene});
+    time_cells(contenders, request.repeats, console);
     return c;
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "analysis/convergence.hpp"
+#include "bench/cell_rows.hpp"
 
 namespace jvari {
 
@@ -15,16 +15,6 @@ struct Window {
 };
 constexpr Window windows[] = {{"error_l2_10ms", "10ms"}, {"error_l2_50ms", "50ms"}, {"error_l2_whole", "whole"}};
 
-// What tells the series apart: all that stands before the rate, save the cell's own name.
-std::vector<std::string> naming_columns(const Table& cells) {
-    std::vector<std::string> names;
-    for (const std::string& name : cells.columns) {
-        if (name == "rate") break;
-        if (name != "cell" && name != "scene") names.push_back(name);
-    }
-    return names;
-}
-
 std::vector<std::string> taps_of(const Table& cells) {
     std::vector<std::string> taps;
     const std::string prefix = std::string(windows[0].column) + "_";
@@ -32,42 +22,17 @@ std::vector<std::string> taps_of(const Table& cells) {
         if (name.starts_with(prefix)) taps.push_back(name.substr(prefix.size()));
     return taps;
 }
-
-using Series = std::vector<std::size_t>;  // rows
-
-// Rows that differ in the rate alone; where a rate comes twice, the modes tell them apart.
-std::vector<Series> series_of(const Table& cells, const std::vector<std::string>& naming) {
-    std::vector<std::pair<std::vector<std::string>, Series>> groups;
-    const auto add = [](auto& into, const std::vector<std::string>& key, std::size_t row) {
-        auto it = std::find_if(into.begin(), into.end(), [&key](const auto& g) { return g.first == key; });
-        if (it == into.end()) it = into.insert(into.end(), {key, {}});
-        it->second.push_back(row);
-    };
-    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-        std::vector<std::string> key{cells.at(i, "scene")};
-        for (const std::string& name : naming) key.push_back(cells.at(i, name));
-        add(groups, key, i);
-    }
-    std::vector<Series> all;
-    for (const auto& [key, rows] : groups) {
-        std::set<std::string> rates;
-        for (const std::size_t i : rows) rates.insert(cells.at(i, "rate"));
-        std::vector<std::pair<std::vector<std::string>, Series>> parts;
-        for (const std::size_t i : rows) add(parts, {rates.size() == rows.size() ? "" : cells.at(i, "modes")}, i);
-        for (const auto& part : parts) all.push_back(part.second);
-    }
-    return all;
-}
 }  // namespace
 
 Table convergence_of(const Table& cells, const std::string& scene) {
     Table t;
-    const std::vector<std::string> naming = naming_columns(cells);
+    std::vector<std::string> naming = naming_columns(cells);
+    std::erase(naming, "scene");
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), naming.begin(), naming.end());
     if (cells.column("options") < 0) t.columns.push_back("options");
     for (const char* name : {"modes", "tap", "window", "order", "half_width", "points", "from_hz", "to_hz"}) t.columns.push_back(name);
-    for (const Series& rows : series_of(cells, naming))
+    for (const Rows& rows : differing_in_rate(cells, all_rows(cells), naming_columns(cells)))
         for (const std::string& tap : taps_of(cells))
             for (const Window& w : windows) {
                 const std::string column = std::string(w.column) + "_" + tap;

@@ -13,19 +13,19 @@ namespace {
 constexpr double shortest_sample = 0.02;  // [s]
 constexpr double budget = 10;             // of one cell [s]
 
-struct Timed {
-    Cell* cell;
+struct Timed : Contender {
     int runs;                     // back to back in one sample
     int repeats;                  // samples
     std::vector<double> samples;  // [s] of one run
 };
 
-double sample(const Timed& t, const Scene& scene) {
-    const auto scheme = t.cell->scheme->make(scene, t.cell->settings);
-    const RunOptions options;
+double sample(const Timed& t) {
+    const auto scheme = t.cell->scheme->make(*t.scene, t.cell->settings);
+    RunOptions options;
+    options.energy = t.probe;
     double seconds = 0;
     for (int k = 0; k < t.runs; ++k) {
-        const Run r = run(*scheme, scene, t.cell->settings, options);
+        const Run r = run(*scheme, *t.scene, t.cell->settings, options);
         seconds += r.wall_seconds;
         const double deadline = options.block_rows / t.cell->settings.tap_rate;
         if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
@@ -35,15 +35,15 @@ double sample(const Timed& t, const Scene& scene) {
 }
 }  // namespace
 
-void time_cells(std::vector<Cell>& cells, const Scene& scene, int repeats, const Console& console) {
+void time_cells(const std::vector<Contender>& contenders, int repeats, const Console& console) {
     std::vector<Timed> timed;
     double work = 0, finished = 0;
-    for (Cell& cell : cells) {
-        if (cell.refused) continue;
-        const double once = std::max(cell.summary.wall_seconds, 1e-6);
+    for (const Contender& c : contenders) {
+        if (c.cell->refused) continue;
+        const double once = std::max(c.cell->summary.wall_seconds, 1e-6);
         const int runs = static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
         const int most = static_cast<int>(std::clamp(budget / (once * runs), 2.0, 1e6));
-        timed.push_back({&cell, runs, std::min(repeats, most), {}});
+        timed.push_back({c, runs, std::min(repeats, most), {}});
         work += once * runs * timed.back().repeats;
     }
     // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike
@@ -55,7 +55,7 @@ void time_cells(std::vector<Cell>& cells, const Scene& scene, int repeats, const
             if (round >= t.repeats) continue;
             progress.show(finished / work,
                           fmt::format("round {}: {} at {} Hz", round + 1, t.cell->scheme->name, t.cell->settings.sample_rate));
-            t.samples.push_back(sample(t, scene));
+            t.samples.push_back(sample(t));
             finished += t.cell->summary.wall_seconds * t.runs;
         }
     for (Timed& t : timed) t.cell->wall = spread_of(t.samples);

@@ -13,6 +13,11 @@ namespace jvari {
 //
 // Fills Cell::wall and Cell::worst_block of every cell that was run. A sample of a short run is the mean of as many runs back to back as
 // last 20 ms; a cell that takes longer than 10 s for all its repeats gets fewer, two at least.
-void time_cells(std::vector<Cell>&, const Scene&, int repeats, const Console&);
+struct Contender {
+    Cell* cell;
+    const Scene* scene;
+    bool probe = false;  // timed with the energy probe on: what the probe costs
+};
+void time_cells(const std::vector<Contender>&, int repeats, const Console&);
 
 }  // namespace jvari

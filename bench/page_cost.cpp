@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/cell_rows.hpp"
 #include "bench/page_sections.hpp"
 
 namespace jvari {
@@ -16,6 +17,14 @@ Table elements_of(const Table& t) {
     std::erase_if(elements.rows, [&t](const auto& row) { return std::isnan(number_of(row[t.column("extra_ns")])); });
     for (auto& row : elements.rows) row[1] = row[t.column("what")];  // coloured by the element
     return elements;
+}
+
+// A scheme that was held at several rates or numbers of modes has a line for each.
+Table told_apart(Table t) {
+    for (const Rows& rows : alike(t, all_rows(t), {"problem", "series", "what"}))
+        if (alike(t, rows, {"at"}).size() > 1)
+            for (const std::size_t row : rows) t.rows[row][t.column("series")] += ", " + t.at(row, "at");
+    return t;
 }
 
 // What is scaled: those with two values of x in one series.
@@ -60,12 +69,13 @@ Chart scaling_chart(const Table& t, const std::vector<std::string>& whats) {
 Chart element_chart(const Table& t) {
     const auto problems = distinct(t, "problem");
     const auto filling = [](const Table& rows, const std::string& problem) {
-        return Filling{problem + ": what each element adds",
-                       "extra time per step",
-                       distinct(rows, "series"),
-                       {},
-                       {{"rows", rows_of(rows, {"problem", "series", "scheme"}, {"extra_ns", "ns_per_step"})}},
-                       {{"problem_field", json_text(problem)}}};
+        return Filling{
+            problem + ": what each element adds",
+            "extra time per step: median, and as far as the quartiles of both runs allow",
+            distinct(rows, "series"),
+            {},
+            {{"rows", rows_of(rows, {"problem", "series", "scheme"}, {"extra_ns", "extra_lower", "extra_upper", "ns_per_step"})}},
+            {{"problem_field", json_text(problem)}}};
     };
     Chart c{"extra time per step of each element of the scene",
             chart_of("elements.json", filling(t, problems.front()), Medium::page),
@@ -82,8 +92,8 @@ Chart element_chart(const Table& t) {
 Section cost_section(const Results& r) {
     Section s{"cost", "Cost"};
     if (r.scaling.rows.empty()) return s;
-    const Table elements = elements_of(r.scaling);
-    if (const auto whats = scaled_in(r.scaling); !whats.empty()) s.charts.push_back(scaling_chart(r.scaling, whats));
+    const Table scaling = told_apart(r.scaling), elements = elements_of(r.scaling);
+    if (const auto whats = scaled_in(scaling); !whats.empty()) s.charts.push_back(scaling_chart(scaling, whats));
     if (!elements.rows.empty()) s.charts.push_back(element_chart(elements));
     s.notes = {"Numbers of the clock, on the machine named at the foot of the page. Bars are quartiles: two that touch are a tie."};
     s.table = without_names(r.scaling);

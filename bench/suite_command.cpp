@@ -19,6 +19,7 @@
 #include "bench/map_command.hpp"
 #include "bench/report.hpp"
 #include "bench/row_facet.hpp"
+#include "bench/scaling_table.hpp"
 #include "bench/suite_run.hpp"
 
 namespace jvari {
@@ -138,6 +139,7 @@ int suite_command(const SuiteRequest& r) {
             if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
             else if (!rows.rows.empty()) write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
         if (const Table orders = convergence_of(cells); !orders.rows.empty()) write("convergence.csv", csv(orders));
+        if (const Table scaling = scaling_of(cells, sets_of(plan)); !scaling.rows.empty()) write("scaling.csv", csv(scaling));
         write("manifest.json", manifest + "\n");
         for (const DrawnFigure& f : draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
         for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());

@@ -26,8 +26,8 @@ static_assert(facet_names.size() == all_facets.size());
 CellSet set_of(const SuiteReader& read, const Value& v, const std::string& within) {
     read.table(v, within);
     read.only(v, within + ": ",
-              {"scenes", "schemes", "rates", "modes", "duration", "tap_rate", "repeats", "reference", "options", "sweep", "measure", "tap",
-               "time_limit_s", "taps", "trace", "extent", "profile", "envelope", "centroid"});
+              {"scenes",  "schemes", "rates",    "modes",        "duration", "tap_rate", "repeats", "reference", "options",  "sweep",
+               "measure", "tap",     "elements", "time_limit_s", "taps",     "trace",    "extent",  "profile",   "envelope", "centroid"});
     const auto text = [&read](const Value& x, const std::string& k) { return read.text(x, k); };
     const auto number = [&read](const Value& x, const std::string& k) { return read.positive(x, k); };
     const auto count = [&read](const Value& x, const std::string& k) { return read.count(x, k); };
@@ -62,19 +62,28 @@ CellSet set_of(const SuiteReader& read, const Value& v, const std::string& withi
             s.sweep.push_back(
                 {m.key, read.several(m.value, name, [&read](const Value& one, const std::string& k) { return read.toml(one, k); })});
         }
-    if (const Value* x = v.find("measure")) {
-        s.measure = read.several(*x, key("measure"), [&](const Value& one, const std::string& k) {
+    const auto word_of = [&read](const char* what, auto all) {  // one of a list of values that have names
+        return [&read, what, all](const Value& one, const std::string& k) {
             const std::string word = read.text(one, k);
             std::vector<std::string> known;
-            for (const Facet f : facets()) {
-                if (word == name_of(f)) return f;
-                known.emplace_back(name_of(f));
+            for (const auto value : all) {
+                if (word == name_of(value)) return value;
+                known.emplace_back(name_of(value));
             }
-            throw SceneFileError(read.place(one) + ": " + k + ": " + unknown("measure", word, known));
-        });
+            throw SceneFileError(read.place(one) + ": " + k + ": " + unknown(what, word, known));
+        };
+    };
+    if (const Value* x = v.find("measure")) {
+        s.measure = read.several(*x, key("measure"), word_of("measure", facets()));
         if (s.measures(Facet::cost) && !s.measures(Facet::errors))
             throw SceneFileError(read.place(*x) + ": " + key("measure") +
                                  ": found cost without errors, expected both: no speed without an error");
+    }
+    if (const Value* x = v.find("elements")) {
+        s.elements = read.several(*x, key("elements"), word_of("element", elements()));
+        if (!s.measures(Facet::cost))
+            throw SceneFileError(read.place(*x) + ": " + key("elements") +
+                                 ": measure does not ask for cost, which elements are compared by");
     }
     return s;
 }
@@ -164,7 +173,10 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
                     vary(k.values, [&k](CompareRequest& r, const std::string& value) { r.set.push_back(k.key + "=" + value); });
                 for (const VariedOption& o : set.options)
                     vary(o.values, [&o](CompareRequest& r, const std::string& value) { r.options.push_back({o.scheme, o.name, value}); });
-                for (CompareRequest& r : requests) points.push_back({&set, std::move(r)});
+                for (const CompareRequest& r : requests) {
+                    points.push_back({&set, r});
+                    for (const Element e : set.elements) points.push_back({&set, r, e});
+                }
             }
     return points;
 }

@@ -10,6 +10,7 @@
 //   sweep = { "string.0.barrier.0.stiffness" = [1e6, 1e8] }           any scene key, each with the values to vary
 //   measure = ["errors", "cost", "spectrogram", "sound", "dispersion"]   cost goes with errors alone: no speed without an error
 //   tap = "y03"                        of the spectrogram             (absent: the scene's first)
+//   elements = ["thread", "probe"]     also without each of these    (absent: none), elements.hpp
 //   time_limit_s = 60                  of one accuracy run            (absent: none)
 //   taps, trace, extent, profile, envelope, centroid                  figure_facets.hpp
 //   [[figure]]                                                        figure_file.hpp
@@ -23,6 +24,7 @@
 #include <vector>
 
 #include "bench/arguments.hpp"
+#include "bench/elements.hpp"
 #include "bench/figure_file.hpp"
 #include "bench/map_file.hpp"
 
@@ -62,6 +64,7 @@ struct CellSet {
     std::vector<VariedOption> options;
     std::vector<SweptKey> sweep;
     std::vector<Facet> measure;
+    std::vector<Element> elements;
     std::optional<double> time_limit;  // [s]
     FigureFacets figures;
     bool measures(Facet) const;
@@ -85,6 +88,7 @@ std::vector<std::string> library_suites();
 struct SuitePoint {
     const CellSet* set;
     CompareRequest request;
+    std::optional<Element> element = {};  // that the scene is to be without
 };
 std::vector<SuitePoint> points_of(const Suite&);
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -38,7 +39,9 @@ Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& 
     const CompareRequest& r = point.request;
     const std::string where = "scene " + r.scene + ": ";
     into.scene = load_scene(r.scene, r.set, r.duration);
+    into.element = point.element;
     try {
+        if (point.element) into.scene = without(*point.element, std::move(into.scene));
         into.scene = with_figure_taps(into.scene, point.set->figures);
         into.tap = tap_of(*point.set, into.scene);
         return plan_of(r, catalogue, into.scene);
@@ -75,6 +78,7 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
             const auto equals = assignment.find('=');
             p.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
         }
+        if (p.element) p.swept.emplace_back("element", change_of(*p.element));
         p.references = plan.references;
         const std::string hash = scene_hash(p.scene);
         Json references = Json::array(), measure = Json::array();
@@ -94,6 +98,7 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
             if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
             if (point.set->measures(Facet::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
             if (!point.set->figures.identity.empty()) identity["figures"] = point.set->figures.identity;
+            if (p.element == Element::probe) identity["probe"] = true;
             if (point.set->time_limit) identity["time_limit_s"] = *point.set->time_limit;
             PlannedCell planned_cell{point.set, &p, cell, identity.dump(), {}};
             if (!seen.insert(planned_cell.identity).second) continue;
@@ -101,6 +106,14 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
             all.cells.push_back(std::move(planned_cell));
         }
     }
+    return all;
+}
+
+std::vector<Rows> sets_of(const SuitePlan& plan) {
+    std::map<const CellSet*, Rows> sets;  // in the order of the file: they lie in one vector
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) sets[plan.cells[i].set].push_back(i);
+    std::vector<Rows> all;
+    for (auto& [set, cells] : sets) all.push_back(std::move(cells));
     return all;
 }
 

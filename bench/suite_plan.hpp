@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/cell_rows.hpp"
 #include "bench/compare_plan.hpp"
 #include "bench/suite_file.hpp"
 
@@ -13,7 +14,8 @@ namespace jvari {
 
 struct PlannedPoint {  // one scene at one point of the sweep, and who is its reference
     Scene scene;
-    std::vector<std::pair<std::string, std::string>> swept;  // key, value
+    std::vector<std::pair<std::string, std::string>> swept;  // key, value; the last may be "element", "-thread"
+    std::optional<Element> element;                          // that the scene is without; the probe: that is on while it is timed
     std::vector<ReferenceChoice> references;
     std::string reference_key;  // points that share it share the reference's run
     int tap = 0;                // of the spectrogram
@@ -34,6 +36,8 @@ struct SuitePlan {
 
 // `plugins` are files whose contents count as part of the program. Throws UsageError, SceneFileError, BadScene, Refusal.
 SuitePlan plan_of(const Suite&, const Catalogue&, const std::vector<std::string>& plugins);
+
+std::vector<Rows> sets_of(const SuitePlan&);  // indices of cells by the set they are of
 
 // JSON: version, commit, build type, plugins by their contents.
 std::string program_identity(const std::vector<std::string>& plugins);

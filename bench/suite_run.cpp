@@ -118,18 +118,23 @@ private:
     std::map<std::string, std::unique_ptr<Truth>> truths_;
 };
 
+// Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.
 void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, SuiteRun& into, const Console& console) {
-    std::map<std::pair<std::string, int>, std::vector<std::size_t>> competitors;  // the same scene as often
-    for (std::size_t i = 0; i < plan.cells.size(); ++i)
-        if (const CellSet& set = *plan.cells[i].set; set.measures(Facet::cost) && into.records[i].ran && !into.records[i].timed)
-            competitors[{plan.cells[i].point->reference_key, set.repeats}].push_back(i);
-    for (const auto& [key, indices] : competitors) {
+    for (Rows indices : sets_of(plan)) {
+        const CellSet& set = *plan.cells[indices.front()].set;
+        std::erase_if(indices, [&into](std::size_t i) { return !into.records[i].ran || into.records[i].timed; });
+        if (!set.measures(Facet::cost) || indices.empty()) continue;
         std::vector<Cell> cells;
         for (const std::size_t i : indices) {
             cells.push_back(plan.cells[i].cell);
             cells.back().summary.wall_seconds = into.records[i].seconds;
         }
-        time_cells(cells, plan.cells[indices.front()].point->scene, key.second, console);
+        std::vector<Contender> contenders;
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            const PlannedPoint& p = *plan.cells[indices[k]].point;
+            contenders.push_back({&cells[k], &p.scene, p.element == Element::probe});
+        }
+        time_cells(contenders, set.repeats, console);
         for (std::size_t k = 0; k < indices.size(); ++k) {
             const PlannedCell& planned = plan.cells[indices[k]];
             SuiteRecord& record = into.records[indices[k]];

@@ -1,0 +1,151 @@
+// What a step costs against modes, rate and contacts, and what each element adds: the fit on costs that are known, the scenes that are
+// timed.
+#include "bench/scaling_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/catalogue.hpp"
+#include "bench/elements.hpp"
+#include "bench/suite_plan.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/suite_text.hpp"
+
+namespace jvari {
+namespace {
+
+// A timed row: a step of `ns` between nine tenths and eleven tenths of it.
+struct Timed {
+    std::string scheme, element, swept;
+    double rate;
+    int modes, contacts;
+    double ns;
+};
+Table cells_of(const std::vector<Timed>& all) {
+    Table t;
+    t.columns = {"cell",  "scene",  "to",          "element",      "scheme",     "options",    "rate",
+                 "modes", "status", "ns_per_step", "cost_s_per_s", "cost_lower", "cost_upper", "fact_contact_points"};
+    for (const Timed& c : all) {
+        const double cost = 1e-9 * c.ns * c.rate;
+        t.rows.push_back({"id", "a", c.swept, c.element, c.scheme, "", text_of(c.rate), std::to_string(c.modes), "ok", text_of(c.ns),
+                          text_of(cost), text_of(0.9 * cost), text_of(1.1 * cost), c.contacts > 0 ? std::to_string(c.contacts) : ""});
+    }
+    return t;
+}
+TEST(Scaling, ACostThatGrowsWithAPowerHasThatPowerForItsExponent) {
+    std::vector<Timed> modes, rates, contacts;
+    for (const int n : {16, 32, 64, 128}) modes.push_back({"m", "", "", 44100, n, 0, 3 * std::pow(n, 1.5)});
+    for (const double rate : {44100.0, 88200.0, 176400.0}) rates.push_back({"g", "", "", rate, int(rate / 441), 0, 0.01 * rate});
+    for (const int n : {2, 4, 8}) contacts.push_back({"s", "", std::to_string(1e-3 * n), 44100, 100, n, 7.0 * n * n});
+    for (const auto& [all, what, exponent] : {std::tuple{modes, "modes", 1.5}, {rates, "rate", 1.0}, {contacts, "contacts", 2.0}}) {
+        const Table cells = cells_of(all), t = scaling_of(cells, {all_rows(cells)});
+        ASSERT_EQ(t.rows.size(), all.size()) << what;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            EXPECT_EQ(t.at(i, "what"), what);
+            EXPECT_NEAR(t.number(i, "exponent"), exponent, 1e-12) << what;
+            EXPECT_NEAR(t.number(i, "exponent_half_width"), 0, 1e-12) << what;
+            EXPECT_EQ(t.number(i, "ns_per_step"), all[i].ns);
+            EXPECT_NEAR(t.number(i, "ns_lower"), 0.9 * all[i].ns, 1e-9 * all[i].ns);
+            EXPECT_NEAR(t.number(i, "ns_upper"), 1.1 * all[i].ns, 1e-9 * all[i].ns);
+        }
+    }
+}
+
+TEST(Scaling, TheSweptKeyThatVariesTheContactsStandsInXAlone) {
+    const Table cells = cells_of({{"s", "", "0.002", 44100, 100, 2, 10}, {"s", "", "0.004", 44100, 100, 4, 20}});
+    const Table t = scaling_of(cells, {all_rows(cells)});
+    ASSERT_EQ(t.rows.size(), 2u);
+    EXPECT_EQ(t.at(0, "to"), "");
+    EXPECT_EQ(t.at(0, "at"), "44100 Hz, 100 modes");
+    EXPECT_EQ(t.at(1, "x"), "4");
+    EXPECT_EQ(t.at(1, "exponent_half_width"), "") << "two points leave no scatter to judge by";
+}
+
+TEST(Scaling, AnElementAddsWhatTheSceneCostsMoreThanWithoutIt) {
+    const Table cells =
+        cells_of({{"m", "", "", 44100, 100, 0, 50}, {"m", "-thread", "", 44100, 100, 0, 40}, {"m", "+probe", "", 44100, 100, 0, 80}});
+    const Table t = scaling_of(cells, {all_rows(cells)});
+    ASSERT_EQ(t.rows.size(), 2u);
+    EXPECT_EQ(t.at(0, "what"), "thread");
+    EXPECT_NEAR(t.number(0, "extra_ns"), 10, 1e-9);
+    EXPECT_NEAR(t.number(0, "extra_lower"), 0.9 * 50 - 1.1 * 40, 1e-9);  // the quartiles furthest apart
+    EXPECT_NEAR(t.number(0, "extra_upper"), 1.1 * 50 - 0.9 * 40, 1e-9);
+    EXPECT_EQ(t.at(1, "what"), "probe");
+    EXPECT_NEAR(t.number(1, "extra_ns"), 30, 1e-9);
+}
+
+TEST(Scaling, RowsOfDifferentSetsAreNotCompared) {
+    const Table cells =
+        cells_of({{"m", "", "", 44100, 100, 0, 50}, {"m", "", "", 44100, 200, 0, 90}, {"m", "-thread", "", 44100, 100, 0, 40}});
+    EXPECT_EQ(scaling_of(cells, {{0}, {1}, {2}}).rows.size(), 0u);
+    EXPECT_EQ(scaling_of(cells, {{0, 1}, {2}}).rows.size(), 2u);
+}
+
+TEST(Scaling, ARowThatFailedOrWasNotTimedHasNoPlaceInIt) {
+    Table cells = cells_of({{"m", "", "", 44100, 100, 0, 50}, {"m", "", "", 44100, 200, 0, 90}, {"m", "", "", 44100, 400, 0, 100}});
+    cells.rows[1][cells.column("status")] = "diverged";
+    cells.rows[2][cells.column("ns_per_step")] = "";
+    EXPECT_EQ(scaling_of(cells, {all_rows(cells)}).rows.size(), 0u);
+}
+
+// ---- Elements
+
+TEST(Elements, EachIsTakenAwayWithTheTapsOfItsForceAndNothingElse) {
+    const Scene whole = load_scene("tanpura_c3_release", {}, 0.01);
+    const auto names = [](const Scene& s) {
+        std::string all;
+        for (const Tap& t : s.taps) all += t.name + " ";
+        return all;
+    };
+    for (const Element e : elements()) {
+        const Scene s = without(e, whole);
+        EXPECT_NO_THROW(validate(s));
+        EXPECT_EQ(s.strings[0].thread.has_value(), e != Element::thread);
+        EXPECT_EQ(s.strings[0].barriers.empty(), e == Element::contact);
+        EXPECT_EQ(s.strings[0].bending_stiffness == 0, e == Element::stiffness);
+        EXPECT_EQ(names(s), e == Element::thread    ? "nut y03 bridge "
+                            : e == Element::contact ? "nut y03 thread "
+                            : e == Element::taps    ? "nut "
+                                                    : "nut y03 bridge thread ");
+    }
+}
+
+TEST(Elements, ASceneThatHasNoneOfItIsRefused) {
+    const Scene parabola = load_scene("sitar_parabola", {}, 0.01);
+    EXPECT_THROW(without(Element::thread, parabola), UsageError);
+    EXPECT_THROW(without(Element::contact, without(Element::contact, parabola)), UsageError);
+}
+
+TEST(Elements, ASetHasACellForTheSceneAndForEachChangeOfIt) {
+    const std::string text = R"([[cells]]
+scenes = ["tanpura_c3_release"]
+schemes = ["modal_two_point"]
+rates = [44100]
+duration = 0.01
+elements = ["thread", "contact", "stiffness", "taps", "probe"]
+measure = ["errors", "cost"]
+)";
+    const Suite suite = parse_suite(text, "a.toml");
+    const Catalogue catalogue;
+    const SuitePlan plan = plan_of(suite, catalogue, {});
+    ASSERT_EQ(plan.cells.size(), 6u);
+    EXPECT_TRUE(plan.cells[0].point->swept.empty());
+    for (std::size_t i = 1; i < 6; ++i) {
+        ASSERT_EQ(plan.cells[i].point->swept.size(), 1u);
+        EXPECT_EQ(plan.cells[i].point->swept[0], std::pair(std::string("element"), change_of(elements()[i - 1])));
+        EXPECT_NE(plan.cells[i].id, plan.cells[0].id);
+    }
+    EXPECT_EQ(sets_of(plan), std::vector<Rows>{(Rows{0, 1, 2, 3, 4, 5})});
+}
+
+TEST(Elements, AreRefusedWhereTheyAreUnknownOrNotTimed) {
+    const std::string set = "[[cells]]\nscenes = [\"tanpura_c3_release\"]\n";
+    EXPECT_EQ(test::refusal_of(set + "measure = [\"errors\", \"cost\"]\nelements = [\"tread\"]\n"),
+              "a.toml:4: cells.0.elements.0: unknown element \"tread\"; did you mean \"thread\"?");
+    EXPECT_EQ(test::refusal_of(set + "elements = [\"thread\"]\n"),
+              "a.toml:3: cells.0.elements: measure does not ask for cost, which elements are compared by");
+}
+
+}  // namespace
+}  // namespace jvari
