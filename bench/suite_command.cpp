@@ -37,14 +37,12 @@ Table clock_only(const Table& cells) {  // what errors_only leaves out, beside w
 }
 
 std::string manifest_of(const Suite& suite, const SuitePlan& plan) {
-    const Machine& m = machine();
     std::map<std::string, std::string> sources;
     for (const PlannedCell& c : plan.cells) sources[c.cell.scheme->name] = c.cell.scheme->source;
-    return Json{{"program", "jvari"},         {"version", m.version},      {"commit", m.commit},  {"compiler", m.compiler},
-                {"flags", m.flags},           {"build", m.build},          {"cpu", m.cpu},        {"cores", m.cores},
-                {"system", m.system},         {"date", now_utc()},         {"suite", suite.name}, {"source", suite.source},
-                {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}}
-        .dump(2);
+    Json manifest = Json::parse(made_by());
+    manifest.update(
+        {{"suite", suite.name}, {"source", suite.source}, {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}});
+    return manifest.dump(2);
 }
 
 std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
