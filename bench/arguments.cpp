@@ -24,7 +24,8 @@ constexpr const char* examples =
     "  jvari certify tanpura_c3_release --duration 0.1         how far the references agree there\n"
     "  jvari report report                                     its page and picture once more\n"
     "\n"
-    "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed (what was written stays valid).";
+    "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed (what was written stays valid).\n"
+    "Ctrl-C leaves whole files only; a suite says how many cells are kept.";
 
 std::string a_number(const std::string& text, bool whole) {
     double x = 0;

@@ -151,25 +151,11 @@ std::string json_of(const KeptCertificate& kept) {
 }
 
 std::string cost_json_of(const KeptCertificate& kept) {
-    const Machine& m = machine();
     Json entries = Json::array();
     for (const auto& e : kept.certificate.entries)
         entries.push_back(
             {{"reference", e.reference}, {"options", options_json(e.options)}, {"wall_seconds", e.reason.empty() ? e.wall_seconds : nan}});
-    return Json{{"scene", kept.certificate.scene},
-                {"key", kept.key},
-                {"entries", entries},
-                {"made",
-                 {{"date", now_utc()},
-                  {"version", m.version},
-                  {"commit", m.commit},
-                  {"compiler", m.compiler},
-                  {"flags", m.flags},
-                  {"build", m.build},
-                  {"cpu", m.cpu},
-                  {"cores", m.cores},
-                  {"system", m.system}}}}
-               .dump(1) +
+    return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", Json::parse(made_by())}}.dump(1) +
            "\n";
 }
 

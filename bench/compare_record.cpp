@@ -208,7 +208,6 @@ Table cost_only(const Table& cells) {
 }
 
 std::string manifest_of(const Comparison& c, const CompareRequest& r) {
-    const Machine& m = machine();
     Json facts = Json::object(), floor = Json::object(), taps = Json::array(), schemes = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
     facts["smallest_contact_force"] = c.reference_summary.smallest_contact_force;
@@ -237,26 +236,17 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                    {"facts", facts}};
     const Json scene{{"name", c.scene.name},        {"asked_as", r.scene},          {"set", r.set}, {"source", c.scene.source},
                      {"hash", scene_hash(c.scene)}, {"duration", c.scene.duration}, {"taps", taps}};
-    return Json{{"program", "jvari"},
-                {"version", m.version},
-                {"commit", m.commit},
-                {"compiler", m.compiler},
-                {"flags", m.flags},
-                {"build", m.build},
-                {"cpu", m.cpu},
-                {"cores", m.cores},
-                {"system", m.system},
-                {"date", now_utc()},
-                {"scene", scene},
-                {"tap_rate", c.reference_settings.tap_rate},
-                {"schemes", schemes},
-                {"reference", reference},
-                {"headline",
-                 {{"nut", c.scene.taps.at(c.headline.nut).name},
-                  {"bridge", c.scene.taps.at(c.headline.bridge).name},
-                  {"error", headline_error(c)}}},
-                {"noise_floor", floor}}
-        .dump(2);
+    Json manifest = Json::parse(made_by());
+    manifest.update({{"scene", scene},
+                     {"tap_rate", c.reference_settings.tap_rate},
+                     {"schemes", schemes},
+                     {"reference", reference},
+                     {"headline",
+                      {{"nut", c.scene.taps.at(c.headline.nut).name},
+                       {"bridge", c.scene.taps.at(c.headline.bridge).name},
+                       {"error", headline_error(c)}}},
+                     {"noise_floor", floor}});
+    return manifest.dump(2);
 }
 
 }  // namespace jvari

@@ -9,6 +9,12 @@
 
 namespace jvari {
 
+namespace {
+void clear_line() {
+    fmt::print(stderr, "\r\033[K");
+}
+}  // namespace
+
 void Console::note(const std::string& text) const {
     if (!quiet_) fmt::print(stderr, "{}\n", text);
 }
@@ -29,11 +35,10 @@ Console::Progress::Progress(const Console& console, std::string label)
     : label_(std::move(label)),
       start_(std::chrono::steady_clock::now()),
       last_(start_),
-      shown_(false),
       terminal_(!console.quiet_ && isatty(STDERR_FILENO) != 0) {}
 
 Console::Progress::~Progress() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
+    if (shown_) clear_line();
 }
 
 void Console::Progress::show(double fraction, const std::string& what) {
@@ -41,7 +46,8 @@ void Console::Progress::show(double fraction, const std::string& what) {
     const auto now = std::chrono::steady_clock::now();
     if (now - start_ < std::chrono::seconds(2) || now - last_ < std::chrono::milliseconds(200)) return;
     last_ = now;
-    shown_ = true;
+    const Undisturbed line;
+    if (!shown_) shown_.emplace(clear_line);
     fmt::print(stderr, "\r\033[K{} {:3.0f} % {}", label_, 100 * fraction, what);
     std::fflush(stderr);
 }

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "bench/interruption.hpp"
 
 namespace jvari {
 
@@ -35,7 +38,8 @@ public:
     private:
         std::string label_;
         std::chrono::steady_clock::time_point start_, last_;
-        bool shown_, terminal_;
+        std::optional<WhenInterrupted> shown_;  // the line is cleared at an interruption, too
+        bool terminal_;
     };
 
 private:

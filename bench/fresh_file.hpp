@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "bench/interruption.hpp"
+
 namespace jvari {
 
 class FreshFile {
@@ -16,6 +18,7 @@ public:
     void keep();                                                   // flushes to the disk and renames
 
 private:
+    Undisturbed writing_;  // an interruption leaves no part behind
     std::filesystem::path path_, beside_;
     bool kept_ = false;
 };

@@ -4,6 +4,7 @@
 
 #include <ctime>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "bench/commit.hpp"  // written at build time by commit.cmake
@@ -28,6 +29,14 @@ const Machine& machine() {
     static const Machine m{JVARI_VERSION, JVARI_COMMIT, JVARI_COMPILER, JVARI_FLAGS,
                            JVARI_BUILD,   cpu_name(),   system_name(),  static_cast<int>(std::thread::hardware_concurrency())};
     return m;
+}
+
+std::string made_by() {
+    const Machine& m = machine();
+    return nlohmann::ordered_json{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit}, {"compiler", m.compiler},
+                                  {"flags", m.flags},   {"build", m.build},     {"cpu", m.cpu},       {"cores", m.cores},
+                                  {"system", m.system}, {"date", now_utc()}}
+        .dump();
 }
 
 std::string now_utc() {

@@ -13,6 +13,7 @@ struct Machine {
 };
 const Machine& machine();
 
+std::string made_by();  // all of it and the date as a JSON object: what a manifest begins with
 std::string now_utc();  // "2016-05-04T12:00:00Z"
 
 }  // namespace jvari

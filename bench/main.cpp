@@ -6,6 +6,7 @@
 
 #include "bench/commands.hpp"
 #include "bench/console.hpp"
+#include "bench/interruption.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/scheme.hpp"
 
@@ -28,6 +29,7 @@ int fail(bool json, int code, const char* status, const std::string& message) {
 
 int main(int argc, char** argv) {
     using namespace jvari;
+    heed_interruptions();
     bool json = false;
     for (int k = 1; k < argc; ++k) json = json || std::strcmp(argv[k], "--json") == 0;
     try {

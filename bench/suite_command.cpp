@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bench/cheapest.hpp"
 #include "bench/commands.hpp"
@@ -13,6 +14,7 @@
 #include "bench/convergence_table.hpp"
 #include "bench/figure_chart.hpp"
 #include "bench/fresh_file.hpp"
+#include "bench/interruption.hpp"
 #include "bench/machine.hpp"
 #include "bench/map_command.hpp"
 #include "bench/report.hpp"
@@ -35,14 +37,12 @@ Table clock_only(const Table& cells) {  // what errors_only leaves out, beside w
 }
 
 std::string manifest_of(const Suite& suite, const SuitePlan& plan) {
-    const Machine& m = machine();
     std::map<std::string, std::string> sources;
     for (const PlannedCell& c : plan.cells) sources[c.cell.scheme->name] = c.cell.scheme->source;
-    return Json{{"program", "jvari"},         {"version", m.version},      {"commit", m.commit},  {"compiler", m.compiler},
-                {"flags", m.flags},           {"build", m.build},          {"cpu", m.cpu},        {"cores", m.cores},
-                {"system", m.system},         {"date", now_utc()},         {"suite", suite.name}, {"source", suite.source},
-                {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}}
-        .dump(2);
+    Json manifest = Json::parse(made_by());
+    manifest.update(
+        {{"suite", suite.name}, {"source", suite.source}, {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}});
+    return manifest.dump(2);
 }
 
 std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
@@ -71,6 +71,21 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
     return text;
 }
 
+std::string kept_text(const SuitePlan& plan, const Suite& suite, const fs::path& folder) {
+    std::error_code error;
+    std::string text;
+    if (!plan.cells.empty()) {
+        const auto kept = [&](const PlannedCell& c) { return fs::exists(folder / "cells" / (c.id + ".json"), error); };
+        text = fmt::format("{} of {} cells", std::count_if(plan.cells.begin(), plan.cells.end(), kept), plan.cells.size());
+    }
+    if (!suite.maps.empty()) {
+        const auto kept = [](const fs::directory_entry& e) { return e.path().extension() == ".json"; };
+        const auto points = std::count_if(fs::directory_iterator(folder / "points", error), fs::directory_iterator(), kept);
+        text += fmt::format("{}{} points of maps", text.empty() ? "" : " and ", points);
+    }
+    return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", text, folder.string());
+}
+
 int exit_code(const std::vector<SuiteRecord>& records) {
     const auto is = [](const char* status) { return [status](const SuiteRecord& r) { return r.row.at(0, "status") == status; }; };
     if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return done;  // empty: a suite of maps alone
@@ -94,7 +109,11 @@ int suite_command(const SuiteRequest& r) {
     const Catalogue catalogue(r.plugins);
     const SuitePlan plan = plan_of(suite, catalogue, r.plugins);
     const fs::path folder = r.out;
-    if (!r.out.empty()) make_folder(folder);
+    std::optional<WhenInterrupted> last_word;
+    if (!r.out.empty()) {
+        make_folder(folder);
+        last_word.emplace([&] { console.note(kept_text(plan, suite, folder)); });
+    }
     const std::vector<std::string> mapped = chart_maps(suite, catalogue, r, console);
     const SuiteRun run = run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
     const Table cells = table_of(plan, run.records);

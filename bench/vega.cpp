@@ -1,6 +1,7 @@
 #include "bench/vega.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +16,8 @@
 #include <sstream>
 #include <utility>
 #include <vector>
+
+#include "bench/interruption.hpp"
 
 extern char** environ;
 
@@ -33,17 +36,21 @@ std::optional<std::string> whole(const fs::path& path) {
 }
 
 struct Scratch {  // a folder of our own, gone at the end
-    Scratch() {
+    Scratch() = default;
+    ~Scratch() { remove(); }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    const fs::path path = [] {
         std::string name = (fs::temp_directory_path() / "jvari-XXXXXX").string();
-        if (mkdtemp(name.data())) path = name;
-    }
-    ~Scratch() {
+        return mkdtemp(name.data()) ? fs::path(name) : fs::path();
+    }();
+
+private:
+    void remove() const {
         std::error_code ignored;
         if (!path.empty()) fs::remove_all(path, ignored);
     }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    fs::path path;
+    const WhenInterrupted removed_{[this] { remove(); }};
 };
 
 // Runs a program found on the PATH, its output into a file; returns its exit code, or -errno where it cannot be started.
@@ -56,8 +63,15 @@ int spawn(std::vector<std::string> words, const fs::path& output) {
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, 1, 2);
+    posix_spawnattr_t attributes;  // Ctrl-C is for it as well: blocked in this program (interruption.hpp), not in that one
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     pid_t child = 0;
-    const int failed = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+    const int failed = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (failed != 0) return -failed;
     int status = 0;
