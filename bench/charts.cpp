@@ -134,6 +134,21 @@ void add_failures(Json& layers, const Encodings& e) {  // at the upper edge over
                       {"encoding", {{"x", e.x}, {"color", e.colour}, {"opacity", e.faint}, {"tooltip", e.of_failure}}}});
 }
 
+void add_goals(Json& layers, const Encodings& e) {  // of computing time, which they are the cheapest by
+    const Json goals{{"data", {{"name", "goals"}}},
+                     {"transform", Json::array({{{"filter",
+                                                  "datum.problem == problem_field && datum.error == error_field && "
+                                                  "cost_field == 'cost_s_per_s'"}}})},
+                     {"encoding", {{"y", e.y}}}};
+    Json rule = goals, text = goals;
+    rule["mark"] = {{"type", "rule"}, {"strokeDash", {2, 4}}, {"color", "#888"}};
+    text["mark"] = {{"type", "text"}, {"x", {{"expr", "width - 6"}}},     {"dy", -6}, {"align", "right"},
+                    {"fontSize", 11}, {"limit", {{"expr", "width - 12"}}}};
+    text["encoding"]["text"] = {{"field", "text"}};
+    layers.push_back(std::move(rule));
+    layers.push_back(std::move(text));
+}
+
 void add_axis_names(Json& layers) {  // upright, above and below the frame, following the choice
     layers.push_back(once({{"type", "text"},
                            {"x", 0},
@@ -172,6 +187,7 @@ std::string work_precision_spec(const WorkPrecision& w) {
     }
     add_band(layers, ".certificate", "the reference is certain to here", "#56b4e9", 0.16);
     add_band(layers, ".floor", "noise floor", "#888", 0.18);
+    add_goals(layers, e);
     add_front(layers, e);
     add_schemes(layers, e);
     add_failures(layers, e);
@@ -190,7 +206,9 @@ std::string work_precision_spec(const WorkPrecision& w) {
                       parameter("brought_out", ""),
                       parameter("error_titles", titles_json(w.errors)),
                       parameter("cost_titles", titles_json(w.costs))};
-    spec["datasets"] = {{"cells", Json::parse(chart_cells(w))}, {"fronts", Json::parse(chart_fronts(w))}};
+    spec["datasets"] = {{"cells", Json::parse(chart_cells(w))}, {"fronts", Json::parse(chart_fronts(w))}, {"goals", Json::array()}};
+    for (const Goal& g : w.goals)
+        spec["datasets"]["goals"].push_back({{"problem", g.problem}, {"error", g.error}, {"y", g.most}, {"text", g.text}});
     spec["data"] = {{"name", "cells"}};
     spec["layer"] = layers;
     spec["config"] = Json::parse(config_of(w.medium, e.series > 1));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/cell_rows.hpp"
+
 namespace jvari {
 
 namespace {
@@ -31,16 +33,15 @@ Table cheapest_of(const Table& cells, const std::string& waveform, const std::st
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
     for (const char* name : {"measure", "target", "scheme", "options", "rate", "modes", "error", "cost_s_per_s", "ties"})
         t.columns.push_back(name);
-    std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> scenes;
-    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-        std::vector<std::string> key{cells.column("scene") < 0 ? scene : cells.at(i, "scene")};
-        for (const std::string& name : swept) key.push_back(cells.at(i, name));
-        auto it = std::find_if(scenes.begin(), scenes.end(), [&key](const auto& s) { return s.first == key; });
-        if (it == scenes.end()) it = scenes.insert(scenes.end(), {key, {}});
-        if (cells.at(i, "status") == "ok" && cells.at(i, "flags").empty() && cells.number(i, "cost_s_per_s") > 0) it->second.push_back(i);
-    }
-    for (const auto& [key, rows] : scenes) {
+    std::vector<std::string> naming = swept;
+    naming.insert(naming.begin(), "scene");
+    for (const Rows& group : alike(cells, all_rows(cells), naming)) {
+        Rows rows;
+        for (const std::size_t i : group)
+            if (cells.at(i, "status") == "ok" && cells.at(i, "flags").empty() && cells.number(i, "cost_s_per_s") > 0) rows.push_back(i);
         if (rows.empty()) continue;  // nothing was timed
+        std::vector<std::string> key{cells.column("scene") < 0 ? scene : cells.at(rows.front(), "scene")};
+        for (const std::string& name : swept) key.push_back(cells.at(rows.front(), name));
         const auto known = [&](const std::string& measure) {
             return std::any_of(rows.begin(), rows.end(), [&](std::size_t i) { return std::isfinite(cells.number(i, measure)); });
         };
@@ -76,6 +77,11 @@ Table cheapest_of(const Table& cells, const std::string& waveform, const std::st
     return t;
 }
 
+std::string goal_name(const Table& t, std::size_t row) {
+    const double most = t.number(row, "target");
+    return t.at(row, "measure") == "third_octave_db" ? fmt::format("{:g} dB", most) : fmt::format("{:g} %", 100 * most);
+}
+
 std::string cheapest_text(const Table& t) {
     std::string text, last;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
@@ -84,10 +90,7 @@ std::string cheapest_text(const Table& t) {
             if (!t.rows[i][k].empty()) scene += " " + t.columns[k] + "=" + t.rows[i][k];
         if (scene != last) text += fmt::format("{}the cheapest scheme on {}\n", text.empty() ? "" : "\n", scene);
         last = scene;
-        const double most = t.number(i, "target");
-        const bool waveform = t.at(i, "measure") != "third_octave_db";
-        const std::string target = waveform ? fmt::format("{:g} %", 100 * most) : fmt::format("{:g} dB", most);
-        text += fmt::format("  {:<16} within {:<6}  ", t.at(i, "measure"), target);
+        text += fmt::format("  {:<16} within {:<6}  ", t.at(i, "measure"), goal_name(t, i));
         if (t.at(i, "scheme").empty()) text += "none\n";
         else
             text += fmt::format("{}{} at {} Hz, {:.3g} s per s{}\n", t.at(i, "scheme"),

@@ -11,6 +11,7 @@ namespace jvari {
 // where a scene has none of it the next shorter one, else the whole run.
 Table cheapest_of(const Table& cells, const std::string& waveform = "error_l2_50ms", const std::string& scene = "");
 
-std::string cheapest_text(const Table& cheapest);  // for the terminal; "" without rows
+std::string goal_name(const Table& cheapest, std::size_t row);  // "10 %", "3 dB"
+std::string cheapest_text(const Table& cheapest);               // for the terminal; "" without rows
 
 }  // namespace jvari

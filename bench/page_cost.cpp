@@ -8,10 +8,6 @@
 namespace jvari {
 
 namespace {
-Table without_names(const Table& t) {  // problem and series stand for columns that are there anyway
-    return t.only({t.columns.begin() + 2, t.columns.end()});
-}
-
 Table elements_of(const Table& t) {
     Table elements = t;
     std::erase_if(elements.rows, [&t](const auto& row) { return std::isnan(number_of(row[t.column("extra_ns")])); });

@@ -24,6 +24,7 @@ constexpr std::size_t most_twins = 12;
 // "dispersion.svg", with the problem in the name where there are several.
 std::string twin_file(const std::string& chart, const std::string& problem, std::size_t problems);
 Table rows_where(const Table&, const std::string& column, const std::string& text);
+Table without_names(const Table&);                // less problem and series, which stand for columns that are there anyway
 WorkPrecision work_precision_of(const Results&);  // of all problems
 
 }  // namespace jvari

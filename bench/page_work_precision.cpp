@@ -1,8 +1,12 @@
 // The first section: any cost against any error, problem by problem. And the cells it is drawn from, as a table.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "bench/chart_data.hpp"
+#include "bench/cheapest.hpp"
 #include "bench/page_sections.hpp"
 
 namespace jvari {
@@ -49,6 +53,32 @@ std::vector<std::string> taps_of(const Results& r) {
     return taps;
 }
 
+std::string goal_text(const Table& cheapest, std::size_t row) {
+    std::string text = goal_name(cheapest, row) + ": " + cheapest.at(row, "scheme");
+    if (!cheapest.at(row, "options").empty()) text += " " + cheapest.at(row, "options");
+    text += fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
+    std::istringstream ties(cheapest.at(row, "ties"));
+    for (std::string name; ties >> name;) text += " or " + name;
+    return text;
+}
+
+// The goals that some cells of the problem reach and some do not, so that they lie among the points.
+std::vector<Goal> goals_of(const Results& r, const std::string& headline) {
+    std::vector<Goal> goals;
+    for (const std::string& problem : distinct(r.cells, "problem")) {
+        const Table own = rows_where(r.cells, "problem", problem), cheapest = cheapest_of(without_names(own), headline, r.name);
+        for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
+            const std::string& error = cheapest.at(i, "measure");
+            const double most = cheapest.number(i, "target");
+            bool missed = false;
+            for (std::size_t k = 0; k < own.rows.size(); ++k)
+                missed = missed || (own.at(k, "status") == "ok" && std::isfinite(own.number(k, error)) && own.number(k, error) > most);
+            if (missed && !cheapest.at(i, "scheme").empty()) goals.push_back({problem, error, most, goal_text(cheapest, i)});
+        }
+    }
+    return goals;
+}
+
 Menu axis_menu(const char* label, const char* signal, const std::vector<Axis>& axes) {
     Menu m{label, signal, {}};
     for (const Axis& a : axes) m.choices.emplace_back(json_text(a.column), a.title);
@@ -75,6 +105,7 @@ WorkPrecision work_precision_of(const Results& r) {
             const Band b{problem, a.column, known_floor(r, problem, a.column), certificate_of(r.cells, problem, a.column)};
             if (!std::isnan(b.floor) || !std::isnan(b.certificate)) w.bands.push_back(b);
         }
+    w.goals = goals_of(r, headline_of(r));
     return w;
 }
 
@@ -104,7 +135,7 @@ Section work_precision_section(const Results& r) {
     s.charts.push_back(std::move(c));
     s.notes = {
         "Down is more accurate, left is cheaper. The grey track is the Pareto front; crosses at the upper edge are runs that failed. "
-        "Numbers at the points are rates: \u00d71 is the lowest."};
+        "Numbers at the points are rates: \u00d71 is the lowest. Dotted lines are accuracies, with the cheapest that gets there."};
     if (!w.bands.empty())
         s.notes.emplace_back(
             "What lies in a grey band is a tie (the reference's own sensitivity), in a blue one below what the reference is certain to.");

@@ -28,6 +28,10 @@ Table rows_where(const Table& t, const std::string& column, const std::string& t
     return rows;
 }
 
+Table without_names(const Table& t) {
+    return t.only({t.columns.begin() + 2, t.columns.end()});
+}
+
 std::vector<std::string> write_report(const fs::path& folder, const Console& console) {
     const Results results = read_results(folder);
     must_be_writable(folder / "report.html");

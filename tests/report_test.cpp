@@ -109,6 +109,18 @@ TEST(Report, NoiseFloorAndCertificateAreOfTheSceneAndTheErrorThatIsShown) {
     EXPECT_FALSE(bands.contains("a, string.0.tension = 30|error_l2_10ms"));
 }
 
+TEST(Report, TheCheapestThatReachesAnAccuracyIsNamedWhereSomeReachItAndSomeDoNot) {
+    const MadeUp folder(every_file);
+    const Json spec = Json::parse(work_precision_section(read_results(folder.path)).charts[0].spec);
+    std::map<std::string, std::vector<std::string>> of_problem;
+    for (const Json& g : spec.at("datasets").at("goals")) {
+        EXPECT_EQ(g.at("error"), "error_l2_50ms");
+        of_problem[g.at("problem")].push_back(g.at("text"));
+    }
+    EXPECT_EQ(of_problem["b, string.0.tension = 30"], (std::vector<std::string>{"10 %: one at 88.2 kHz", "1 %: one at 176.4 kHz"}));
+    EXPECT_EQ(of_problem["a, string.0.tension = 30"], (std::vector<std::string>{"1 %: one at 176.4 kHz"}));  // 10 %: all reach it
+}
+
 TEST(Report, OrdersAreThoseOfTheFileWhereItHasThemElseOfTheCells) {
     const MadeUp folder(every_file);
     const Section s = convergence_section(read_results(folder.path));
