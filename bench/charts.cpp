@@ -143,7 +143,7 @@ void add_goals(Json& layers, const Encodings& e) {  // of computing time, which 
     Json rule = goals, text = goals;
     rule["mark"] = {{"type", "rule"}, {"strokeDash", {2, 4}}, {"color", "#888"}};
     text["mark"] = {{"type", "text"}, {"x", {{"expr", "width - 6"}}},     {"dy", -6}, {"align", "right"},
-                    {"fontSize", 11}, {"limit", {{"expr", "width - 12"}}}};
+                    {"fontSize", 10}, {"limit", {{"expr", "width - 12"}}}};
     text["encoding"]["text"] = {{"field", "text"}};
     layers.push_back(std::move(rule));
     layers.push_back(std::move(text));
