@@ -26,8 +26,8 @@ struct Cell {
     std::string reason;  // of a refusal or a failure
     Summary summary{};   // of the accuracy run; empty where refused
     Errors errors;
-    Sound sound{};  // of the headline's nut tap, where the run reached its end
-    Spread wall{};  // of the timed runs [s], of the whole scene or up to the failure
+    Sound sound{};                                                  // of the headline's nut tap, where the run reached its end
+    Spread wall{};                                                  // of the timed runs [s], of the whole scene or up to the failure
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
     int modes() const { return refused ? settings.modes : summary.modes; }
 };
