@@ -16,6 +16,12 @@ std::vector<std::string> naming_columns(const Table& cells) {
     return names;
 }
 
+std::vector<std::string> swept_keys(const Table& cells) {
+    const int from = cells.column("scene"), to = cells.column("scheme");
+    if (from < 0 || to <= from) return {};
+    return {cells.columns.begin() + from + 1, cells.columns.begin() + to};
+}
+
 std::vector<Rows> alike(const Table& cells, const Rows& rows, const std::vector<std::string>& columns) {
     std::vector<std::pair<std::vector<std::string>, Rows>> groups;
     for (const std::size_t row : rows) {

@@ -13,6 +13,9 @@ using Rows = std::vector<std::size_t>;  // of one table, in the order in which t
 // The columns that name a problem and a scheme: all before the rate, save the cell's own name.
 std::vector<std::string> naming_columns(const Table& cells);
 
+// Those of them between `scene` and `scheme`: keys of the scene that are swept. None where the table is of one scene and does not say it.
+std::vector<std::string> swept_keys(const Table& cells);
+
 // `rows` in groups that have the same in each of `columns`, in the order in which they come.
 std::vector<Rows> alike(const Table&, const Rows&, const std::vector<std::string>& columns);
 

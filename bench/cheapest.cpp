@@ -15,19 +15,10 @@ struct Target {
     double most;
 };
 constexpr Target targets[] = {{true, 0.1}, {true, 0.01}, {true, 0.001}, {false, 3}, {false, 1}};
-
-std::vector<std::string> scene_columns(const Table& cells) {  // what stands before the scheme names the scene
-    std::vector<std::string> names;
-    for (const std::string& name : cells.columns) {
-        if (name == "scheme") break;
-        if (name != "cell" && name != "scene") names.push_back(name);
-    }
-    return names;
-}
 }  // namespace
 
 Table cheapest_of(const Table& cells, const std::string& waveform, const std::string& scene) {
-    const std::vector<std::string> swept = scene_columns(cells);
+    const std::vector<std::string> swept = swept_keys(cells);
     Table t;
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());

@@ -105,7 +105,6 @@ WorkPrecision work_precision_of(const Results& r) {
             const Band b{problem, a.column, known_floor(r, problem, a.column), certificate_of(r.cells, problem, a.column)};
             if (!std::isnan(b.floor) || !std::isnan(b.certificate)) w.bands.push_back(b);
         }
-    w.goals = goals_of(r, headline_of(r));
     return w;
 }
 
@@ -113,6 +112,7 @@ Section work_precision_section(const Results& r) {
     Section s{"work-precision", "Error and cost"};
     WorkPrecision w = work_precision_of(r);
     if (w.errors.empty() || w.costs.empty()) return s;
+    w.goals = goals_of(r, headline_of(r));
     const auto problems = distinct(r.cells, "problem");
     Chart c{"error against cost of each scheme at each rate", "", false, problem_menu(problems), {}};
     c.menus.push_back(axis_menu("error", "error_field", w.errors));

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/cell_rows.hpp"
 #include "bench/console.hpp"
 #include "bench/fresh_file.hpp"
 
@@ -28,13 +29,6 @@ Table read_table(const fs::path& path) {
     } catch (const std::runtime_error& e) {
         throw UsageError(fmt::format("{}: {}", path.string(), e.what()));
     }
-}
-
-// Columns between `scene` and `scheme` of a suite's table: the swept keys.
-std::vector<std::string> swept_keys(const Table& t) {
-    const int from = t.column("scene"), to = t.column("scheme");
-    if (from < 0 || to <= from) return {};
-    return {t.columns.begin() + from + 1, t.columns.begin() + to};
 }
 
 std::string problem_of(const Table& t, std::size_t row, const std::vector<std::string>& keys, const std::string& scene) {

@@ -13,16 +13,14 @@
 namespace jvari {
 
 namespace {
-constexpr const char* clock_columns[] = {"ns_per_step", "cost_lower", "cost_s_per_s", "cost_upper"};
-
 struct Nanoseconds {
     double median, lower, upper;  // of a step
 };
 
 // cells.csv quotes quartiles of the cost per second of sound; a step is the same share of each.
 Nanoseconds step_of(const Table& cells, std::size_t row) {
-    const double median = cells.number(row, clock_columns[0]), each = median / cells.number(row, clock_columns[2]);
-    return {median, cells.number(row, clock_columns[1]) * each, cells.number(row, clock_columns[3]) * each};
+    const double median = cells.number(row, "ns_per_step"), share = median / cells.number(row, "cost_s_per_s");
+    return {median, share * cells.number(row, "cost_lower"), share * cells.number(row, "cost_upper")};
 }
 
 class Scaling {
@@ -44,12 +42,10 @@ public:
                 (cells_.at(row, "element").empty() ? whole_ : changed_).push_back(row);
         against("modes", "modes", with(naming_, {"rate"}), "");
         for (const Rows& rows : differing_in_rate(cells_, whole_, naming_)) add_series("rate", "rate", rows, "");
-        for (const std::string& key : naming_)
-            if (key != "scene" && key != "scheme" && key != "options") {
-                std::vector<std::string> held = with(naming_, {"rate", "modes"});
-                std::erase(held, key);
-                against("contacts", "fact_contact_points", held, key);
-            }
+        for (const std::string& key : swept_keys(cells_)) {
+            std::vector<std::string> held = with(naming_, {"rate", "modes"});
+            if (std::erase(held, key) > 0) against("contacts", "fact_contact_points", held, key);
+        }
         for (const std::size_t row : changed_) add_element(row);
     }
     Table table() && { return std::move(into_); }
