@@ -4,9 +4,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "bench/commands.hpp"
-#include "bench/console.hpp"
-#include "bench/interruption.hpp"
+#include "bench/command/commands.hpp"
+#include "bench/store/console.hpp"
+#include "bench/store/interruption.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/scheme.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 struct Verb {
     int operator()(const jvari::ListRequest& r) const { return jvari::list_command(r); }
     int operator()(const jvari::RunRequest& r) const { return jvari::run_command(r); }
-    int operator()(const jvari::CompareRequest& r) const { return jvari::compare_command(r); }
+    int operator()(const jvari::CompareCall& r) const { return jvari::compare_command(r); }
     int operator()(const jvari::SuiteRequest& r) const { return jvari::suite_command(r); }
     int operator()(const jvari::CertifyRequest& r) const { return jvari::certify_command(r); }
     int operator()(const jvari::ReportRequest& r) const { return jvari::report_command(r); }

@@ -15,6 +15,18 @@ const char* name_of(Quantity q) {
     return "?";
 }
 
+const char* unit_of(Quantity q) {
+    switch (q) {
+        case Quantity::displacement: return "m";
+        case Quantity::velocity: return "m/s";
+        case Quantity::nut_force:
+        case Quantity::bridge_force:
+        case Quantity::thread_force:
+        case Quantity::driving_force: return "N";
+    }
+    return "";
+}
+
 const char* name_of(Feature f) {
     switch (f) {
         case Feature::several_strings: return "several strings";

@@ -145,6 +145,7 @@ struct String {
 
 enum class Quantity { displacement, velocity, nut_force, bridge_force, thread_force, driving_force };
 const char* name_of(Quantity);
+const char* unit_of(Quantity);  // "N"
 
 struct Tap {
     std::string name;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/certificate_file.hpp"
-#include "bench/certificate_library.hpp"
-#include "bench/records.hpp"
+#include "bench/store/records.hpp"
+#include "bench/trust/certificate_file.hpp"
+#include "bench/trust/certificate_library.hpp"
 #include "command_line.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/references.hpp"

@@ -1,15 +1,15 @@
 // What the charts are given to draw: every cell once, the front as the rule says, nothing that ends a script early.
-#include "bench/charts.hpp"
+#include "bench/report/charts.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/page.hpp"
-#include "bench/page_text.hpp"
-#include "bench/pareto.hpp"
-#include "bench/vega.hpp"
+#include "bench/compare/pareto.hpp"
+#include "bench/report/page.hpp"
+#include "bench/report/page_text.hpp"
+#include "bench/report/vega.hpp"
 
 namespace jvari {
 namespace {
@@ -76,7 +76,8 @@ TEST(Charts, NothingInThePageEndsAScriptEarly) {
     const auto read = nlohmann::json::parse(data.substr(0, data.find("</script>")));
     EXPECT_EQ(read.at("sections")[0].at("table").at("rows")[0][0], "</script><script>");
     EXPECT_EQ(read.at("manifest").at("note"), "<!-- </script>");
-    for (const char* mark : {"@TITLE@", "@STYLE@", "@SCRIPTS@", "@DATA@", "@PROGRAM@"}) EXPECT_EQ(text.find(mark), std::string::npos) << mark;
+    for (const char* mark : {"@TITLE@", "@STYLE@", "@SCRIPTS@", "@DATA@", "@PROGRAM@"})
+        EXPECT_EQ(text.find(mark), std::string::npos) << mark;
 }
 
 TEST(Charts, TheSpecificationIsDrawnWhereThePackagesAreInstalled) {

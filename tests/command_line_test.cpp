@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/records.hpp"
+#include "bench/store/records.hpp"
 
 namespace jvari::test {
 namespace {

@@ -1,6 +1,6 @@
 // The vector contact equation against references in long double: coordinate-wise bisection where Theta has full rank, one bisection on
 // X = g.f where Theta = g g' has rank one.
-#include "schemes/contact_gram.hpp"
+#include "schemes/contact/contact_gram.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The scalar contact equation against a bisection in long double: every case, stiffness 1e2 to 1e16, exponents 1 to 3.
-#include "schemes/contact.hpp"
+#include "schemes/contact/contact.hpp"
 
 #include <gtest/gtest.h>
 

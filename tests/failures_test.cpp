@@ -1,6 +1,6 @@
 // Every way in which a scheme is known to fail, from its smallest reproducer; and the minimiser that made them, on a toy.
 // `jvari suite stability --out DIR` writes them to DIR/failures; copied to tests/failures they are what is replayed here.
-#include "bench/failures.hpp"
+#include "bench/map/failures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-#include "bench/minimise.hpp"
+#include "bench/map/minimise.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::test {

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "bench/figure_chart.hpp"
-#include "bench/suite_run.hpp"
-#include "bench/vega.hpp"
+#include "bench/report/figure_chart.hpp"
+#include "bench/report/vega.hpp"
+#include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"

@@ -1,5 +1,5 @@
 // Finite differences: weights on nodes, von Neumann relations against traces, order on linear strings, energy, stability limits, contact.
-#include "schemes/finite_difference.hpp"
+#include "schemes/grid/finite_difference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Ctrl-C, and what it leaves: whole files or none, an ended line, the way to go on, and a caller that sees the signal.
-#include "bench/interruption.hpp"
+#include "bench/store/interruption.hpp"
 
 #include <fcntl.h>
 #include <pty.h>
@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-#include "bench/fresh_file.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "command_line.hpp"
 
 namespace jvari::test {

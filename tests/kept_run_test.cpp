@@ -1,9 +1,9 @@
 // Runs of references that are kept: what is read back is what was run, and nothing else is believed.
-#include "bench/kept_run.hpp"
+#include "bench/trust/kept_run.hpp"
 
 #include <cmath>
 
-#include "bench/catalogue.hpp"
+#include "bench/compare/catalogue.hpp"
 #include "command_line.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"

@@ -1,7 +1,7 @@
 #!/bin/sh
-# The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp and scenes; bench and tests see all. No scheme includes another,
-# and each library is seen by one folder (or file) alone.
-cd "$(dirname "$0")/.." || exit 2
+# The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp and scenes; bench is a staircase of rooms above them; tests see all.
+# No scheme includes another, and each library is seen by one folder (or file) alone. usage: layering.sh [TREE]
+cd "${1:-$(dirname "$0")/..}" || exit 2
 status=0
 forbid() {  # forbid REASON PATTERN PATHS...: no line of PATHS matches PATTERN
     reason=$1 pattern=$2
@@ -16,6 +16,18 @@ files() { find "$@" -name '*.hpp' -o -name '*.cpp' | sort; }
 forbid "scenes see nothing above them" '#include "(schemes|reference|analysis|bench)/' $(files scenes)
 forbid "schemes see scenes alone" '#include "(reference|analysis|bench)/' $(files schemes)
 forbid "references see schemes and scenes" '#include "(analysis|bench)/' $(files reference)
+forbid "the seam sees no scheme" '#include "schemes/(contact|modal|spatial|grid|sitar)/' schemes/*.hpp schemes/scheme.cpp schemes/trace.cpp schemes/run.cpp
+forbid "contacts see the seam alone" '#include "schemes/(modal|spatial|grid|sitar)/' $(files schemes/contact)
+forbid "modal schemes see contacts and the seam" '#include "schemes/(spatial|grid|sitar)/' $(files schemes/modal)
+forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(grid|sitar)/' $(files schemes/spatial)
+forbid "grids see contacts and the seam" '#include "schemes/(modal|spatial|sitar)/' $(files schemes/grid)
+forbid "sitars see contacts and the seam" '#include "schemes/(modal|spatial|grid)/' $(files schemes/sitar)
+above=
+for room in command report suite map compare trust store; do  # each room of bench sees itself and those after it here
+    [ -z "$above" ] || forbid "bench/$room sees nothing of the rooms above it" "#include \"bench/($above)/" $(files bench/$room)
+    above=${above:+$above|}$room
+done
+forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
 forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
 forbid "TOML belongs to scenes (and suites)" '#include <toml' $(files schemes reference analysis)
 forbid "FFTW belongs to analysis and the sine transform" '#include <fftw' $(files scenes reference bench) $(files schemes | grep -v sine_transform)

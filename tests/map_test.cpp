@@ -2,8 +2,8 @@
 #include <cmath>
 #include <thread>
 
-#include "bench/map_tables.hpp"
-#include "bench/suite_file.hpp"
+#include "bench/map/map_tables.hpp"
+#include "bench/suite/suite_file.hpp"
 #include "command_line.hpp"
 #include "scenes/scene_file.hpp"
 #include "suite_text.hpp"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/catalogue.hpp"
-#include "bench/cheapest.hpp"
-#include "bench/convergence_table.hpp"
-#include "bench/dispersion_facet.hpp"
-#include "bench/summary.hpp"
+#include "bench/compare/catalogue.hpp"
+#include "bench/compare/cheapest.hpp"
+#include "bench/compare/convergence_table.hpp"
+#include "bench/compare/summary.hpp"
+#include "bench/suite/dispersion_facet.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 

@@ -1,6 +1,6 @@
 // Quadratised contact: its own energy is balanced to rounding in every variant, which proves nothing; the released variant pushes only and
 // converges to the discrete-gradient contact, the raw one does neither.
-#include "schemes/quadratised_contact.hpp"
+#include "schemes/contact/quadratised_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "scenes/modes.hpp"
 #include "schemes/run.hpp"
-#include "schemes/spatial_forces.hpp"
+#include "schemes/spatial/spatial_forces.hpp"
 
 namespace jvari {
 

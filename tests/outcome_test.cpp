@@ -1,5 +1,5 @@
 // Outcomes of runs that are made up, each by the one thing that is wrong with it.
-#include "bench/outcome.hpp"
+#include "bench/map/verdict.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <numeric>
 
-#include "bench/fresh_file.hpp"
-#include "bench/suite_run.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/suite/suite_run.hpp"
 
 namespace jvari::test {
 namespace {

@@ -1,5 +1,5 @@
 // Rows to CSV and back, and numbers to text and back.
-#include "bench/records.hpp"
+#include "bench/store/records.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <map>
 
-#include "bench/records.hpp"
+#include "bench/store/records.hpp"
 #include "command_line.hpp"
 
 namespace jvari::test {

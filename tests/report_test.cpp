@@ -1,11 +1,11 @@
 // The report of a folder: a section where there is data and none where there is not, each with what its files say. The folder is made up.
-#include "bench/report.hpp"
+#include "bench/report/report.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "bench/chart_data.hpp"
-#include "bench/page_sections.hpp"
-#include "bench/sound.hpp"
+#include "bench/report/chart_data.hpp"
+#include "bench/report/page_sections.hpp"
+#include "bench/store/sound.hpp"
 #include "command_line.hpp"
 
 namespace jvari::test {

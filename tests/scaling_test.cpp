@@ -1,14 +1,14 @@
 // What a step costs against modes, rate and contacts, and what each element adds: the fit on costs that are known, the scenes that are
 // timed.
-#include "bench/scaling_table.hpp"
+#include "bench/compare/scaling_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bench/catalogue.hpp"
-#include "bench/elements.hpp"
-#include "bench/suite_plan.hpp"
+#include "bench/compare/catalogue.hpp"
+#include "bench/compare/elements.hpp"
+#include "bench/suite/suite_plan.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/suite_text.hpp"
 

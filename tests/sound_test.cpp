@@ -1,5 +1,5 @@
 // Sounds: what is kept of a trace, what of it is heard, and base64 by the words of RFC 4648.
-#include "bench/sound.hpp"
+#include "bench/store/sound.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "bench/base64.hpp"
+#include "bench/store/base64.hpp"
 
 namespace jvari {
 namespace {

@@ -4,8 +4,8 @@
 #include <set>
 #include <thread>
 
-#include "bench/compare_record.hpp"
-#include "bench/suite_run.hpp"
+#include "bench/compare/compare_record.hpp"
+#include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/scene_file.hpp"
 #include "suite_text.hpp"
@@ -59,8 +59,8 @@ TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
                                     "a.toml");
     const SuitePlan plan = plan_of(suite, Catalogue(), {});
     ASSERT_EQ(plan.cells.size(), 3u);  // sitar_fdm is the same at both points, and no reference differs
-    EXPECT_EQ(options_text(plan.cells[0].cell.settings), "length=integer");
-    EXPECT_EQ(options_text(plan.cells[2].cell.settings), "length=fractional");
+    EXPECT_EQ(options_text(plan.cells[0].cell.settings.options), "length=integer");
+    EXPECT_EQ(options_text(plan.cells[2].cell.settings.options), "length=fractional");
 }
 
 TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {

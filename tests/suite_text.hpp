@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bench/suite_file.hpp"
+#include "bench/suite/suite_file.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::test {

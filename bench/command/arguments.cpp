@@ -1,0 +1,243 @@
+// What the program understands, and the help that teaches it.
+#include "bench/command/arguments.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+#include "bench/store/console.hpp"
+#include "bench/store/machine.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr const char* about = "jvari: numerical schemes for strings against obstacles, compared by speed and accuracy on the same scenes.";
+constexpr const char* examples =
+    "Examples\n"
+    "  jvari list                                              what there is, and which scheme represents which scene\n"
+    "  jvari run tanpura_c3 --scheme modal_two_point --out c3.wav\n"
+    "  jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --energy --set string.0.tension=40 --out c3.csv\n"
+    "  jvari compare tanpura_c3_release --out report           every scheme that represents it, at 44.1 kHz x 1 ... 64\n"
+    "  jvari suite paper-deshmukh --out sitar --resume         a declared set of cells, taken up where it was stopped\n"
+    "  jvari certify tanpura_c3_release --duration 0.1         how far the references agree there\n"
+    "  jvari report report                                     its page and picture once more\n"
+    "\n"
+    "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed (what was written stays valid).\n"
+    "Ctrl-C leaves whole files only; a suite says how many cells are kept.";
+
+std::string a_number(const std::string& text, bool whole) {
+    double x = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    if (error == std::errc() && stop == text.data() + text.size() && std::isfinite(x) && x > 0 &&
+        (!whole || (x == std::floor(x) && x < 1e7)))
+        return {};
+    return fmt::format("found \"{}\", expected a {}number > 0", text, whole ? "whole " : "");
+}
+const CLI::Validator positive([](const std::string& text) { return a_number(text, false); }, "", "positive");
+const CLI::Validator counting([](const std::string& text) { return a_number(text, true); }, "", "counting");
+
+void add_common(CLI::App& verb, Common& c) {
+    verb.add_flag("--json", c.json, "one JSON object on standard output, nothing else there");
+    verb.add_option("--plugin", c.plugins, "shared object with further schemes (repeatable)")->type_name("LIB.so")->allow_extra_args(false);
+    verb.add_flag("--quiet", c.quiet, "no messages and no progress, errors only");
+}
+
+void add_scene(CLI::App& verb, std::string& scene, std::vector<std::string>& set, int& modes) {
+    verb.add_option("scene", scene, "a scene file, or a name that `jvari list scenes` shows")->required()->type_name("SCENE");
+    verb.add_option("--set", set, "overrides a key of the scene, as string.0.barrier.0.stiffness=1e9 (repeatable)")
+        ->type_name("KEY.PATH=VALUE")
+        ->allow_extra_args(false);
+    verb.add_option("--modes", modes,
+                    "modes of each string, or interior nodes for a scheme on a grid; absent: every mode below min(20 kHz, rate/2)")
+        ->type_name("N")
+        ->check(counting);
+}
+
+void add_options(CLI::App& verb, std::vector<std::string>& options) {
+    verb.add_option(
+            "--option", options,
+            "an option of a scheme, as NAME=VALUE or SCHEME:NAME=VALUE (repeatable). In compare the short form goes to every compared "
+            "scheme that knows the name, never to the reference")
+        ->type_name("[SCHEME:]NAME=VALUE")
+        ->allow_extra_args(false);
+}
+
+void add_jobs(CLI::App& verb, int& jobs) {
+    verb.add_option("--jobs", jobs, "accuracy runs side by side; as many as there are cores where absent. Timed runs go one at a time")
+        ->type_name("N")
+        ->check(counting);
+}
+
+std::vector<SchemeOption> scheme_options(const std::vector<std::string>& texts) {
+    std::vector<SchemeOption> options;
+    for (const std::string& text : texts) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) throw UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
+        const std::string key = text.substr(0, equals);
+        const auto colon = key.find(':');
+        SchemeOption o{colon == std::string::npos ? "" : key.substr(0, colon), colon == std::string::npos ? key : key.substr(colon + 1),
+                       text.substr(equals + 1)};
+        if (o.name.empty() || colon == 0) throw UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
+        options.push_back(std::move(o));
+    }
+    return options;
+}
+
+void must_be_assignments(const std::vector<std::string>& set) {
+    for (const std::string& s : set)
+        if (s.find('=') == std::string::npos || s.front() == '=') throw UsageError("--set " + s + ": expected KEY.PATH=VALUE");
+}
+}  // namespace
+
+std::optional<Request> read_arguments(int argc, const char* const* argv) {
+    CLI::App app(about, "jvari");
+    app.footer(examples);
+    app.require_subcommand(1);
+    app.set_version_flag("--version", fmt::format("jvari {} ({})", machine().version, machine().commit));
+    app.get_formatter()->column_width(34);
+
+    ListRequest list;
+    auto* list_verb = app.add_subcommand("list", "what exists, and which scheme represents which scene");
+    list_verb->add_option("what", list.what, "schemes, scenes, references, taps or suites; absent: all, and the matrix")
+        ->check(CLI::IsMember({"schemes", "scenes", "references", "taps", "suites"}))
+        ->type_name("WHAT")
+        ->option_text("");
+    list_verb->add_flag("--markdown", list.markdown, "with `schemes`: the capability table of the README");
+    list_verb->footer("Example: jvari list schemes --markdown");
+    add_common(*list_verb, list);
+
+    RunRequest run;
+    std::vector<std::string> run_options;
+    auto* run_verb = app.add_subcommand("run", "one scheme on one scene");
+    add_scene(*run_verb, run.scene, run.set, run.modes);
+    add_options(*run_verb, run_options);
+    run_verb->add_option("--scheme", run.scheme, "a scheme or a reference")->required()->type_name("NAME");
+    run_verb->add_option("--rate", run.rate, "sample rate; 44100 where absent")->type_name("HZ")->check(positive);
+    run_verb->add_option("--duration", run.duration, "in place of the scene's")->type_name("S")->check(positive);
+    run_verb->add_option("--tap-rate", run.tap_rate, "rows per second; 44100 where absent, or the rate where that is no multiple of it")
+        ->type_name("HZ")
+        ->check(positive);
+    run_verb->add_flag("--energy", run.energy, "probe the energy: three more columns, and the residuals of the balance");
+    run_verb->add_option("--out", run.out, "writes the trace: .csv, .wav (one channel per tap) or .h5")->type_name("FILE");
+    run_verb->add_option("--wav-format", run.wav_format, "float64 (default), float32, or pcm24, pcm16 (each channel brought to full scale)")
+        ->check(CLI::IsMember({"float64", "float32", "pcm24", "pcm16"}))
+        ->type_name("FORMAT")
+        ->option_text("FORMAT");
+    run_verb->footer("Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration 0.2 --energy --out c3.csv");
+    add_common(*run_verb, run);
+
+    CompareCall compare;
+    std::vector<std::string> compare_options;
+    auto* compare_verb = app.add_subcommand("compare", "schemes at several rates against a reference: error and cost of each");
+    add_scene(*compare_verb, compare.scene, compare.set, compare.modes);
+    add_options(*compare_verb, compare_options);
+    compare_verb->add_option("--schemes", compare.schemes, "absent: every scheme that represents the scene")
+        ->delimiter(',')
+        ->type_name("A,B,...");
+    compare_verb->add_option("--rates", compare.rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")
+        ->delimiter(',')
+        ->type_name("HZ,...")
+        ->check(positive);
+    compare_verb
+        ->add_option("--reference", compare.reference, "a reference or a scheme; absent: the highest reference that represents the scene")
+        ->type_name("NAME");
+    compare_verb->add_option("--duration", compare.duration, "in place of the scene's")->type_name("S")->check(positive);
+    compare_verb
+        ->add_option("--tap-rate", compare.tap_rate,
+                     "rows per second that are compared; 44100 where all rates are multiples of it, else the lowest rate")
+        ->type_name("HZ")
+        ->check(positive);
+    compare_verb->add_option("--repeats", compare.repeats, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent")
+        ->type_name("N")
+        ->check(counting);
+    add_jobs(*compare_verb, compare.jobs);
+    compare_verb
+        ->add_option("--out", compare.out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
+        ->type_name("DIR");
+    compare_verb->footer(
+        "Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
+    add_common(*compare_verb, compare);
+
+    SuiteRequest suite;
+    auto* suite_verb =
+        app.add_subcommand("suite", "a declared set of comparisons, sweeps, stability maps and figures over scenes and schemes");
+    suite_verb->add_option("suite", suite.suite, "a suite file, or a name that `jvari list suites` shows")->required()->type_name("FILE");
+    suite_verb
+        ->add_option("--out", suite.out,
+                     "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures")
+        ->type_name("DIR");
+    suite_verb->add_flag("--resume", suite.resume, "reads back the cells that DIR holds and runs the others");
+    add_jobs(*suite_verb, suite.jobs);
+    suite_verb->footer("Example: jvari suite paper-deshmukh --out sitar --resume");
+    add_common(*suite_verb, suite);
+
+    CertifyRequest certify;
+    auto* certify_verb = app.add_subcommand("certify", "how far the references agree on a scene: what an error can be believed to");
+    add_scene(*certify_verb, certify.scene, certify.set, certify.modes);
+    certify_verb->add_option("--duration", certify.duration, "in place of the scene's; compare uses a certificate as far as it reaches")
+        ->type_name("S")
+        ->check(positive);
+    certify_verb->add_option("--tap-rate", certify.tap_rate, "rows per second that are compared; 44100 where absent")
+        ->type_name("HZ")
+        ->check(positive);
+    certify_verb
+        ->add_option("--oversampled-rate", certify.oversampled_rate,
+                     "also the best scheme at a quarter, half and all of this rate, with its own estimate; absent: only where no reference "
+                     "represents the scene, at 64 tap rates")
+        ->type_name("HZ")
+        ->check(positive);
+    certify_verb
+        ->add_option(
+            "--out", certify.out,
+            "the file, .json; results/certificates/<scene>.json where absent, with part of the scene's hash in its name where --set "
+            "changes the scene. What a clock measured goes beside it, to .cost.json")
+        ->type_name("FILE");
+    certify_verb->add_flag("--again", certify.again, "runs the references also where the file is there and of the same scene and settings");
+    certify_verb->footer(
+        "Example: jvari certify tanpura_c3_release --duration 0.1\n"
+        "\n"
+        "Every reference that represents the scene runs at two settings of its accuracy. The table says, pair by pair, how far they are "
+        "apart and\n"
+        "for how long they agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the "
+        "figure.");
+    add_common(*certify_verb, certify);
+
+    ReportRequest report;
+    auto* report_verb = app.add_subcommand("report", "page and pictures, made again from a folder that compare or suite wrote");
+    report_verb->add_option("folder", report.folder, "holds manifest.json and cells.csv, maps.csv or both")->required()->type_name("DIR");
+    report_verb->footer("Example: jvari report report");
+    add_common(*report_verb, report);
+
+    if (argc > 1 && argv[1][0] != '-') {
+        std::vector<std::string> verbs;
+        for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+        if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) throw UsageError(unknown("verb", argv[1], verbs));
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {
+        app.exit(asked);
+        return std::nullopt;
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(std::string(e.what()) + " (see jvari " + (argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : "") +
+                         "--help)");
+    }
+    must_be_assignments(run.set);
+    must_be_assignments(compare.set);
+    must_be_assignments(certify.set);
+    run.options = scheme_options(run_options);
+    compare.options = scheme_options(compare_options);
+    if (!run.wav_format.empty() && run.out.empty()) throw UsageError("--wav-format: there is no --out FILE.wav");
+    if (list.markdown && list.what != "schemes") throw UsageError("--markdown goes with `jvari list schemes`");
+
+    if (list_verb->parsed()) return list;
+    if (run_verb->parsed()) return run;
+    if (compare_verb->parsed()) return compare;
+    if (suite_verb->parsed()) return suite;
+    if (certify_verb->parsed()) return certify;
+    return report;
+}
+
+}  // namespace jvari

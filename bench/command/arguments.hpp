@@ -1,0 +1,61 @@
+// The command line as values: one struct per verb.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bench/compare/request.hpp"
+
+namespace jvari {
+
+struct Common {
+    bool json = false, quiet = false;
+    std::vector<std::string> plugins;
+};
+
+struct ListRequest : Common {
+    std::string what;  // "": everything
+    bool markdown = false;
+};
+
+struct RunRequest : Common {
+    std::string scene, scheme;
+    std::optional<double> rate;  // [Hz]
+    int modes = 0;
+    std::optional<double> duration;  // [s]
+    std::optional<double> tap_rate;  // [Hz]
+    bool energy = false;
+    std::vector<std::string> set;
+    std::vector<SchemeOption> options;
+    std::string out, wav_format;
+};
+
+struct CompareCall : Common, CompareRequest {};
+
+struct ReportRequest : Common {
+    std::string folder;
+};
+
+struct SuiteRequest : Common {
+    std::string suite, out;
+    bool resume = false;
+    int jobs = 0;  // 0: as many as there are cores
+};
+
+struct CertifyRequest : Common {
+    std::string scene, out;
+    int modes = 0;
+    std::optional<double> duration, tap_rate, oversampled_rate;  // [s], [Hz], [Hz]
+    std::vector<std::string> set;
+    bool again = false;
+};
+
+using Request = std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest, CertifyRequest, ReportRequest>;
+
+// Throws UsageError. No value: help or the version was asked for and printed.
+std::optional<Request> read_arguments(int argc, const char* const* argv);
+
+}  // namespace jvari

@@ -1,0 +1,173 @@
+// jvari certify: every reference that represents a scene against every other one. What it found goes to a file, a table, and from there to
+// the errors of compare and suite.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/command/commands.hpp"
+#include "bench/compare/catalogue.hpp"
+#include "bench/store/console.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/trust/certificate_file.hpp"
+#include "bench/trust/certificate_library.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed scene does not take the place of the one it was made from
+    if (!r.out.empty()) {
+        if (fs::path(r.out).extension() != ".json" || r.out.ends_with(".cost.json"))
+            throw UsageError(fmt::format("--out {}: expected a name that ends in .json (its costs go beside it, to .cost.json)", r.out));
+        return r.out;
+    }
+    const fs::path folder = "results/certificates";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw UsageError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+    return folder / (file_stem(scene.name) + (r.set.empty() ? "" : "-" + timeless_hash(scene).substr(0, 8)) + ".json");
+}
+
+std::string entries_text(const Certificate& c) {
+    std::string text = fmt::format("  {:>2}  {:<44} {:<14} {:>9} {:>9}\n", "", "reference", "status", "until", "cost");
+    for (std::size_t i = 0; i < c.entries.size(); ++i) {
+        const auto& e = c.entries[i];
+        const std::string name = e.reference + (e.sample_rate > 0 ? fmt::format(" at {:.10g} Hz", e.sample_rate) : "") +
+                                 (e.options.empty() ? "" : " " + options_text(e.options));
+        if (!e.reason.empty()) text += fmt::format("  {:>2}  {:<44} refused: {}\n", i + 1, name, e.reason);
+        else
+            text += fmt::format("  {:>2}  {:<44} {:<14} {:>7.4g} s {:>9}\n", i + 1, name, name_of(e.status.outcome), e.reached,
+                                std::isnan(e.wall_seconds) ? "-" : fmt::format("{:.3g} s", e.wall_seconds));
+    }
+    return text;
+}
+
+std::vector<std::size_t> windows_of(const Certificate& c) {
+    std::vector<std::size_t> windows;
+    for (std::size_t w = 0; w + 1 < agreement_windows.size(); ++w)
+        if (agreement_windows[w] < c.duration * (1 - 1e-9)) windows.push_back(w);
+    windows.push_back(agreement_windows.size() - 1);
+    return windows;
+}
+
+std::string numbers(const Certificate::ByWindow& values, const std::vector<std::size_t>& windows) {
+    std::string text;
+    for (const std::size_t w : windows) text += std::isnan(values[w]) ? fmt::format(" {:>9}", "-") : fmt::format(" {:>9.1e}", values[w]);
+    return text;
+}
+
+std::string instants(const Agreement& a, double duration, double tap_rate) {
+    std::string text;
+    for (const double t : a.until)
+        text += t >= duration - 0.5 / tap_rate ? fmt::format(" {:>9}", "end") : fmt::format(" {:>7.2f}ms", 1e3 * t);
+    return text;
+}
+
+std::string figures_text(const Certificate& c) {
+    std::size_t width = 5;
+    for (const std::string& tap : c.taps) width = std::max(width, tap.size());
+    const auto windows = windows_of(c);
+    std::string text = fmt::format("  {:<11} {:<{}}", "pair", "tap", width);
+    for (const std::size_t w : windows)
+        text += fmt::format(" {:>9}", w + 1 < agreement_windows.size() ? fmt::format("{:.0f} ms", 1e3 * agreement_windows[w]) : "whole");
+    for (const double level : agreement_levels) text += fmt::format(" {:>9}", fmt::format("to 1e{:.0f}", std::log10(level)));
+    text += "\n";
+    const auto block = [&](const std::string& name, const auto& line) {
+        for (std::size_t k = 0; k < c.taps.size(); ++k)
+            text += fmt::format("  {:<11} {:<{}}{}\n", k == 0 ? name : "", c.taps[k], width, line(k));
+    };
+    for (const auto& p : c.pairs) {
+        const double common = std::min(c.entries[p.first].reached, c.entries[p.second].reached);
+        block(fmt::format("{} against {}", p.first + 1, p.second + 1),
+              [&](std::size_t k) { return numbers(p.taps[k].relative_l2, windows) + instants(p.taps[k], common, c.tap_rate); });
+    }
+    for (std::size_t i = 0; i < c.entries.size(); ++i)
+        if (!c.entries[i].estimate.empty())
+            block(fmt::format("{} itself", i + 1), [&](std::size_t k) { return numbers(c.entries[i].estimate[k], windows); });
+    block("noise floor",
+          [&](std::size_t k) { return numbers(c.floor[k].relative_l2, windows) + instants(c.floor[k], c.duration, c.tap_rate); });
+    return text;
+}
+
+std::string text_of(const Certificate& c) {
+    const bool estimated = std::any_of(c.entries.begin(), c.entries.end(), [](const auto& e) { return !e.estimate.empty(); });
+    return fmt::format("{}: {} modes, {:.10g} rows a second, {:.6g} s\n\n{}\n{}", c.scene, c.modes, c.tap_rate, c.duration, entries_text(c),
+                       figures_text(c)) +
+           "relative L2 difference over the first 10 ms and so on, and how long a pair stays closer than 1e-3, 1e-6, 1e-9" +
+           (estimated ? "; \"itself\": its own estimate by Richardson's rule" : "") +
+           "\nnoise floor: the first against itself, started a relative 1e-12 apart";
+}
+
+Certificate made(const Scene& scene, CertifySettings settings, const Console& console) {
+    Console::Progress progress(console, "certify");
+    double from = 0, part = 1;
+    std::string what;
+    settings.progress = [&](const std::string& reference, int done, int of) {
+        part = 1.0 / of;
+        from = done * part;
+        what = reference;
+    };
+    settings.within = [&](double fraction) { progress.show(from + part * fraction, what); };
+    return certify(scene, settings);
+}
+}  // namespace
+
+int certify_command(const CertifyRequest& r) {
+    const Console console(r.json, r.quiet);
+    const Catalogue catalogue(r.plugins);
+    const Scene scene = load_scene(r.scene, r.set, r.duration);
+    CertifySettings settings;
+    settings.modes = r.modes;
+    settings.tap_rate = r.tap_rate.value_or(44100);
+    settings.oversampled_rate = r.oversampled_rate.value_or(0);
+    if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size()) > 1e8)
+        throw UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+    KeptCertificate kept = planned_certificate(scene, settings);
+    const fs::path path = path_for(r, scene);
+    must_be_writable(path);
+    must_be_writable(cost_path(path));
+
+    bool cached = false;
+    std::error_code error;
+    if (!r.again && fs::exists(path, error)) {
+        std::string why;
+        if (auto found = read_certificate(path, why)) {
+            cached = found->key == kept.key;
+            if (cached) kept = std::move(*found);
+            else console.note(path.string() + " is of another scene, version or setting; it is made again");
+        } else {
+            console.note(path.string() + " cannot be used (" + why + "); it is made again");
+        }
+    }
+    if (cached) {
+        read_costs(path, kept);
+    } else {
+        kept.certificate = made(scene, settings, console);
+        write_fresh(cost_path(path), cost_json_of(kept));
+        write_fresh(path, json_of(kept));
+    }
+    console.print(text_of(kept.certificate));
+    console.print((cached ? "read: " : "written: ") + path.string());
+
+    const auto& entries = kept.certificate.entries;
+    const bool good =
+        std::any_of(entries.begin(), entries.end(), [](const auto& e) { return e.reason.empty() && e.status.outcome == Outcome::ok; });
+    Json costs = Json::array();
+    for (const auto& e : entries) costs.push_back(e.wall_seconds);
+    console.print_json(Json{
+        {"scene", scene.name},
+        {"status", good ? "ok" : "failed"},
+        {"cached", cached},
+        {"file", path.string()},
+        {"cost_file", cost_path(path).string()},
+        {"certificate", Json::parse(json_of(kept))},
+        {"wall_seconds",
+         costs}}.dump(2));
+    return good ? done : run_failed;
+}
+
+}  // namespace jvari

@@ -1,0 +1,15 @@
+// The verbs. Each returns the program's exit code, or throws: UsageError, BadScene, SceneFileError (2), Refusal (3).
+#pragma once
+
+#include "bench/command/arguments.hpp"
+
+namespace jvari {
+
+int list_command(const ListRequest&);
+int run_command(const RunRequest&);
+int compare_command(const CompareCall&);
+int suite_command(const SuiteRequest&);
+int certify_command(const CertifyRequest&);
+int report_command(const ReportRequest&);
+
+}  // namespace jvari

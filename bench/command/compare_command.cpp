@@ -1,0 +1,103 @@
+// jvari compare: the main job. What it found goes to a folder, a table and a page.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bench/command/commands.hpp"
+#include "bench/command/compare_text.hpp"
+#include "bench/compare/cheapest.hpp"
+#include "bench/compare/compare_record.hpp"
+#include "bench/compare/convergence_table.hpp"
+#include "bench/report/report.hpp"
+#include "bench/store/fresh_file.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder)) throw UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
+    must_be_writable(folder / "cells.csv");
+}
+
+int exit_code(const Comparison& c) {
+    const auto good = [](const Cell& cell) { return !cell.refused && cell.summary.status.outcome == Outcome::ok; };
+    if (c.cells.empty() || std::any_of(c.cells.begin(), c.cells.end(), good)) return done;
+    return std::all_of(c.cells.begin(), c.cells.end(), [](const Cell& cell) { return cell.refused; }) ? refused : run_failed;
+}
+
+std::string floor_text(const Comparison& c) {
+    std::string text;
+    for (std::size_t k = 0; k < measures().size(); ++k) {
+        const Measure& m = measures()[k];
+        const double floor = c.floor[c.headline.tap(m)][k];
+        if (m.less_is_better && !std::isnan(floor))
+            text += fmt::format("{}{} {:.1e}", text.empty() ? "noise floor: " : ", ", m.column, floor);
+    }
+    return text;
+}
+
+std::string certificate_text(const Comparison& c) {
+    const Trust& t = c.trust;
+    if (!t.any()) return "no certificate: " + t.missing;
+    return fmt::format("{} is certain to the figures of the first line, by {}{}", c.reference_name, t.against,
+                       t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + ")") +
+           (std::isnan(t.at(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
+           (c.reference_note.empty() ? "" : "\n" + c.reference_note);
+}
+}  // namespace
+
+int compare_command(const CompareCall& r) {
+    const Console console(r.json, r.quiet);
+    const Catalogue catalogue(r.plugins);
+    if (!r.out.empty()) make_folder(r.out);
+    const Comparison c = compare(r, catalogue, console);
+    const Table cells = cells_of(c);
+    const std::string manifest = manifest_of(c, r);
+
+    const double rate = c.reference_summary.rate;
+    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene.name,
+                              c.reference_name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
+                              c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
+                              c.scene.taps.at(c.headline.bridge).name));
+    console.print(headline_text(cells, headline_error(c)) + "\n" + certificate_text(c) + "\n" + floor_text(c));
+    const Table cheapest = cheapest_of(cells, headline_error(c), c.scene.name);
+    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
+    Json files = Json::array();
+    if (!r.out.empty()) {
+        const fs::path folder = r.out;
+        if (const Table orders = convergence_of(cells, c.scene.name); !orders.rows.empty()) {
+            write_fresh(folder / "convergence.csv", csv(orders));
+            files.push_back((folder / "convergence.csv").string());
+        }
+        write_fresh(folder / "cells.csv", csv(cells));
+        write_fresh(folder / "errors.csv", csv(errors_only(cells)));
+        write_fresh(folder / "cost.csv", csv(cost_only(cells)));
+        write_fresh(folder / "manifest.json", manifest + "\n");
+        write_sounds(c, folder);
+        for (const char* name : {"cells.csv", "errors.csv", "cost.csv", "manifest.json"}) files.push_back((folder / name).string());
+        for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
+        console.print("written: " + folder.string());
+    }
+    const int code = exit_code(c);
+    console.print_json(Json{
+        {"scene", c.scene.name},
+        {"reference", c.reference_name},
+        {"status", code == done      ? "ok"
+                   : code == refused ? "refused"
+                                     : "failed"},
+        {"manifest", Json::parse(manifest)},
+        {"cells", Json::parse(rows_json(cells))},
+        {"cheapest", Json::parse(rows_json(cheapest))},
+        {"files", files}}.dump(2));
+    return code;
+}
+
+}  // namespace jvari

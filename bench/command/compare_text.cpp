@@ -1,0 +1,64 @@
+#include "bench/command/compare_text.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/compare/compare_record.hpp"
+
+namespace jvari {
+
+namespace {
+std::string cell_text(const Table& t, std::size_t row, const char* column, const char* format) {
+    const double x = t.number(row, column);
+    return std::isnan(x) ? "-" : fmt::format(fmt::runtime(format), x);
+}
+
+// "x 1.3 %": half the distance of the quartiles over the median.
+std::string spread_text(const Table& t, std::size_t row) {
+    const double median = t.number(row, "wall_seconds"),
+                 half = 0.5 * (t.number(row, "wall_seconds_upper") - t.number(row, "wall_seconds_lower"));
+    return std::isnan(half / median) ? "" : fmt::format("+-{:.0f}%", 100 * half / median);
+}
+}  // namespace
+
+std::string headline_text(const Table& t, const std::string& error_column) {
+    static const std::string certificate = "(reference certain to)";
+    std::size_t width = certificate.size();
+    for (std::size_t i = 0; i < t.rows.size(); ++i) width = std::max(width, t.at(i, "scheme").size());
+    std::string text =
+        fmt::format("  {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n", "scheme", width, "rate",
+                    "modes", "L2 10ms", "L2 50ms", "L2 whole", "horizon", "1/3 oct", "residual", "s per s", "", "real time", "ns/step");
+    const auto figure = [&t](const char* column) {
+        const double x = t.rows.empty() ? std::nan("") : certificate_of(t, 0, column);
+        return std::isnan(x) ? "-" : fmt::format("{:.2e}", x);
+    };
+    text += fmt::format("  {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}\n", certificate, width, "", "", figure("error_l2_10ms"),
+                        figure("error_l2_50ms"), figure("error_l2_whole"));
+    std::string missing, flagged;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        const std::string rate = t.at(i, "rate").empty() ? "contin." : t.at(i, "rate");
+        if (t.at(i, "status") == "refused") {
+            missing += fmt::format("  {:<{}}  {:>9}  refused: {}\n", t.at(i, "scheme"), width, rate, t.at(i, "reason"));
+            continue;
+        }
+        if (t.at(i, "status") != "ok") missing += fmt::format("  {:<{}}  {:>9}  {}\n", t.at(i, "scheme"), width, rate, t.at(i, "reason"));
+        if (!t.at(i, "flags").empty())
+            flagged += fmt::format("  {:<{}}  {:>9}  {} (smallest contact force {}, ledger open by {})\n", t.at(i, "scheme"), width, rate,
+                                   t.at(i, "flags"), cell_text(t, i, "smallest_contact_force", "{:.2g} N"),
+                                   cell_text(t, i, "energy_residual_accumulated", "{:.1e}"));
+        text += fmt::format("{} {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n",
+                            t.at(i, "pareto") == "1" ? "*" : " ", t.at(i, "scheme"), width, rate, t.at(i, "modes"),
+                            error_text(t, i, "error_l2_10ms", "{:.2e}"), error_text(t, i, "error_l2_50ms", "{:.2e}"),
+                            error_text(t, i, "error_l2_whole", "{:.2e}"), cell_text(t, i, "horizon_s", "{:.4f} s"),
+                            cell_text(t, i, "third_octave_db", "{:.2f} dB"), cell_text(t, i, "energy_residual_accumulated", "{:.1e}"),
+                            cell_text(t, i, "cost_s_per_s", "{:.3g}"), spread_text(t, i), cell_text(t, i, "times_real_time", "{:.3g}"),
+                            cell_text(t, i, "ns_per_step", "{:.1f}"));
+    }
+    text += fmt::format("* on the Pareto front of {} and cost; +- is half the distance of the quartiles", error_column);
+    if (!flagged.empty()) text += "\nnot to be trusted, whatever the error says\n" + flagged.substr(0, flagged.size() - 1);
+    return missing.empty() ? text : text + "\nfailed or refused\n" + missing.substr(0, missing.size() - 1);
+}
+
+}  // namespace jvari

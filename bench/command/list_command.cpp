@@ -1,0 +1,202 @@
+// jvari list: what exists, and which scheme represents which scene.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/command/commands.hpp"
+#include "bench/compare/catalogue.hpp"
+#include "bench/store/console.hpp"
+#include "bench/suite/suite_file.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+struct Shelf {  // what is listed
+    Catalogue catalogue;
+    std::vector<std::pair<std::string, Scene>> scenes;            // library name, scene
+    std::vector<std::pair<std::string, std::string>> unreadable;  // library name, why
+};
+
+constexpr Quantity quantities[] = {Quantity::displacement, Quantity::velocity,     Quantity::nut_force,
+                                   Quantity::bridge_force, Quantity::thread_force, Quantity::driving_force};
+
+const char* name_of(Balance b) {
+    return b == Balance::exact ? "exact" : b == Balance::to_tolerance ? "to tolerance" : "none";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
+    return text;
+}
+
+Json json_of(const std::vector<const Descriptor*>& list) {
+    Json all = Json::array();
+    for (const Descriptor* d : list)
+        all.push_back({{"name", d->name},
+                       {"source", d->source},
+                       {"represents", names_in(d->represents)},
+                       {"balance", name_of(d->balance)},
+                       {"clock", d->clock == Clock::continuous ? "continuous" : "stepped"}});
+    return all;
+}
+
+Json scenes_json(const Shelf& shelf) {
+    Json all = Json::array();
+    for (const auto& [name, scene] : shelf.scenes) {
+        Json taps = Json::array();
+        for (const Tap& tap : scene.taps)
+            taps.push_back({{"name", tap.name}, {"quantity", name_of(tap.quantity)}, {"unit", unit_of(tap.quantity)}});
+        all.push_back({{"name", name},
+                       {"source", scene.source},
+                       {"duration", scene.duration},
+                       {"strings", scene.strings.size()},
+                       {"needs", names_in(needed_by(scene))},
+                       {"taps", taps}});
+    }
+    for (const auto& [name, why] : shelf.unreadable) all.push_back({{"name", name}, {"error", why}});
+    return all;
+}
+
+Json matrix_json(const Shelf& shelf) {
+    Json all = Json::array();
+    for (const auto& [name, scene] : shelf.scenes)
+        for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
+            for (const Descriptor* d : *list) {
+                const Features missing = needed_by(scene) - d->represents;
+                all.push_back({{"scene", name}, {"scheme", d->name}, {"represents", missing.empty()}, {"missing", names_in(missing)}});
+            }
+    return all;
+}
+
+Json taps_json() {
+    Json all = Json::array();
+    for (Quantity q : quantities) all.push_back({{"name", name_of(q)}, {"unit", unit_of(q)}});
+    return all;
+}
+
+std::string descriptors_text(const char* title, const std::vector<const Descriptor*>& list) {
+    std::size_t width = 0;
+    for (const Descriptor* d : list) width = std::max(width, std::string(d->name).size());
+    std::string text = fmt::format("{}\n", title);
+    for (const Descriptor* d : list)
+        text += fmt::format("  {:<{}}  {}\n  {:<{}}  energy balance {}{}; represents {}\n", d->name, width, d->source, "", width,
+                            name_of(d->balance), d->clock == Clock::continuous ? "; continuous time" : "", joined(names_in(d->represents)));
+    return text + (list.empty() ? "  none\n" : "");
+}
+
+std::string scenes_text(const Shelf& shelf) {
+    std::size_t width = 0;
+    for (const auto& [name, scene] : shelf.scenes) width = std::max(width, name.size());
+    std::string text = "scenes\n";
+    for (const auto& [name, scene] : shelf.scenes) {
+        std::vector<std::string> taps;
+        for (const Tap& tap : scene.taps) taps.push_back(tap.name);
+        text += fmt::format("  {:<{}}  {}\n  {:<{}}  {} s; taps {}; needs {}\n", name, width, scene.source, "", width, scene.duration,
+                            joined(taps), joined(names_in(needed_by(scene))));
+    }
+    for (const auto& [name, why] : shelf.unreadable) text += fmt::format("  {}  cannot be read: {}\n", name, why);
+    return text;
+}
+
+std::string matrix_text(const Shelf& shelf) {  // schemes down, scenes across
+    std::size_t width = 0;
+    std::string text = "which represents which scene\n";
+    for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
+        for (const Descriptor* d : *list) width = std::max(width, std::string(d->name).size());
+    for (std::size_t k = 0; k < shelf.scenes.size(); ++k)
+        text += fmt::format("  {:<{}}  {}{}\n", "", width, std::string(3 * k, ' '), shelf.scenes[k].first);
+    for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
+        for (const Descriptor* d : *list) {
+            text += fmt::format("  {:<{}}  ", d->name, width);
+            for (const auto& [name, scene] : shelf.scenes) text += (needed_by(scene) - d->represents).empty() ? "x  " : ".  ";
+            text += '\n';
+        }
+    return text;
+}
+
+std::string taps_text() {
+    std::string text = "taps\n";
+    for (Quantity q : quantities) text += fmt::format("  {:<14}{}\n", name_of(q), unit_of(q));
+    return text;
+}
+
+Json suites_json() {
+    Json all = Json::array();
+    for (const std::string& name : library_suites()) try {
+            const Suite suite = read_suite(name);
+            all.push_back({{"name", name}, {"source", suite.source}, {"sets", suite.sets.size()}});
+        } catch (const std::runtime_error& e) {
+            all.push_back({{"name", name}, {"error", e.what()}});
+        }
+    return all;
+}
+
+std::string suites_text() {
+    std::string text = "suites\n";
+    const Json all = suites_json();
+    for (const Json& suite : all)
+        text += fmt::format(
+            "  {}  {}\n", suite.at("name").get<std::string>(),
+            suite.contains("error") ? "cannot be read: " + suite.at("error").get<std::string>() : suite.at("source").get<std::string>());
+    return text + (all.empty() ? "  none\n" : "");
+}
+
+std::string markdown(const Catalogue& catalogue) {  // the table of the README: schemes down, features across
+    std::string head = "| scheme |", rule = "|---|", body;
+    for (int i = 0; i < feature_count; ++i) {
+        head += fmt::format(" {} |", jvari::name_of(static_cast<Feature>(1u << i)));
+        rule += ":-:|";
+    }
+    for (const auto* list : {&catalogue.schemes, &catalogue.references})
+        for (const Descriptor* d : *list) {
+            body += fmt::format("| `{}` |", d->name);
+            for (int i = 0; i < feature_count; ++i) body += d->represents.has(static_cast<Feature>(1u << i)) ? " ● |" : "  |";
+            body += fmt::format(" {} | {} |\n", name_of(d->balance), d->source);
+        }
+    return head + " energy balance | source |\n" + rule + "---|---|\n" + body;
+}
+}  // namespace
+
+int list_command(const ListRequest& r) {
+    const Console console(r.json, r.quiet);
+    Shelf shelf{Catalogue(r.plugins), {}, {}};
+    const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
+    if (asked("scenes"))
+        for (const std::string& name : library_scenes()) try {
+                shelf.scenes.emplace_back(name, read_scene(name, {}));
+            } catch (const std::runtime_error& e) {
+                shelf.unreadable.emplace_back(name, e.what());
+            }
+    if (r.markdown) {
+        console.print(markdown(shelf.catalogue));
+        console.print_json(Json{{"markdown", markdown(shelf.catalogue)}}.dump(2));
+        return done;
+    }
+    Json json = Json::object();
+    std::string text;
+    const auto part = [&](const char* what, const Json& j, const std::string& t) {
+        if (!asked(what)) return;
+        json[what] = j;
+        text += (text.empty() ? "" : "\n") + t;
+    };
+    part("schemes", json_of(shelf.catalogue.schemes), descriptors_text("schemes", shelf.catalogue.schemes));
+    part("references", json_of(shelf.catalogue.references), descriptors_text("references", shelf.catalogue.references));
+    part("scenes", scenes_json(shelf), scenes_text(shelf));
+    part("taps", taps_json(), taps_text());
+    if (asked("suites")) part("suites", suites_json(), suites_text());
+    if (asked("scenes")) {
+        json["matrix"] = matrix_json(shelf);
+        text += "\n" + matrix_text(shelf);
+    }
+    text.pop_back();
+    console.print(text);
+    console.print_json(json.dump(2));
+    return done;
+}
+
+}  // namespace jvari

@@ -1,0 +1,27 @@
+// jvari report: the page and the pictures of a folder of results.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bench/command/commands.hpp"
+#include "bench/report/report.hpp"
+#include "bench/store/console.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+}  // namespace
+
+int report_command(const ReportRequest& r) {
+    const Console console(r.json, r.quiet);
+    Json files = Json::array();
+    for (const std::string& name : write_report(r.folder, console)) {
+        files.push_back((fs::path(r.folder) / name).string());
+        console.print("written: " + (fs::path(r.folder) / name).string());
+    }
+    console.print_json(Json{{"folder", r.folder}, {"files", files}}.dump(2));
+    return done;
+}
+
+}  // namespace jvari

@@ -1,0 +1,129 @@
+// jvari run: one scheme on one scene, its trace to a file, its summary to standard output.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/command/commands.hpp"
+#include "bench/compare/catalogue.hpp"
+#include "bench/compare/summary.hpp"
+#include "bench/store/console.hpp"
+#include "bench/store/machine.hpp"
+#include "bench/store/rates.hpp"
+#include "bench/store/records.hpp"
+#include "bench/store/trace_file.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+Settings settings_for(const RunRequest& r, const Descriptor& d) {
+    Settings s;
+    const double rate = r.rate.value_or(44100);
+    const bool continuous = d.clock == Clock::continuous;
+    s.sample_rate = continuous ? 0 : rate;
+    s.tap_rate = r.tap_rate.value_or(continuous || whole_multiple(rate, 44100) ? 44100 : rate);
+    s.modes = r.modes;
+    if (!continuous && !whole_multiple(rate, s.tap_rate))
+        throw UsageError(fmt::format("--tap-rate {}: the sample rate of {} Hz is no whole multiple of it", s.tap_rate, rate));
+    for (const SchemeOption& o : r.options) {
+        if (o.scheme.empty() || o.scheme == d.name) s.options.emplace_back(o.name, o.value);
+        else throw UsageError(fmt::format("--option {}:{}={}: this run is of {}", o.scheme, o.name, o.value, d.name));
+    }
+    return s;
+}
+
+std::string text_for(const Summary& s) {
+    std::string text = fmt::format("{} on {}", s.scheme, s.scene);
+    const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<28}{}", name, value); };
+    if (s.status.outcome == Outcome::ok) line("status", "ok");
+    else line("status", fmt::format("{} at step {}", name_of(s.status.outcome), s.status.step));
+    line("rate", std::isnan(s.rate) ? "continuous time" : fmt::format("{} Hz", s.rate));
+    line("modes", fmt::format("{}  ({} doubles of state)", s.modes, s.dofs));
+    line("rows", fmt::format("{}  ({:.6g} s, {} steps)", s.rows, s.duration, s.steps));
+    line("wall time",
+         fmt::format("{:.4g} s{}{}", s.wall_seconds, std::isnan(s.ns_per_step) ? "" : fmt::format(", {:.1f} ns per step", s.ns_per_step),
+                     std::isnan(s.times_real_time) ? "" : fmt::format(", {:.4g} times real time", s.times_real_time)));
+    if (!std::isnan(s.energy_residual_per_step))
+        line("energy residual",
+             fmt::format("{:.2e} of one row, {:.2e} accumulated", s.energy_residual_per_step, s.energy_residual_accumulated));
+    if (!std::isnan(s.smallest_contact_force)) line("smallest contact force", fmt::format("{:.6g} N", s.smallest_contact_force));
+    if (!std::isnan(s.deepest_penetration)) line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
+    for (const Fact& f : s.facts) line(f.name.c_str(), fmt::format("{:.6g} {}", f.value, f.unit));
+    return text;
+}
+
+Json json_of(const Summary& s) {
+    Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", name_of(s.status.outcome)}};
+    if (s.status.outcome != Outcome::ok) j["step"] = s.status.step;
+    j["rate"] = s.rate;  // NaN becomes null
+    j["modes"] = s.modes;
+    j["dofs"] = s.dofs;
+    j["steps"] = s.steps;
+    j["rows"] = s.rows;
+    j["duration"] = s.duration;
+    j["wall_seconds"] = s.wall_seconds;
+    j["ns_per_step"] = s.ns_per_step;
+    j["times_real_time"] = s.times_real_time;
+    j["energy_residual_per_step"] = s.energy_residual_per_step;
+    j["energy_residual_accumulated"] = s.energy_residual_accumulated;
+    j["smallest_contact_force"] = s.smallest_contact_force;
+    j["deepest_penetration"] = s.deepest_penetration;
+    j["facts"] = Json::object();
+    for (const Fact& f : s.facts) j["facts"][f.name] = f.value;
+    return j;
+}
+
+TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene, const Settings& s) {
+    return {r.out,
+            r.wav_format,
+            {{"scene", scene.name},
+             {"source", scene.source},
+             {"scene_hash", scene_hash(scene)},
+             {"scheme", d.name},
+             {"scheme_source", d.source},
+             {"sample_rate", text_of(s.sample_rate)},
+             {"program", "jvari " + machine().version},
+             {"commit", machine().commit}}};
+}
+}  // namespace
+
+int run_command(const RunRequest& r) {
+    const Console console(r.json, r.quiet);
+    const Catalogue catalogue(r.plugins);
+    const Descriptor& d = catalogue.find(r.scheme);
+    const Scene scene = load_scene(r.scene, r.set, r.duration);
+    const Settings settings = settings_for(r, d);
+    const TraceFile file = file_for(r, d, scene, settings);
+    if (!r.out.empty()) check(file, settings.tap_rate);
+    if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * r.energy) > 2e9)
+        throw UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+    if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
+
+    Run result;
+    {
+        Console::Progress progress(console, fmt::format("{} on {}", d.name, scene.name));
+        RunOptions options;
+        options.energy = r.energy;
+        options.progress = [&progress](long done, long rows) { progress.show(static_cast<double>(done) / static_cast<double>(rows)); };
+        result = run(d, scene, settings, options);
+    }
+    const Summary summary = summary_of(d, scene, settings, result);
+    Json json = json_of(summary);
+    std::string text = text_for(summary);
+    if (!r.out.empty()) {
+        const std::string said = write(file, scene, result.trace);
+        json["out"] = r.out;
+        if (!said.empty()) json["wav_scaling"] = said;
+        text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
+    }
+    console.print(text);
+    console.print_json(json.dump(2));
+    if (result.status.outcome == Outcome::ok) return done;
+    console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome), result.status.step, result.trace.rows));
+    return run_failed;
+}
+
+}  // namespace jvari

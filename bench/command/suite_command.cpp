@@ -1,0 +1,162 @@
+// jvari suite: a declared set of comparisons and spectrograms. DIR gets cells/, cells.csv, errors.csv, cost.csv, a file per row facet,
+// manifest.json and the report.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bench/command/commands.hpp"
+#include "bench/compare/cheapest.hpp"
+#include "bench/compare/compare_record.hpp"
+#include "bench/compare/convergence_table.hpp"
+#include "bench/compare/scaling_table.hpp"
+#include "bench/map/map_report.hpp"
+#include "bench/report/figure_chart.hpp"
+#include "bench/report/report.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/interruption.hpp"
+#include "bench/store/machine.hpp"
+#include "bench/suite/row_facet.hpp"
+#include "bench/suite/suite_run.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+Table clock_only(const Table& cells) {  // what errors_only leaves out, beside what names the cell
+    const Table rest = errors_only(cells);
+    std::vector<std::string> names{"cell", "scene", "scheme", "rate", "modes", "status"};
+    for (const std::string& name : cells.columns)
+        if (rest.column(name) < 0) names.push_back(name);
+    return cells.only(names);
+}
+
+std::string manifest_of(const Suite& suite, const SuitePlan& plan) {
+    std::map<std::string, std::string> sources;
+    for (const PlannedCell& c : plan.cells) sources[c.cell.scheme->name] = c.cell.scheme->source;
+    Json manifest = Json::parse(made_by());
+    manifest.update(
+        {{"suite", suite.name}, {"source", suite.source}, {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}});
+    return manifest.dump(2);
+}
+
+std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
+    std::string text;
+    std::map<std::string, int> statuses;
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+        const Table& row = run.records[i].row;
+        const PlannedCell& c = plan.cells[i];
+        const auto short_text = [&row](const char* column, const char* format) {
+            const double x = row.number(0, column);
+            return std::isnan(x) ? std::string() : fmt::format(fmt::runtime(format), x);
+        };
+        ++statuses[row.at(0, "status")];
+        std::string what = c.point->scene.name;
+        for (const auto& [key, value] : c.point->swept) what += " " + key + "=" + value;
+        const std::string options = options_text(c.cell.settings.options);
+        text += fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}  {}\n", what,
+                            c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
+                            row.at(0, "status"), error_text(row, 0, "error_l2_50ms", "{:.2e}"), short_text("cost_s_per_s", "{:.3g}"),
+                            row.at(0, "reason"));
+    }
+    text = fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}\n", "scene", "scheme", "rate", "modes", "status", "L2 50ms",
+                       "s per s") +
+           text + fmt::format("{} cells, {} run, {} timed, {} read back:", plan.cells.size(), run.ran, run.timed, run.read_back);
+    for (const auto& [status, count] : statuses) text += fmt::format(" {} {}", count, status);
+    return text;
+}
+
+std::string kept_text(const SuitePlan& plan, const Suite& suite, const fs::path& folder) {
+    std::error_code error;
+    std::string text;
+    if (!plan.cells.empty()) {
+        const auto kept = [&](const PlannedCell& c) { return fs::exists(folder / "cells" / (c.id + ".json"), error); };
+        text = fmt::format("{} of {} cells", std::count_if(plan.cells.begin(), plan.cells.end(), kept), plan.cells.size());
+    }
+    if (!suite.maps.empty()) {
+        const auto kept = [](const fs::directory_entry& e) { return e.path().extension() == ".json"; };
+        const auto points = std::count_if(fs::directory_iterator(folder / "points", error), fs::directory_iterator(), kept);
+        text += fmt::format("{}{} points of maps", text.empty() ? "" : " and ", points);
+    }
+    return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", text, folder.string());
+}
+
+int exit_code(const std::vector<SuiteRecord>& records) {
+    const auto is = [](const char* status) { return [status](const SuiteRecord& r) { return r.row.at(0, "status") == status; }; };
+    if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return done;  // empty: a suite of maps alone
+    return std::all_of(records.begin(), records.end(), is("refused")) ? refused : run_failed;
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder / "cells", error);
+    if (!fs::is_directory(folder / "cells"))
+        throw UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
+    must_be_writable(folder / "cells.csv");
+    must_be_writable(folder / "cells" / "any.json");
+}
+}  // namespace
+
+int suite_command(const SuiteRequest& r) {
+    const Console console(r.json, r.quiet);
+    if (r.resume && r.out.empty()) throw UsageError("--resume: there is no --out DIR to resume from");
+    const Suite suite = read_suite(r.suite);
+    const Catalogue catalogue(r.plugins);
+    const SuitePlan plan = plan_of(suite, catalogue, r.plugins);
+    const fs::path folder = r.out;
+    std::optional<WhenInterrupted> last_word;
+    if (!r.out.empty()) {
+        make_folder(folder);
+        last_word.emplace([&] { console.note(kept_text(plan, suite, folder)); });
+    }
+    const std::vector<std::string> mapped =
+        run_and_record_maps(suite.maps, catalogue, {suite.name, program_identity(r.plugins), folder, r.resume, r.jobs}, console);
+    const SuiteRun run = run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
+    const Table cells = table_of(plan, run.records);
+    const std::string manifest = manifest_of(suite, plan);
+    if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
+    const Table cheapest = cheapest_of(cells);
+    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
+
+    Json files = mapped;
+    if (!r.out.empty()) {
+        const auto write = [&](const char* name, const std::string& content) {
+            write_fresh(folder / name, content);
+            files.push_back((folder / name).string());
+        };
+        if (!plan.cells.empty()) {
+            write("cells.csv", csv(cells));
+            write("errors.csv", csv(errors_only(cells)));
+            write("cost.csv", csv(clock_only(cells)));
+        }
+        for (const RowFacet& f : row_facets())
+            if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
+            else if (!rows.rows.empty()) write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
+        if (const Table orders = convergence_of(cells); !orders.rows.empty()) write("convergence.csv", csv(orders));
+        if (const Table scaling = scaling_of(cells, sets_of(plan)); !scaling.rows.empty()) write("scaling.csv", csv(scaling));
+        write("manifest.json", manifest + "\n");
+        for (const DrawnFigure& f : draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
+        for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
+        console.print("written: " + folder.string());
+    }
+    const int code = exit_code(run.records);
+    const char* status = code == done ? "ok" : code == refused ? "refused" : "failed";
+    console.print_json(Json{
+        {"suite", suite.name},
+        {"status", status},
+        {"ran", run.ran},
+        {"timed", run.timed},
+        {"read_back", run.read_back},
+        {"manifest", Json::parse(manifest)},
+        {"cells", Json::parse(rows_json(cells))},
+        {"cheapest", Json::parse(rows_json(cheapest))},
+        {"files", files}}.dump(2));
+    return code;
+}
+
+}  // namespace jvari

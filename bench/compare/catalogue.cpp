@@ -1,0 +1,58 @@
+#include "bench/compare/catalogue.hpp"
+
+#include <algorithm>
+
+#include "bench/store/console.hpp"
+#include "reference/references.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/registry.hpp"
+
+namespace jvari {
+
+Catalogue::Catalogue(const std::vector<std::string>& plugins) {
+    for (const Descriptor& d : jvari::schemes()) schemes.push_back(&d);
+    for (const Descriptor& d : jvari::references()) references.push_back(&d);
+    for (const std::string& path : plugins) {
+        std::span<const Descriptor> brought;
+        try {
+            brought = load_plugin(path);
+        } catch (const std::runtime_error& e) {
+            throw UsageError(e.what());
+        }
+        for (const Descriptor& d : brought) {
+            const auto same = [&d](const Descriptor* other) { return std::string(other->name) == d.name; };
+            if (std::any_of(schemes.begin(), schemes.end(), same) || std::any_of(references.begin(), references.end(), same))
+                throw UsageError("plugin " + path + ": there is a scheme of the name " + d.name + " already");
+            schemes.push_back(&d);
+        }
+    }
+}
+
+const Descriptor& Catalogue::find(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const auto* list : {&schemes, &references})
+        for (const Descriptor* d : *list) {
+            if (name == d->name) return *d;
+            names.emplace_back(d->name);
+        }
+    throw UsageError(unknown("scheme or reference", name, names));
+}
+
+bool Catalogue::is_reference(const Descriptor& d) const {
+    return std::find(references.begin(), references.end(), &d) != references.end();
+}
+
+Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration) {
+    Scene scene = read_scene(name, overrides);
+    if (duration) scene.duration = *duration;
+    return scene;
+}
+
+std::vector<std::string> names_in(Features features) {
+    std::vector<std::string> names;
+    for (int i = 0; i < feature_count; ++i)
+        if (const auto f = static_cast<Feature>(1u << i); features.has(f)) names.emplace_back(name_of(f));
+    return names;
+}
+
+}  // namespace jvari

@@ -1,0 +1,26 @@
+// Names to things: schemes, references and what plugins bring; scenes of the library or from files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+struct Catalogue {
+    explicit Catalogue(const std::vector<std::string>& plugins = {});  // throws UsageError
+    std::vector<const Descriptor*> schemes;                            // in-tree, then those of plugins
+    std::vector<const Descriptor*> references;                         // in order of authority
+
+    const Descriptor& find(const std::string& name) const;  // a scheme or a reference; UsageError suggests the nearest name
+    bool is_reference(const Descriptor&) const;
+};
+
+// A file or a library name, with overrides "key.path=value"; throws SceneFileError, BadScene or UsageError.
+Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration);
+
+std::vector<std::string> names_in(Features);  // one by one
+
+}  // namespace jvari

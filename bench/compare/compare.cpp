@@ -1,0 +1,141 @@
+#include "bench/compare/compare.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/compare/compare_plan.hpp"
+#include "bench/compare/cost.hpp"
+#include "bench/store/side_by_side.hpp"
+#include "bench/trust/kept_run.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari {
+
+namespace {
+ProgressOf told_to(Done& done) {
+    return [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
+}
+
+Run reference_run(const ReferenceChoice& choice, const Scene& scene, Done& done) {
+    RunOptions options;
+    options.progress = told_to(done);
+    const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
+    return choice.kept ? kept_run(kept_runs_folder(), run_key(*choice.scheme, scene, choice.settings), make) : make();
+}
+
+double last_instant(const Run& r) {
+    return static_cast<double>(r.trace.rows - 1) / r.trace.tap_rate;
+}
+
+// A scheme at three rates, the highest of them those of `r.choice`: its run there and its own estimate.
+void run_oversampled(Reference& r, const Scene& scene, Done& done) {
+    RunOptions options;
+    options.progress = told_to(done);
+    Settings coarsest = r.choice.settings;
+    coarsest.sample_rate /= r.choice.oversampled;
+    try {
+        Oversampled o = oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled, options);
+        if (o.rate == r.choice.settings.sample_rate) {
+            r.run = std::move(o.run);
+            r.trust = trust_of(o, last_instant(r.run));
+            return;
+        }
+        r.trust.missing = fmt::format("at {:.6g} Hz it {}", o.rate, name_of(o.run.status.outcome));
+    } catch (const Refusal& e) {
+        r.trust.missing = e.what();
+    }
+    r.run = reference_run(r.choice, scene, done);  // a coarser one fails: no estimate
+}
+
+std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
+    std::string text = "jvari certify " + r.scene;
+    if (r.modes > 0 || c.reference_settings.modes > 0) text += fmt::format(" --modes {}", c.reference_settings.modes);
+    if (r.duration) text += fmt::format(" --duration {:.6g}", *r.duration);
+    if (c.reference_settings.tap_rate != 44100) text += fmt::format(" --tap-rate {:.12g}", c.reference_settings.tap_rate);
+    for (const std::string& set : r.set) text += " --set " + set;
+    return text;
+}
+}  // namespace
+
+Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const Console& console) {
+    std::string refusals;
+    for (const ReferenceChoice& choice : choices) try {
+            Reference r{choice, {}, {}, {}};
+            side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, Done& done) {
+                if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), done);
+                else if (choice.oversampled) run_oversampled(r, scene, done);
+                else r.run = reference_run(choice, scene, done);
+            });
+            if (r.run.trace.rows < 2) {
+                refusals += fmt::format("; {} failed at its start", choice.scheme->name);
+                continue;
+            }
+            if (!choice.oversampled) r.trust = trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
+            return r;
+        } catch (const Refusal& e) {
+            refusals += std::string("; ") + e.what();
+        }
+    throw Refusal("reference: none represents scene " + scene.name + refusals);
+}
+
+Trace measure(Cell& cell, const Scene& scene, const Trace* reference, const ProgressOf& progress) {
+    RunOptions options;
+    options.energy = true;
+    options.progress = progress;
+    Run result = run(*cell.scheme, scene, cell.settings, options);
+    cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
+    if (reference) cell.errors = errors_of(result.trace, *reference);
+    if (result.status.outcome != Outcome::ok)
+        cell.reason =
+            fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
+    return std::move(result.trace);
+}
+
+Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const Console& console) {
+    Comparison c;
+    c.scene = load_scene(request.scene, request.set, request.duration);
+    c.headline = headline_of(c.scene);
+    const Plan plan = plan_of(request, catalogue, c.scene);
+    for (const std::string& note : plan.notes) console.note(note);
+    c.cells = plan.cells;
+
+    const Reference reference = run_reference(plan.references, c.scene, request.jobs, console);
+    c.reference = reference.choice.scheme;
+    c.reference_name = reference.choice.name();
+    c.reference_settings = reference.choice.settings;
+    c.trust = reference.trust;
+    c.reference_note = reference.choice.note;
+    c.reference_summary = summary_of(*c.reference, c.scene, c.reference_settings, reference.run);
+    c.floor = errors_of(reference.moved.trace, reference.run.trace);
+    c.reference_sound = sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
+    if (!c.reference_note.empty()) console.note(c.reference_note);
+    if (!c.trust.any())
+        console.note(reference.choice.oversampled
+                         ? c.reference_name + " has no estimate of its own error: " + c.trust.missing
+                         : fmt::format("{}: the errors have none. To make one: {}", c.trust.missing, certify_command(request, c)));
+    if (reference.run.status.outcome != Outcome::ok)
+        console.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
+                                 name_of(reference.run.status.outcome), c.reference_summary.duration));
+
+    std::vector<double> sizes;
+    for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0));
+    side_by_side(sizes, request.jobs, console, "errors", [&](std::size_t i, Done& done) {
+        Cell& cell = c.cells[i];
+        try {
+            const Trace trace = measure(cell, c.scene, &reference.run.trace, told_to(done));
+            if (cell.reason.empty()) cell.sound = sound_of(trace.column(c.headline.nut), trace.tap_rate);
+        } catch (const Refusal& e) {
+            cell.refused = true;
+            cell.reason = e.what();
+        }
+    });
+    std::vector<Contender> contenders;
+    for (Cell& cell : c.cells) contenders.push_back({&cell, &c.scene});
+    time_cells(contenders, request.repeats, console);
+    return c;
+}
+
+}  // namespace jvari

@@ -1,0 +1,51 @@
+// A comparison: schemes x rates on one scene, each against one reference on the same rows.
+//
+// Each cell is run once for its errors (energy probe on), then timed (cost.hpp). A cell that refuses or fails stays in the list with its
+// reason.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "analysis/statistics.hpp"
+#include "bench/compare/catalogue.hpp"
+#include "bench/compare/errors.hpp"
+#include "bench/compare/request.hpp"
+#include "bench/compare/summary.hpp"
+#include "bench/store/console.hpp"
+#include "bench/store/sound.hpp"
+#include "bench/trust/certificate_library.hpp"
+
+namespace jvari {
+
+struct Cell {
+    const Descriptor* scheme;
+    Settings settings;
+    bool refused = false;
+    std::string reason;  // of a refusal or a failure
+    Summary summary{};   // of the accuracy run; empty where refused
+    Errors errors;
+    Sound sound{};                                                  // of the headline's nut tap, where the run reached its end
+    Spread wall{};                                                  // of the timed runs [s], of the whole scene or up to the failure
+    double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
+    int modes() const { return refused ? settings.modes : summary.modes; }
+};
+
+struct Comparison {
+    Scene scene;
+    Headline headline;
+    const Descriptor* reference;
+    std::string reference_name;  // its name, "oversampled modal_two_point" for a scheme that stands in
+    Settings reference_settings;
+    Summary reference_summary;
+    std::string reference_note;  // why this one, where it was not asked for
+    Errors floor;                // of the reference started 1e-12 apart
+    Trust trust;                 // the figures of its certificate
+    Sound reference_sound;
+    std::vector<Cell> cells;
+};
+
+Comparison compare(const CompareRequest&, const Catalogue&, const Console&);  // throws UsageError, BadScene, Refusal
+
+}  // namespace jvari

@@ -1,0 +1,146 @@
+// Modes: every cell and the reference carry the same ones. Below 20 kHz they do so by themselves, each scheme taking its own default; where
+// the lowest rate is below 40 kHz the number of modes below half of it is set for all.
+#include "bench/compare/compare_plan.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/store/rates.hpp"
+#include "reference/oversampled.hpp"
+#include "scenes/modes.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr int oversampling =
+    4;  // of a scheme that stands in as reference: beyond every cell, and the coarsest of three rates is the highest cell's
+
+double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
+    if (r.tap_rate) return *r.tap_rate;
+    const auto divides_all = [&rates](double f) {
+        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return whole_multiple(rate, f); });
+    };
+    const double lowest = *std::min_element(rates.begin(), rates.end());
+    if (divides_all(44100)) return 44100;
+    if (divides_all(lowest)) return lowest;
+    throw UsageError(fmt::format("--rates: neither 44100 nor {} divides all of them; say --tap-rate HZ", lowest));
+}
+
+int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
+    if (r.modes > 0 || lowest_rate >= 40e3) return r.modes;
+    int fewest = 0;
+    for (const String& s : scene.strings) {
+        const int n = modes_below(s, 0.5 * lowest_rate);
+        fewest = fewest == 0 ? n : std::min(fewest, n);
+    }
+    return fewest;
+}
+
+// The short form goes to the schemes that know the name: one that does not says so by UnknownOption.
+std::vector<std::pair<std::string, std::string>> options_for(const CompareRequest& r, const Descriptor& d, const Scene& scene,
+                                                             const Settings& settings, std::vector<bool>& used) {
+    std::vector<std::pair<std::string, std::string>> options;
+    for (std::size_t k = 0; k < r.options.size(); ++k) {
+        const SchemeOption& o = r.options[k];
+        if (!o.scheme.empty() && o.scheme != d.name) continue;
+        if (o.scheme.empty()) {
+            Settings probe = settings;
+            probe.options = {{o.name, o.value}};
+            try {
+                d.make(scene, probe);
+            } catch (const UnknownOption&) {
+                continue;
+            } catch (const std::runtime_error&) {  // known, and refused for what it says: the cell will tell
+            }
+        }
+        used[k] = true;
+        options.emplace_back(o.name, o.value);
+    }
+    return options;
+}
+
+std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
+    std::vector<const Descriptor*> chosen;
+    for (const std::string& name : r.schemes) {
+        const Descriptor* d = &catalogue.find(name);
+        if (std::find(chosen.begin(), chosen.end(), d) == chosen.end()) chosen.push_back(d);
+    }
+    if (!r.schemes.empty()) return chosen;
+    for (const Descriptor* d : catalogue.schemes)
+        if ((needed_by(scene) - d->represents).empty()) chosen.push_back(d);
+    if (chosen.empty()) throw Refusal("no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
+    return chosen;
+}
+
+std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene,
+                                            const Settings& at_highest, const Descriptor& first_scheme, std::vector<bool>& used) {
+    std::vector<ReferenceChoice> choices;
+    const auto add = [&](const Descriptor& d, const std::string& note) {
+        Settings s = at_highest;
+        if (d.clock == Clock::continuous) s.sample_rate = 0;
+        const bool stepped = d.clock != Clock::continuous && !catalogue.is_reference(d);
+        if (stepped) s.sample_rate *= oversampling;
+        for (std::size_t k = 0; k < r.options.size(); ++k)
+            if (r.options[k].scheme == d.name) {
+                s.options.emplace_back(r.options[k].name, r.options[k].value);
+                used[k] = true;
+            }
+        choices.push_back({&d, s, note, stepped ? oversampling : 0, catalogue.is_reference(d)});
+    };
+    if (!r.reference.empty()) {
+        add(catalogue.find(r.reference), "");
+        return choices;
+    }
+    for (const Descriptor* d : catalogue.references)
+        if ((needed_by(scene) - d->represents).empty()) add(*d, "");
+    const Descriptor* able = stand_in(scene);  // of those in the program; else one that a plugin brought
+    const Descriptor& scheme = able ? *able : first_scheme;
+    add(scheme, fmt::format("no reference represents scene {}: {} oversampled to {} Hz, {} times the highest rate, stands in; its error is "
+                            "estimated from three rates, not bounded",
+                            scene.name, scheme.name, oversampling * at_highest.sample_rate, oversampling));
+    return choices;
+}
+}  // namespace
+
+Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
+    std::vector<double> rates = r.rates;
+    if (rates.empty())
+        for (int multiple : {1, 2, 4, 8, 16, 32, 64}) rates.push_back(44100.0 * multiple);
+    std::sort(rates.begin(), rates.end());
+    rates.erase(std::unique(rates.begin(), rates.end()), rates.end());
+
+    Settings settings;
+    settings.tap_rate = tap_rate_for(r, rates);
+    settings.modes = modes_for(r, scene, rates.front());
+    settings.sample_rate = rates.back();
+    if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
+        throw UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+
+    Plan plan;
+    std::vector<bool> used(r.options.size(), false);
+    const auto schemes = schemes_for(r, catalogue, scene);
+    plan.references = references_for(r, catalogue, scene, settings, *schemes.front(), used);
+    for (const Descriptor* d : schemes) {
+        Cell cell{d, settings, false, {}, {}, {}, {}};
+        cell.settings.options = options_for(r, *d, scene, settings, used);
+        if (d->clock == Clock::continuous) {  // no rate to vary
+            cell.settings.sample_rate = 0;
+            plan.cells.push_back(cell);
+            continue;
+        }
+        for (double rate : rates) {
+            cell.settings.sample_rate = rate;
+            plan.cells.push_back(cell);
+        }
+    }
+    for (std::size_t k = 0; k < used.size(); ++k)
+        if (!used[k])
+            throw UsageError(fmt::format("--option {}{}{}: {}", r.options[k].scheme, r.options[k].scheme.empty() ? "" : ":",
+                                         r.options[k].name,
+                                         r.options[k].scheme.empty() ? "no compared scheme has it" : "that scheme is not compared"));
+    return plan;
+}
+
+}  // namespace jvari

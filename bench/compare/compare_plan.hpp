@@ -1,0 +1,43 @@
+// What a comparison is going to run: which cells at which settings, which references to try in turn.
+#pragma once
+
+#include <functional>
+
+#include "bench/compare/compare.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari {
+
+struct ReferenceChoice {
+    const Descriptor* scheme;
+    Settings settings;
+    std::string note;     // why this one, "" where it is the rule or was asked for
+    int oversampled = 0;  // a scheme, and the multiple of the coarsest rate of three; 0: a reference
+    bool kept = false;    // its run may be one of before (kept_run.hpp): the reference is of this program and not of a plugin
+    std::string name() const { return (oversampled ? "oversampled " : "") + std::string(scheme->name); }
+};
+
+struct Plan {
+    std::vector<Cell> cells;
+    std::vector<ReferenceChoice> references;
+    std::vector<std::string> notes;
+};
+
+// Throws UsageError for names that do not exist and rates without a common tap rate, Refusal where no scheme represents the scene.
+Plan plan_of(const CompareRequest&, const Catalogue&, const Scene&);
+
+struct Reference {
+    ReferenceChoice choice;
+    Run run, moved;  // moved: started 1e-12 apart
+    Trust trust;     // what its certificate, or its own estimate, says of it
+};
+// The first of the choices that represents the scene and gets going, its two runs side by side where `jobs` are not 1; throws Refusal where
+// none does.
+Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const Console&);
+
+// Runs the cell and fills summary, errors and reason; errors stay empty without a reference. Throws Refusal. What `progress` throws ends
+// it.
+using ProgressOf = std::function<void(long done, long rows)>;
+Trace measure(Cell&, const Scene&, const Trace* reference, const ProgressOf& progress);
+
+}  // namespace jvari

@@ -1,0 +1,252 @@
+#include "bench/compare/compare_record.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "bench/compare/pareto.hpp"
+#include "bench/store/machine.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* cost_columns[] = {"cost_s_per_s",
+                                        "cost_lower",
+                                        "cost_upper",
+                                        "wall_seconds",
+                                        "wall_seconds_lower",
+                                        "wall_seconds_upper",
+                                        "ns_per_step",
+                                        "times_real_time",
+                                        "worst_block_of_deadline",
+                                        "repeats",
+                                        "pareto"};
+
+double error_in(const Cell& cell, int tap, int measure) {
+    return cell.errors.empty() ? nan : cell.errors[tap][measure];
+}
+
+std::string status_of(const Cell& cell) {
+    return cell.refused ? "refused" : name_of(cell.summary.status.outcome);
+}
+
+// Facts of any cell, in the order in which they first come up.
+std::vector<std::string> fact_names(const Comparison& c) {
+    std::vector<std::string> names;
+    for (const Cell& cell : c.cells)
+        for (const Fact& f : cell.summary.facts)
+            if (std::find(names.begin(), names.end(), f.name) == names.end()) names.push_back(f.name);
+    return names;
+}
+
+// Headline errors that are no larger than what the reference's own sensitivity makes of 1e-12.
+std::string ties_of(const Comparison& c, const Cell& cell) {
+    std::string ties;
+    for (std::size_t k = 0; k < measures().size(); ++k) {
+        const Measure& m = measures()[k];
+        const double error = error_in(cell, c.headline.tap(m), static_cast<int>(k)), floor = c.floor[c.headline.tap(m)][k];
+        if (m.less_is_better && error <= floor) ties += (ties.empty() ? "" : " ") + m.column;
+    }
+    return ties;
+}
+
+std::vector<bool> front_of(const Comparison& c) {
+    const std::string column = headline_error(c);
+    std::vector<Point> points;
+    for (const Cell& cell : c.cells)
+        for (std::size_t k = 0; k < measures().size(); ++k) {
+            if (measures()[k].column != column) continue;
+            const int tap = c.headline.tap(measures()[k]);
+            const bool sound = !cell.refused && cell.summary.status.outcome == Outcome::ok;
+            points.push_back({sound ? cell.wall.median : nan, cell.wall.lower, cell.wall.upper,
+                              sound ? std::fmax(error_in(cell, tap, static_cast<int>(k)), c.floor[tap][k]) : nan});
+        }
+    return pareto_front(points);
+}
+
+// What a run's own figures say against it, whatever its error: balance is necessary, never sufficient.
+std::string flags_of(const Summary& s) {
+    std::string flags;
+    const auto flag = [&flags](bool raised, const char* name) {
+        if (raised) flags += (flags.empty() ? "" : " ") + std::string(name);
+    };
+    flag(s.smallest_contact_force < -1e-9, "adhesion");                     // the contact pulls, [N]
+    flag(fact(s.facts, "psi_out_of_contact") > 1e-9, "psi_gap");            // quadratised: energy stored where there is no contact
+    flag(s.energy_residual_accumulated > 1e-6, "energy");                   // the ledger does not close
+    flag(fact(s.facts, "modes_above_nyquist") > 0, "modes_above_nyquist");  // they alias
+    return flags;
+}
+
+class Row {  // one row, and on the first one the columns
+public:
+    Row(Table& table, bool first) : table_(table), first_(first) { table_.rows.emplace_back(); }
+    void text(const std::string& column, const std::string& value) {
+        if (first_) table_.columns.push_back(column);
+        table_.rows.back().push_back(value);
+    }
+    void number(const std::string& column, double value) { text(column, text_of(value)); }
+    void count(const std::string& column, long value, bool known) { text(column, known ? std::to_string(value) : ""); }
+
+private:
+    Table& table_;
+    bool first_;
+};
+
+void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front, const std::vector<std::string>& facts) {
+    Row row(table, table.rows.empty());
+    const Summary& s = cell.summary;
+    const bool ran = !cell.refused, failed = ran && s.status.outcome != Outcome::ok;
+    row.text("scheme", cell.scheme->name);
+    row.number("rate", cell.scheme->clock == Clock::continuous ? nan : cell.settings.sample_rate);
+    row.count("modes", cell.modes(), cell.modes() > 0);
+    row.text("status", status_of(cell));
+    row.text("flags", ran ? flags_of(s) : "");
+    for (std::size_t k = 0; k < measures().size(); ++k)
+        row.number(measures()[k].column, error_in(cell, c.headline.tap(measures()[k]), static_cast<int>(k)));
+    const double seconds = ran && s.duration > 0 ? s.duration : nan, wall = ran ? cell.wall.median : nan;
+    row.number("cost_s_per_s", wall / seconds);
+    row.number("cost_lower", ran ? cell.wall.lower / seconds : nan);
+    row.number("cost_upper", ran ? cell.wall.upper / seconds : nan);
+    row.number("wall_seconds", wall);
+    row.number("wall_seconds_lower", ran ? cell.wall.lower : nan);
+    row.number("wall_seconds_upper", ran ? cell.wall.upper : nan);
+    row.number("ns_per_step", s.steps > 0 ? wall * 1e9 / s.steps : nan);
+    row.number("times_real_time", seconds / wall);
+    row.number("worst_block_of_deadline", ran ? cell.worst_block : nan);
+    row.count("repeats", cell.wall.count, ran);
+    row.text("pareto", on_front ? "1" : "0");
+    row.text("below_floor", ties_of(c, cell));
+    for (std::size_t k = 0; k < measures().size(); ++k)
+        if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column, c.floor[c.headline.tap(measures()[k])][k]);
+    row.number("energy_residual_per_step", ran ? s.energy_residual_per_step : nan);
+    row.number("energy_residual_accumulated", ran ? s.energy_residual_accumulated : nan);
+    row.number("smallest_contact_force", ran ? s.smallest_contact_force : nan);
+    row.number("deepest_penetration", ran ? s.deepest_penetration : nan);
+    row.count("dofs", s.dofs, ran);
+    row.count("state_bytes", 8L * s.dofs, ran);
+    row.count("steps", s.steps, ran);
+    row.count("failed_step", s.status.step, failed);
+    row.number("failed_at_s", failed ? s.duration : nan);
+    for (const std::string& name : facts) row.number("fact_" + name, fact(s.facts, name));
+    for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
+        for (std::size_t k = 0; k < measures().size(); ++k)
+            row.number(measures()[k].column + "_" + c.scene.taps[tap].name, error_in(cell, static_cast<int>(tap), static_cast<int>(k)));
+    for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
+        for (std::size_t k = 0; k < measures().size(); ++k)
+            if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column + "_" + c.scene.taps[tap].name, c.floor[tap][k]);
+    row.text("reason", cell.reason);
+    const auto figures = [&](int tap, const std::string& suffix) {
+        for (std::size_t w = 0; w < Trust::columns.size(); ++w) row.number(Trust::columns[w] + suffix, c.trust.at(tap, w));
+    };
+    figures(c.headline.nut, "");
+    for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap) figures(static_cast<int>(tap), "_" + c.scene.taps[tap].name);
+}
+
+Json certificate_json(const Comparison& c) {
+    const Trust& t = c.trust;
+    if (!t.any()) return {{"missing", t.missing}};
+    Json figures = Json::object();
+    for (std::size_t w = 0; w < Trust::columns.size(); ++w) {
+        figures[Trust::columns[w]] = t.at(c.headline.nut, w);
+        for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
+            figures[Trust::columns[w] + ("_" + c.scene.taps[tap].name)] = t.at(tap, w);
+    }
+    Json j{{"against", t.against}};
+    if (!t.file.empty()) j["file"] = std::filesystem::path(t.file).filename().string();
+    if (!t.key.empty()) j["key"] = t.key;
+    j["figures"] = figures;
+    return j;
+}
+}  // namespace
+
+double certificate_of(const Table& cells, std::size_t row, const std::string& error_column) {
+    const std::string error = "error_l2_";
+    if (error_column.rfind(error, 0) != 0) return nan;
+    return cells.number(row, "certificate_l2_" + error_column.substr(error.size()));
+}
+
+std::string error_text(const Table& cells, std::size_t row, const std::string& column, const char* format) {
+    const double x = cells.number(row, column), certificate = certificate_of(cells, row, column);
+    if (std::isnan(x)) return "-";
+    return x < certificate ? "\u2264" + fmt::format(fmt::runtime(format), certificate) : fmt::format(fmt::runtime(format), x);
+}
+
+std::string headline_error(const Comparison& c) {
+    for (const char* column : {"error_l2_50ms", "error_l2_10ms", "error_l2_whole"})
+        for (std::size_t k = 0; k < measures().size(); ++k)
+            if (measures()[k].column == column)
+                for (const Cell& cell : c.cells)
+                    if (std::isfinite(error_in(cell, c.headline.tap(measures()[k]), static_cast<int>(k)))) return column;
+    return "error_l2_whole";
+}
+
+Table cells_of(const Comparison& c) {
+    Table table;
+    const auto front = front_of(c);
+    const auto facts = fact_names(c);
+    for (std::size_t i = 0; i < c.cells.size(); ++i) add_row(table, c, c.cells[i], front[i], facts);
+    return table;
+}
+
+Table errors_only(const Table& cells) {
+    std::vector<std::string> names;
+    for (const std::string& name : cells.columns)
+        if (std::find(std::begin(cost_columns), std::end(cost_columns), name) == std::end(cost_columns)) names.push_back(name);
+    return cells.only(names);
+}
+
+Table cost_only(const Table& cells) {
+    std::vector<std::string> names{"scheme", "rate", "modes", "status"};
+    names.insert(names.end(), std::begin(cost_columns), std::end(cost_columns));
+    return cells.only(names);
+}
+
+std::string manifest_of(const Comparison& c, const CompareRequest& r) {
+    Json facts = Json::object(), floor = Json::object(), taps = Json::array(), schemes = Json::array();
+    for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
+    facts["smallest_contact_force"] = c.reference_summary.smallest_contact_force;
+    facts["deepest_penetration"] = c.reference_summary.deepest_penetration;
+    for (std::size_t k = 0; k < measures().size(); ++k) floor[measures()[k].column] = c.floor[c.headline.tap(measures()[k])][k];
+    for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap) {
+        taps.push_back({{"name", c.scene.taps[tap].name}, {"quantity", name_of(c.scene.taps[tap].quantity)}});
+        for (std::size_t k = 0; k < measures().size(); ++k) floor[measures()[k].column + "_" + c.scene.taps[tap].name] = c.floor[tap][k];
+    }
+    std::vector<const Descriptor*> seen;
+    for (const Cell& cell : c.cells)
+        if (std::find(seen.begin(), seen.end(), cell.scheme) == seen.end()) {
+            seen.push_back(cell.scheme);
+            Json options = Json::object();
+            for (const auto& [name, value] : cell.settings.options) options[name] = value;
+            schemes.push_back({{"name", cell.scheme->name}, {"source", cell.scheme->source}, {"options", options}});
+        }
+    Json reference{{"name", c.reference_name},
+                   {"source", c.reference->source},
+                   {"rate", c.reference_summary.rate},
+                   {"modes", c.reference_summary.modes},
+                   {"status", name_of(c.reference_summary.status.outcome)},
+                   {"valid_until_s", c.reference_summary.duration},
+                   {"note", c.reference_note},
+                   {"certificate", certificate_json(c)},
+                   {"facts", facts}};
+    const Json scene{{"name", c.scene.name},        {"asked_as", r.scene},          {"set", r.set}, {"source", c.scene.source},
+                     {"hash", scene_hash(c.scene)}, {"duration", c.scene.duration}, {"taps", taps}};
+    Json manifest = Json::parse(made_by());
+    manifest.update({{"scene", scene},
+                     {"tap_rate", c.reference_settings.tap_rate},
+                     {"schemes", schemes},
+                     {"reference", reference},
+                     {"headline",
+                      {{"nut", c.scene.taps.at(c.headline.nut).name},
+                       {"bridge", c.scene.taps.at(c.headline.bridge).name},
+                       {"error", headline_error(c)}}},
+                     {"noise_floor", floor}});
+    return manifest.dump(2);
+}
+
+}  // namespace jvari

@@ -1,0 +1,64 @@
+#include "bench/compare/cost.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "schemes/run.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr double shortest_sample = 0.02;  // [s]
+constexpr double budget = 10;             // of one cell [s]
+
+struct Timed : Contender {
+    int runs;                     // back to back in one sample
+    int repeats;                  // samples
+    std::vector<double> samples;  // [s] of one run
+};
+
+double sample(const Timed& t) {
+    const auto scheme = t.cell->scheme->make(*t.scene, t.cell->settings);
+    RunOptions options;
+    options.energy = t.probe;
+    double seconds = 0;
+    for (int k = 0; k < t.runs; ++k) {
+        const Run r = run(*scheme, *t.scene, t.cell->settings, options);
+        seconds += r.wall_seconds;
+        const double deadline = options.block_rows / t.cell->settings.tap_rate;
+        if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
+            t.cell->worst_block = std::fmin(t.cell->worst_block, r.worst_block / deadline);
+    }
+    return seconds / t.runs;
+}
+}  // namespace
+
+void time_cells(const std::vector<Contender>& contenders, int repeats, const Console& console) {
+    std::vector<Timed> timed;
+    double work = 0, finished = 0;
+    for (const Contender& c : contenders) {
+        if (c.cell->refused) continue;
+        const double once = std::max(c.cell->summary.wall_seconds, 1e-6);
+        const int runs = static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
+        const int most = static_cast<int>(std::clamp(budget / (once * runs), 2.0, 1e6));
+        timed.push_back({c, runs, std::min(repeats, most), {}});
+        work += once * runs * timed.back().repeats;
+    }
+    // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike
+    std::stable_sort(timed.begin(), timed.end(),
+                     [](const Timed& a, const Timed& b) { return a.cell->settings.sample_rate < b.cell->settings.sample_rate; });
+    Console::Progress progress(console, "cost");
+    for (int round = 0; round < repeats; ++round)
+        for (Timed& t : timed) {
+            if (round >= t.repeats) continue;
+            progress.show(finished / work,
+                          fmt::format("round {}: {} at {} Hz", round + 1, t.cell->scheme->name, t.cell->settings.sample_rate));
+            t.samples.push_back(sample(t));
+            finished += t.cell->summary.wall_seconds * t.runs;
+        }
+    for (Timed& t : timed) t.cell->wall = spread_of(t.samples);
+}
+
+}  // namespace jvari

@@ -1,0 +1,23 @@
+// What a cell costs. Timed runs go one at a time, interleaved between competitors, energy probe off; the median is quoted with its
+// quartiles.
+#pragma once
+
+#include <vector>
+
+#include "bench/compare/compare.hpp"
+
+namespace jvari {
+
+// The worst block: the longest of 64 rows over the time those rows sound, in the run where it was shortest, so that it is the scheme's
+// worst and not what the machine did meanwhile. The first block of a run and failed runs do not count.
+//
+// Fills Cell::wall and Cell::worst_block of every cell that was run. A sample of a short run is the mean of as many runs back to back as
+// last 20 ms; a cell that takes longer than 10 s for all its repeats gets fewer, two at least.
+struct Contender {
+    Cell* cell;
+    const Scene* scene;
+    bool probe = false;  // timed with the energy probe on: what the probe costs
+};
+void time_cells(const std::vector<Contender>&, int repeats, const Console&);
+
+}  // namespace jvari

@@ -1,0 +1,87 @@
+#include "bench/compare/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "analysis/error.hpp"
+#include "analysis/spectrum.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double power_of(std::span<const double> bins) {
+    double sum = 0;
+    for (double p : bins) sum += p;
+    return sum;
+}
+
+// Root mean square difference of the centroid tracks [Hz], frames of 2048 rows, over the frames within 60 dB of the reference's strongest.
+double centroid_difference(std::span<const double> candidate, std::span<const double> reference, double rate) {
+    constexpr int window = 2048, hop = 512;
+    if (candidate.size() < reference.size()) return std::numeric_limits<double>::infinity();
+    const Spectrogram c = spectrogram(candidate.first(reference.size()), rate, window, hop), r = spectrogram(reference, rate, window, hop);
+    const auto of_c = centroid_track(c), of_r = centroid_track(r);
+    double strongest = 0, sum = 0;
+    int frames = 0;
+    for (int m = 0; m < r.frames; ++m) strongest = std::max(strongest, power_of(r.frame(m)));
+    for (int m = 0; m < r.frames; ++m) {
+        if (!(power_of(r.frame(m)) > 1e-6 * strongest)) continue;
+        if (!std::isfinite(of_c[m])) return std::numeric_limits<double>::infinity();
+        sum += (of_c[m] - of_r[m]) * (of_c[m] - of_r[m]);
+        ++frames;
+    }
+    return frames > 0 ? std::sqrt(sum / frames) : nan;
+}
+
+std::vector<double> errors_of(std::span<const double> c, std::span<const double> r, double rate) {
+    const StftDifference stft = multi_resolution_stft_difference(c, r, rate);
+    return {relative_l2(c, r, rate, {0, 10e-3}),
+            relative_l2(c, r, rate, {0, 50e-3}),
+            relative_l2(c, r, rate),
+            horizon(c, r, rate),
+            third_octave_difference(c, r, rate),
+            stft.level,
+            stft.convergence,
+            centroid_difference(c, r, rate)};
+}
+}  // namespace
+
+const std::vector<Measure>& measures() {  // in the order of errors_of
+    static const std::vector<Measure> all = {
+        {"error_l2_10ms", "relative L2 error, 0\u201310 ms", false, true},
+        {"error_l2_50ms", "relative L2 error, 0\u201350 ms", false, true},
+        {"error_l2_whole", "relative L2 error, whole run", false, true},
+        {"horizon_s", "predictability horizon [s]", false, false},
+        {"third_octave_db", "third-octave difference [dB rms]", true, true},
+        {"stft_db", "multi-resolution STFT difference [dB]", false, true},
+        {"stft_convergence", "multi-resolution spectral convergence", false, true},
+        {"centroid_hz", "centroid track difference [Hz rms]", false, true},
+    };
+    return all;
+}
+
+Errors errors_of(const Trace& candidate, const Trace& reference) {
+    Errors errors;
+    for (int k = 0; k < reference.taps(); ++k) errors.push_back(errors_of(candidate.column(k), reference.column(k), reference.tap_rate));
+    return errors;
+}
+
+Headline headline_of(const Scene& scene) {
+    const auto first = [&scene](Quantity q) {
+        for (std::size_t k = 0; k < scene.taps.size(); ++k)
+            if (scene.taps[k].quantity == q) return static_cast<int>(k);
+        return -1;
+    };
+    Headline h;
+    h.nut = std::max(0, first(Quantity::nut_force));
+    h.bridge = first(Quantity::bridge_force);
+    if (h.bridge < 0) h.bridge = first(Quantity::driving_force);
+    if (h.bridge < 0) h.bridge = h.nut;
+    return h;
+}
+
+}  // namespace jvari

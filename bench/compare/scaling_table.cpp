@@ -1,0 +1,139 @@
+#include "bench/compare/scaling_table.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "analysis/convergence.hpp"
+#include "bench/compare/elements.hpp"
+#include "bench/store/cell_rows.hpp"
+
+namespace jvari {
+
+namespace {
+struct Nanoseconds {
+    double median, lower, upper;  // of a step
+};
+
+// cells.csv quotes quartiles of the cost per second of sound; a step is the same share of each.
+Nanoseconds step_of(const Table& cells, std::size_t row) {
+    const double median = cells.number(row, "ns_per_step"), share = median / cells.number(row, "cost_s_per_s");
+    return {median, share * cells.number(row, "cost_lower"), share * cells.number(row, "cost_upper")};
+}
+
+class Scaling {
+public:
+    explicit Scaling(const Table& cells) : cells_(cells) {
+        naming_ = naming_columns(cells);
+        std::erase(naming_, "element");
+        into_.columns = naming_;
+        for (const char* name : {"at", "what", "x", "ns_per_step", "ns_lower", "ns_upper", "exponent", "exponent_half_width", "extra_ns",
+                                 "extra_lower", "extra_upper"})
+            into_.columns.push_back(name);
+    }
+
+    void add(const Rows& set) {
+        whole_.clear();
+        changed_.clear();
+        for (const std::size_t row : set)
+            if (cells_.at(row, "status") == "ok" && cells_.number(row, "ns_per_step") > 0)
+                (cells_.at(row, "element").empty() ? whole_ : changed_).push_back(row);
+        against("modes", "modes", with(naming_, {"rate"}), "");
+        for (const Rows& rows : differing_in_rate(cells_, whole_, naming_)) add_series("rate", "rate", rows, "");
+        for (const std::string& key : swept_keys(cells_)) {
+            std::vector<std::string> held = with(naming_, {"rate", "modes"});
+            if (std::erase(held, key) > 0) against("contacts", "fact_contact_points", held, key);
+        }
+        for (const std::size_t row : changed_) add_element(row);
+    }
+    Table table() && { return std::move(into_); }
+
+private:
+    static std::vector<std::string> with(std::vector<std::string> names, std::initializer_list<const char*> more) {
+        names.insert(names.end(), more.begin(), more.end());
+        return names;
+    }
+
+    // The row's name; `varied` is a swept key that stands in x.
+    std::vector<std::string> name_of_row(std::size_t row, const std::string& varied) const {
+        std::vector<std::string> fields;
+        for (const std::string& name : naming_) fields.push_back(name == varied ? "" : cells_.at(row, name));
+        return fields;
+    }
+
+    std::string at(std::size_t row, bool rate, bool modes) const {
+        std::string text = rate ? cells_.at(row, "rate") + " Hz" : "";
+        if (modes) text += (text.empty() ? "" : ", ") + cells_.at(row, "modes") + " modes";
+        return text;
+    }
+
+    void against(const char* what, const char* column, const std::vector<std::string>& held, const std::string& varied) {
+        for (const Rows& rows : alike(cells_, whole_, held)) add_series(what, column, rows, varied);
+    }
+
+    void add_series(const std::string& what, const char* column, const Rows& rows, const std::string& varied) {
+        std::vector<double> x, ns;
+        std::set<std::string> modes;
+        for (const std::size_t row : rows) {
+            x.push_back(cells_.number(row, column));
+            ns.push_back(cells_.number(row, "ns_per_step"));
+            modes.insert(cells_.at(row, "modes"));
+        }
+        const Order fit = observed_order(x, ns);
+        if (std::isnan(fit.order)) return;  // one value of x, or none
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            if (!(x[k] > 0)) continue;
+            const Nanoseconds step = step_of(cells_, rows[k]);
+            auto& row = into_.rows.emplace_back(name_of_row(rows[k], varied));
+            for (const std::string& field :
+                 {at(rows[k], what != "rate", what != "modes" && modes.size() == 1), what, text_of(x[k]), text_of(step.median),
+                  text_of(step.lower), text_of(step.upper), text_of(-fit.order),
+                  std::isfinite(fit.half_width) ? text_of(fit.half_width) : std::string(), std::string(), std::string(), std::string()})
+                row.push_back(field);
+        }
+    }
+
+    // The same scene, scheme, options and rate, whole; of the same modes where there are several.
+    std::optional<std::size_t> whole_of(std::size_t changed) const {
+        Rows candidates, same_modes;
+        for (const std::size_t row : whole_) {
+            if (name_of_row(row, "") != name_of_row(changed, "") || cells_.at(row, "rate") != cells_.at(changed, "rate")) continue;
+            candidates.push_back(row);
+            if (cells_.at(row, "modes") == cells_.at(changed, "modes")) same_modes.push_back(row);
+        }
+        const auto& found = same_modes.empty() ? candidates : same_modes;
+        return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+    }
+
+    void add_element(std::size_t changed) {
+        const auto whole = whole_of(changed);
+        if (!whole) return;
+        for (const Element e : elements()) {
+            if (cells_.at(changed, "element") != change_of(e)) continue;
+            const Nanoseconds step = step_of(cells_, changed), other = step_of(cells_, *whole);
+            const Nanoseconds &more = e == Element::probe ? step : other, &less = e == Element::probe ? other : step;
+            auto& row = into_.rows.emplace_back(name_of_row(changed, ""));
+            for (const std::string& field :
+                 {at(changed, true, true), std::string(name_of(e)), std::string(), text_of(step.median), text_of(step.lower),
+                  text_of(step.upper), std::string(), std::string(), text_of(more.median - less.median), text_of(more.lower - less.upper),
+                  text_of(more.upper - less.lower)})
+                row.push_back(field);
+        }
+    }
+
+    const Table& cells_;
+    std::vector<std::string> naming_;  // what names a problem and a scheme, before the rate
+    Rows whole_, changed_;             // of the set: timed rows of scenes as they are, and of scenes with an element less or more
+    Table into_;
+};
+}  // namespace
+
+Table scaling_of(const Table& cells, const std::vector<Rows>& sets) {
+    Scaling scaling(cells);
+    for (const Rows& set : sets) scaling.add(set);
+    return std::move(scaling).table();
+}
+
+}  // namespace jvari

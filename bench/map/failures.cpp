@@ -1,0 +1,82 @@
+#include "bench/map/failures.hpp"
+
+#include <fmt/core.h>
+
+#include <sstream>
+
+#include "bench/map/minimise.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/side_by_side.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari {
+
+namespace {
+std::string scene_text(const Reproducer& r) {
+    const Trial& t = r.trial;
+    std::string how = fmt::format("--scheme {} --rate {} --tap-rate {} --energy", t.scheme->name, text_of(t.settings.sample_rate),
+                                  text_of(t.settings.tap_rate));
+    if (t.settings.modes > 0) how += fmt::format(" --modes {}", t.settings.modes);
+    for (const auto& [name, value] : t.settings.options) how += fmt::format(" --option {}={}", name, value);
+    return fmt::format("# Minimised by jvari suite: {} is {} here, {}.\n# jvari run {} {}\n{}", t.scheme->name, name_of(r.expected.verdict),
+                       r.expected.detail, r.file, how, write_scene(t.scene));
+}
+
+Verdict verdict_called(const std::string& name) {
+    for (const Verdict v : verdicts())
+        if (name == name_of(v)) return v;
+    throw std::runtime_error("unknown outcome " + name);
+}
+}  // namespace
+
+std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jobs, const Console& console) {
+    std::map<std::pair<std::string, Verdict>, const JudgedPoint*> cheapest;
+    for (const JudgedPoint& p : run.points) {
+        const Verdict v = p.tried.judgement.verdict;
+        if (v == Verdict::sound || v == Verdict::refused || !p.at.map->reproduce) continue;
+        const JudgedPoint*& kept = cheapest[{p.at.scheme->name, v}];
+        if (!kept || p.tried.steps < kept->tried.steps) kept = &p;
+    }
+    std::vector<Reproducer> all;
+    for (const auto& [key, point] : cheapest)
+        all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)), trial_at(point->at), point->tried.judgement});
+    side_by_side(std::vector<double>(all.size(), 1), jobs, console, "failures", [&](std::size_t i, Done&) {
+        const Verdict wanted = all[i].expected.verdict;
+        all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths).judgement.verdict == wanted; });
+        all[i].trial.scene.name += "_minimised";
+        all[i].expected = run_trial(all[i].trial, truths).judgement;
+    });
+    return all;
+}
+
+void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>& all) {
+    Table index;
+    index.columns = {"file", "scheme", "rate", "modes", "options", "reference", "outcome", "step", "detail"};
+    for (const Reproducer& r : all) {
+        write_fresh(folder / r.file, scene_text(r));
+        const Settings& s = r.trial.settings;
+        index.rows.push_back({r.file, r.trial.scheme->name, text_of(s.sample_rate), std::to_string(s.modes), options_text(s.options),
+                              r.trial.reference, name_of(r.expected.verdict), std::to_string(r.expected.step), r.expected.detail});
+    }
+    write_fresh(folder / "index.csv", csv(index));
+}
+
+std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const Catalogue& catalogue) {
+    const Table index = read_csv(read_whole(folder / "index.csv"));
+    std::vector<Reproducer> all;
+    for (std::size_t i = 0; i < index.rows.size(); ++i) {
+        Reproducer r{index.at(i, "file"), {&catalogue.find(index.at(i, "scheme")), {}, {}, index.at(i, "reference")}, {}};
+        r.trial.scene = read_scene((folder / r.file).string());
+        Settings& s = r.trial.settings;
+        s.sample_rate = index.number(i, "rate");
+        s.tap_rate = row_rate(s.sample_rate);
+        s.modes = static_cast<int>(index.number(i, "modes"));
+        std::istringstream options(index.at(i, "options"));
+        for (std::string word; options >> word;) s.options.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
+        r.expected = {verdict_called(index.at(i, "outcome")), index.at(i, "detail"), static_cast<long>(index.number(i, "step"))};
+        all.push_back(std::move(r));
+    }
+    return all;
+}
+
+}  // namespace jvari

@@ -1,0 +1,25 @@
+// Minimised reproducers: a scene file <scheme>-<outcome>.toml for each way in which a scheme fails, and index.csv that says how to run it
+// and what becomes of it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/map/map_tables.hpp"
+
+namespace jvari {
+
+struct Reproducer {
+    std::string file;  // within its folder
+    Trial trial;
+    Judgement expected;
+};
+
+// Of each scheme and outcome that is neither sound nor refused, the failure that took the fewest steps, among maps that reproduce theirs.
+std::vector<Reproducer> reproducers_of(const MapRun&, Truths&, int jobs, const Console&);
+
+void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>&);
+std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const Catalogue&);
+
+}  // namespace jvari

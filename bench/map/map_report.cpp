@@ -1,0 +1,39 @@
+#include "bench/map/map_report.hpp"
+
+#include "bench/map/failures.hpp"
+#include "bench/map/map_tables.hpp"
+#include "bench/store/fresh_file.hpp"
+
+namespace jvari {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> run_and_record_maps(const std::vector<Map>& maps, const Catalogue& catalogue, const MapRequest& r,
+                                             const Console& console) {
+    if (maps.empty()) return {};
+    const bool kept = !r.folder.empty();
+    if (kept)
+        for (const char* name : {"points", "failures"}) {
+            std::error_code error;
+            fs::create_directories(r.folder / name, error);
+            must_be_writable(r.folder / name / "any");
+        }
+    Truths truths(catalogue);
+    const MapRun run = run_maps(maps, truths, r.program, kept ? r.folder / "points" : fs::path(), r.resume, r.jobs, console);
+    console.print(r.title + "\n" + maps_text(run));
+    std::vector<std::string> files;
+    if (!kept) return files;
+    const auto write = [&](const fs::path& name, const std::string& content) {
+        write_fresh(r.folder / name, content);
+        files.push_back((r.folder / name).string());
+    };
+    write("maps.csv", csv(maps_table(run)));
+    const std::vector<Reproducer> failures = reproducers_of(run, truths, r.jobs, console);
+    Reproducers files_of;
+    for (const Reproducer& f : failures) files_of[{f.trial.scheme->name, f.expected.verdict}] = "failures/" + f.file;
+    write_failures(r.folder / "failures", failures);
+    write("boundaries.csv", csv(boundaries_table(run, files_of)));
+    return files;
+}
+
+}  // namespace jvari

@@ -1,0 +1,71 @@
+// Runs the maps of a suite: every point, then the boundaries along x by bisection. Each point is content-addressed and kept as
+// DIR/points/<id>.json, so that a suite which was stopped goes on where it was and comes to the same tables.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/map/trial.hpp"
+#include "bench/store/console.hpp"
+
+namespace jvari {
+
+struct PointPlace {  // on a map
+    const Map* map;
+    const Descriptor* scheme;
+    std::string x, y;  // "" for a map without y
+};
+Trial trial_at(const PointPlace&);
+
+struct JudgedPoint {
+    PointPlace at;
+    Tried tried;
+};
+struct Boundary {
+    const Map* map;
+    const Descriptor* scheme;
+    std::string y;
+    Verdict low, high;                   // outcomes on its sides
+    std::string x_low, x_high;           // between them it lies
+    double theory;                       // NaN where there is none
+    double relative_difference() const;  // of the middle from theory
+};
+struct MapRun {
+    std::vector<JudgedPoint> points;   // in the order of the file: map, scheme, y, x
+    std::vector<Boundary> boundaries;  // in that order
+    int ran = 0, read_back = 0;        // points, those of bisections included
+};
+
+// `folder`: where points are kept, "" for nowhere. `program` counts into a point's address. Throws what a scene or a name that is none
+// throws, before anything is run.
+MapRun run_maps(const std::vector<Map>&, Truths&, const std::string& program, const std::filesystem::path& folder, bool resume, int jobs,
+                const Console&);
+
+// Bisection of a change between two outcomes along one axis: `verdict_at(x)` is asked at most `times` times, at the geometric mean of
+// positive numbers and the arithmetic of others, and not between neighbours where only `whole` numbers count. Where a third outcome lies
+// between, the search goes on towards the side that is sound, of two that are not towards the lower: what is found is where soundness ends.
+struct Bracket {
+    double low, high;
+    Verdict at_low, at_high;
+};
+template <class VerdictAt>
+Bracket bisect(Bracket b, int times, bool whole, VerdictAt verdict_at);
+
+}  // namespace jvari
+
+#include <cmath>
+
+template <class VerdictAt>
+jvari::Bracket jvari::bisect(Bracket b, int times, bool whole, VerdictAt verdict_at) {
+    for (int n = 0; n < times; ++n) {
+        double middle = b.low > 0 ? std::sqrt(b.low) * std::sqrt(b.high) : 0.5 * (b.low + b.high);
+        if (whole) middle = std::round(middle);
+        if (!(middle > b.low && middle < b.high)) break;
+        const Verdict v = verdict_at(middle);
+        const bool lower = v == b.at_low || (v != b.at_high && b.at_high == Verdict::sound);
+        if (lower) b.low = middle, b.at_low = v;
+        else b.high = middle, b.at_high = v;
+    }
+    return b;
+}

@@ -1,0 +1,118 @@
+#include "bench/map/trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "bench/compare/compare.hpp"
+#include "bench/store/records.hpp"
+#include "reference/certificate.hpp"
+#include "scenes/modes.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+Settings reference_settings(const Descriptor& reference, const Trial& t) {
+    Settings s;
+    s.sample_rate = reference.clock == Clock::continuous ? 0 : 8 * t.settings.sample_rate;
+    s.tap_rate = t.settings.tap_rate;
+    s.modes = t.settings.modes > 0 ? t.settings.modes : modes_for(t.scene.strings.front(), t.settings);
+    return s;
+}
+}  // namespace
+
+double row_rate(double rate) {
+    return rate / std::max(1.0, std::round(rate / 44100));
+}
+
+Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::string& reference, const std::vector<Assignment>& all) {
+    Trial t{&scheme, {}, {}, reference};
+    std::vector<std::string> overrides;
+    std::optional<double> duration;
+    double amplitude = 1;
+    t.settings.sample_rate = 44100;
+    for (const auto& [key, value] : all) {
+        if (key == "rate") t.settings.sample_rate = number_of(value);
+        else if (key == "modes") t.settings.modes = static_cast<int>(number_of(value));
+        else if (key == "duration") duration = number_of(value);
+        else if (key == "amplitude") amplitude = number_of(value);
+        else if (key.rfind("option:", 0) == 0) {
+            const auto colon = key.find(':', 7);  // option:[SCHEME:]NAME
+            if (colon == std::string::npos) t.settings.options.emplace_back(key.substr(7), value);
+            else if (key.substr(7, colon - 7) == scheme.name) t.settings.options.emplace_back(key.substr(colon + 1), value);
+        } else overrides.push_back(key + "=" + value);
+    }
+    t.settings.tap_rate = row_rate(t.settings.sample_rate);
+    t.scene = moved(load_scene(scene, overrides, duration), amplitude);
+    return t;
+}
+
+std::string identity_of(const Trial& t) {
+    Json options = Json::array();
+    for (const auto& [name, value] : t.settings.options) options.push_back({name, value});
+    return Json{{"scene", t.scene.name},
+                {"scene_hash", scene_hash(t.scene)},
+                {"scheme", t.scheme->name},
+                {"rate", text_of(t.settings.sample_rate)},
+                {"tap_rate", text_of(t.settings.tap_rate)},
+                {"modes", t.settings.modes},
+                {"options", options},
+                {"reference", t.reference}}
+        .dump();
+}
+
+const Truths::Truth& Truths::of(const Trial& t) {
+    static const Truth none;
+    if (t.reference == "none") return none;
+    const Settings s = reference_settings(catalogue_.references.empty() ? *t.scheme : *catalogue_.references.front(), t);
+    const std::string key = Json{scene_hash(t.scene), t.reference, text_of(s.tap_rate), s.modes}.dump();
+    Truth* truth;
+    {
+        const std::lock_guard lock(mutex_);
+        auto& kept = truths_[key];
+        if (!kept) kept = std::make_unique<Truth>();
+        truth = kept.get();
+    }
+    std::call_once(truth->once, [&] { make(*truth, t); });
+    return *truth;
+}
+
+void Truths::make(Truth& truth, const Trial& t) const {
+    std::vector<const Descriptor*> candidates = catalogue_.references;
+    if (!t.reference.empty()) candidates = {&catalogue_.find(t.reference)};
+    for (const Descriptor* d : candidates) try {
+            if (!(needed_by(t.scene) - d->represents).empty()) continue;
+            Run r = run(*d, listened(t.scene), reference_settings(*d, t));
+            if (r.status.outcome != Outcome::ok) continue;
+            truth.name = d->name;
+            truth.trace = std::move(r.trace);
+            return;
+        } catch (const Refusal&) {
+        }
+}
+
+Tried run_trial(const Trial& t, Truths& truths) {
+    Tried tried;
+    const Scene scene = listened(t.scene);
+    RunOptions probed;
+    probed.energy = true;
+    try {
+        const Run r = run(*t.scheme, scene, t.settings, probed);
+        const Truths::Truth& truth = truths.of(t);
+        tried.steps = r.steps;
+        tried.reference = truth.name;
+        tried.figures = figures_of(*t.scheme, scene, t.settings, r, truth.name.empty() ? nullptr : &truth.trace);
+        tried.judgement = judge(tried.figures);
+    } catch (const Refusal& e) {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        tried.figures = {{}, nan, nan, nan, nan, t.scheme->balance};
+        tried.judgement = {Verdict::refused, e.what(), 0};
+    }
+    return tried;
+}
+
+}  // namespace jvari

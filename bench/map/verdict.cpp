@@ -1,0 +1,103 @@
+#include "bench/map/verdict.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "analysis/error.hpp"
+#include "bench/compare/summary.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr std::array all = {Verdict::sound,         Verdict::inaccurate, Verdict::adhesive, Verdict::energy_gaining,
+                            Verdict::not_converged, Verdict::diverged,   Verdict::refused};
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr int listening_points = 2, nut = 2, contact = 3;  // columns of listened(scene)
+
+struct Energy {
+    double budget = nan;  // E at the end: stored at the start and all that was supplied, by its size [J]
+    double gain = nan;    // largest excess over the ledger, each relative to E at that row
+};
+Energy energy_of(const Trace& t) {
+    if (t.energy.empty() || t.rows < 1) return {};
+    const auto stored = t.energy_column(0), supplied = t.energy_column(1), dissipated = t.energy_column(2);
+    double budget = std::abs(stored[0]), ledger = stored[0], gain = 0, last = 0;
+    for (long n = 1; n < t.rows; ++n) {
+        budget += std::abs(supplied[n]);
+        ledger += supplied[n] - std::max(dissipated[n], 0.0);  // a loss that feeds energy in is no loss
+        last = std::max(last, std::abs(stored[n]));
+        if (budget > 0) gain = std::max(gain, (stored[n] - ledger) / budget);
+    }
+    if (!(budget > 0) && last == 0) return {};  // the columns are left empty
+    return {budget, gain};
+}
+
+double largest(std::span<const double> values) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(x));
+    return most;
+}
+}  // namespace
+
+std::span<const Verdict> verdicts() {
+    return all;
+}
+
+const char* name_of(Verdict v) {
+    constexpr std::array names = {"sound", "inaccurate", "adhesive", "energy_gaining", "not_converged", "diverged", "refused"};
+    static_assert(names.size() == all.size());
+    return names[static_cast<std::size_t>(v)];
+}
+
+Judgement judge(const Figures& f) {
+    const bool stopped = f.status.outcome != Outcome::ok;
+    if (f.status.outcome == Outcome::diverged) return {Verdict::diverged, fmt::format("at step {}", f.status.step), f.status.step};
+    if (f.displacement > std::sqrt(energy_budget))
+        return {Verdict::diverged, fmt::format("displacement {:.3g} times what its energy allows", f.displacement), 0};
+    if (stopped) return {Verdict::not_converged, fmt::format("at step {}", f.status.step), f.status.step};
+    if (f.energy_gain > (f.balance == Balance::exact ? gain_allowed : gain_allowed_unpromised))
+        return {Verdict::energy_gaining, fmt::format("{:.3g} of its energy gained", f.energy_gain), 0};
+    if (f.pull > pull_allowed) return {Verdict::adhesive, fmt::format("pulls by {:.3g} of the largest contact force", f.pull), 0};
+    if (f.error > error_allowed) return {Verdict::inaccurate, fmt::format("error {:.3g}", f.error), 0};
+    return {Verdict::sound, std::isnan(f.error) ? "" : fmt::format("error {:.3g}", f.error), 0};
+}
+
+Scene listened(Scene scene) {
+    scene.taps.clear();
+    scene.body.reset();
+    const double L = scene.strings.front().length;  // no low mode has a node at both points
+    scene.taps.push_back({"y", Quantity::displacement, 0, 0.3 * L});
+    scene.taps.push_back({"z", Quantity::displacement, 0, 0.437 * L});
+    scene.taps.push_back({"nut", Quantity::nut_force, 0, 0});
+    const auto touched = [](const String& s) { return !s.barriers.empty(); };
+    if (std::any_of(scene.strings.begin(), scene.strings.end(), touched))
+        scene.taps.push_back({"contact", Quantity::bridge_force, std::nullopt, 0});
+    return scene;
+}
+
+Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& settings, const Run& run, const Trace* reference) {
+    Figures f;
+    f.status = run.status;
+    f.balance = d.balance;
+    const Energy energy = energy_of(run.trace);
+    f.energy_gain = energy.gain;
+    const String& s = scene.strings.front();
+    double most = 0;
+    for (int k = 0; k < listening_points; ++k) most = std::max(most, largest(run.trace.column(k)));
+    f.displacement = energy.budget > 0 ? most / std::sqrt(energy.budget * s.length / (2 * s.tension)) : nan;
+    f.pull = f.error = nan;
+    if (const double least = fact(run.facts, "smallest_contact_force"); !std::isnan(least) && run.trace.taps() > contact) {
+        // a row is the mean over its steps: one step may have pushed as many times harder
+        const double pushed = largest(run.trace.column(contact)) * std::max(1.0, settings.sample_rate / settings.tap_rate);
+        f.pull = least < 0 ? -least / std::max(pushed, std::numeric_limits<double>::min()) : 0;
+    }
+    if (reference && reference->rows == run.trace.stride)
+        f.error = relative_l2(run.trace.column(nut), reference->column(nut), run.trace.tap_rate);
+    return f;
+}
+
+}  // namespace jvari

@@ -1,0 +1,59 @@
+// What became of a run, from its own figures: the one place where the outcomes of stability maps are defined.
+//
+// In order of gravity; the gravest that applies is the outcome. Each threshold with its reason:
+//   refused         the scheme does not represent the scene, or not at these settings
+//   diverged        the run's own status; or a displacement that more than ten times the energy that was ever there could not make:
+//                   |y| <= sqrt(E L/(2 T)) on a string under tension T, E = stored at the start and supplied since (a scheme beyond its
+//                   limit can keep an indefinite energy constant to rounding while the string flies off)
+//   not_converged   the run's own status: the contact equation was left unsolved
+//   energy_gaining  stored energy above the ledger (in which a negative loss counts as none: obstacles add no energy) by more than 1e-6 of
+//   E where the scheme promises a balance to rounding (the threshold
+//                   of compare's flag), 1e-2 where it promises none: there the true energy is no invariant, and wavers by
+//                   O((omega dt)^2) in stable runs
+//   adhesive        the contact pulls by more than 1e-6 of its largest force: rounding is four decades and more below that at any stiffness
+//                   whose force does not vanish beside the string's
+//   inaccurate      relative L2 error of the nut force over the run above 10 %: the headline signal of compare, and the threshold of its
+//                   predictability horizon
+//   sound           none of these
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "schemes/run.hpp"
+
+namespace jvari {
+
+enum class Verdict { sound, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused };
+std::span<const Verdict> verdicts();
+const char* name_of(Verdict);
+
+constexpr double gain_allowed = 1e-6;             // of E, where a balance is promised
+constexpr double gain_allowed_unpromised = 1e-2;  // where none is
+constexpr double pull_allowed = 1e-6;             // of the largest contact force
+constexpr double error_allowed = 0.1;             // relative L2
+
+struct Figures {              // NaN where a run has no such figure
+    Status status;            // of the run
+    double displacement = 0;  // largest |y| over sqrt(E L/(2T))
+    double energy_gain = 0;   // largest excess over the ledger, over E
+    double pull = 0;          // -smallest contact force over the largest
+    double error = 0;         // relative L2 of the nut force
+    Balance balance = Balance::exact;
+};
+
+struct Judgement {
+    Verdict verdict = Verdict::sound;
+    std::string detail;  // the figure that decided, or the reason of a refusal
+    long step = 0;       // where a run failed by itself; else 0
+};
+Judgement judge(const Figures&);
+
+// What maps listen to in place of the scene's own taps: the displacement of the first string at two points, its nut force, and the contact
+// force where there is a barrier.
+Scene listened(Scene);
+
+// Of a run of listened(scene) with its energy probed. `reference`: on the same rows; nullptr where there is none.
+Figures figures_of(const Descriptor&, const Scene&, const Settings&, const Run&, const Trace* reference);
+
+}  // namespace jvari

@@ -1,0 +1,152 @@
+#include "bench/report/chart_data.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "bench/compare/errors.hpp"
+#include "bench/compare/pareto.hpp"
+#include "bench/store/rates.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+// "x4" where all rates are multiples of the lowest, else "96k".
+std::string rate_label(double rate, double lowest, bool multiples) {
+    if (std::isnan(rate)) return "";
+    if (multiples) return fmt::format("\u00d7{}", std::lround(rate / lowest));
+    return fmt::format("{:.4g}k", rate / 1000);
+}
+
+std::vector<Point> points_of(const WorkPrecision& w, const std::string& problem, const Axis& error, const Axis& cost) {
+    const Table& t = w.cells;
+    const bool clock = cost.column == "cost_s_per_s" || cost.column == "ns_per_step";
+    const double floor = floor_of(w, problem, error.column);
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        const bool competes = problem_of(t, i) == problem && t.at(i, "status") == "ok";
+        const double c = competes ? t.number(i, cost.column) : std::nan(""), median = t.number(i, "cost_s_per_s");
+        const double lower = clock ? t.number(i, "cost_lower") / median : 1, upper = clock ? t.number(i, "cost_upper") / median : 1;
+        const double e = t.number(i, error.column);
+        points.push_back({c, c * lower, c * upper, std::isnan(e) ? e : std::fmax(e, floor)});
+    }
+    return points;
+}
+
+std::map<std::string, double> lowest_rates(const Table& t) {  // of each problem
+    std::map<std::string, double> lowest;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        double& rate = lowest.emplace(problem_of(t, i), HUGE_VAL).first->second;
+        rate = std::fmin(rate, t.number(i, "rate"));
+    }
+    return lowest;
+}
+}  // namespace
+
+const std::string& problem_of(const Table& cells, std::size_t row) {
+    return cells.at(row, "problem");
+}
+const std::string& series_of(const Table& cells, std::size_t row) {
+    return cells.at(row, cells.column("series") < 0 ? "scheme" : "series");
+}
+
+double floor_of(const WorkPrecision& w, const std::string& problem, const std::string& error) {
+    for (const Band& b : w.bands)
+        if (b.problem == problem && b.error == error) return b.floor;
+    return std::nan("");
+}
+
+std::vector<std::string> drawn_series(const Table& cells) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < cells.rows.size(); ++i)
+        if (cells.at(i, "status") != "refused" && std::find(names.begin(), names.end(), series_of(cells, i)) == names.end())
+            names.push_back(series_of(cells, i));
+    return names;
+}
+
+std::string chart_cells(const WorkPrecision& w) {
+    const Table& t = w.cells;
+    const auto lowest = lowest_rates(t);
+    std::map<std::string, bool> multiples;
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (const double rate = t.number(i, "rate"); !std::isnan(rate)) {
+            bool& all = multiples.emplace(problem_of(t, i), true).first->second;
+            all = all && whole_multiple(rate, lowest.at(problem_of(t, i)));
+        }
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        if (t.at(i, "status") == "refused") continue;  // it has neither cost nor error: the table says why
+        const double rate = t.number(i, "rate");
+        const std::string& problem = problem_of(t, i);
+        Json j{{"problem", problem},
+               {"series", series_of(t, i)},
+               {"scheme", t.at(i, "scheme")},
+               {"rate", rate},
+               {"modes", t.number(i, "modes")},
+               {"status", t.at(i, "status")},
+               {"reason", t.at(i, "reason")},
+               {"label", rate_label(rate, lowest.at(problem), multiples[problem])},
+               {"below", t.at(i, "below_floor")}};
+        for (const auto* axes : {&w.errors, &w.costs})
+            for (const Axis& a : *axes) {  // not finite: null; seven digits are enough for a point
+                const double x = t.number(i, a.column);
+                j[a.column] = std::isfinite(x) ? number_of(fmt::format("{:.7g}", x)) : std::nan("");
+            }
+        rows.push_back(std::move(j));
+    }
+    return rows.dump();
+}
+
+std::string chart_fronts(const WorkPrecision& w) {
+    const Table& t = w.cells;
+    std::vector<std::string> problems;
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (std::find(problems.begin(), problems.end(), problem_of(t, i)) == problems.end()) problems.push_back(problem_of(t, i));
+    Json rows = Json::array();
+    for (const std::string& problem : problems)
+        for (const Axis& error : w.errors)
+            for (const Axis& cost : w.costs) {
+                const auto points = points_of(w, problem, error, cost);
+                const auto front = pareto_front(points);
+                for (std::size_t i = 0; i < front.size(); ++i) {
+                    if (!front[i]) continue;
+                    const double rate = t.number(i, "rate");
+                    const std::string key = fmt::format("{}|{}|{}|{}|{}", problem, error.column, cost.column, series_of(t, i),
+                                                        std::isnan(rate) ? "null" : fmt::format("{}", rate));
+                    rows.push_back({{"problem", problem},
+                                    {"error", error.column},
+                                    {"cost", cost.column},
+                                    {"x", points[i].cost},
+                                    {"y", t.number(i, error.column)},
+                                    {"key", key}});
+                }
+            }
+    return rows.dump();
+}
+
+std::vector<Axis> error_axes(const Table& cells, const std::vector<std::string>& taps, const std::string& first) {
+    std::vector<Axis> axes;
+    for (const std::string& tap : taps)
+        for (const Measure& m : measures()) {
+            const Axis axis{m.column + (tap.empty() ? "" : "_" + tap), m.title + (tap.empty() ? "" : ", tap " + tap)};
+            bool finite = false;
+            for (std::size_t i = 0; i < cells.rows.size(); ++i) finite = finite || std::isfinite(cells.number(i, axis.column));
+            if (m.less_is_better && finite) axes.insert(axis.column == first ? axes.begin() : axes.end(), axis);
+        }
+    return axes;
+}
+
+std::vector<Axis> cost_axes() {
+    return {{"cost_s_per_s", "computing time per second of sound [s/s]"},
+            {"ns_per_step", "time per step [ns]"},
+            {"worst_block_of_deadline", "worst block of 64 samples, as a fraction of its deadline"},
+            {"rate", "sample rate [Hz]"},
+            {"dofs", "state carried [doubles]"}};
+}
+
+}  // namespace jvari

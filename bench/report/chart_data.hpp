@@ -1,0 +1,21 @@
+// The rows that charts draw, as JSON text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/report/charts.hpp"
+
+namespace jvari {
+
+// One object per cell that ran: problem, series, rate, label, every error and cost that can be chosen.
+std::string chart_cells(const WorkPrecision&);
+std::string chart_fronts(
+    const WorkPrecision&);  // the Pareto front of every choice of problem, error and cost: decided here, not in the page
+double floor_of(const WorkPrecision&, const std::string& problem, const std::string& error);  // NaN: not known
+std::vector<std::string> drawn_series(const Table& cells);                                    // in the order of the rows
+// "" where the cells are of one problem without a name.
+const std::string& problem_of(const Table& cells, std::size_t row);
+const std::string& series_of(const Table& cells, std::size_t row);
+
+}  // namespace jvari

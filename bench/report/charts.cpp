@@ -1,0 +1,218 @@
+// Cost across, error up, layer upon layer: noise floor, front, lines, points, labels, failures, names of the axes.
+#include "bench/report/charts.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/report/chart_data.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t direct_labels = 4;  // up to so many series every point says its rate, beyond only the front's
+
+struct Encodings {
+    Json x, y, colour, shape, dash, faint;
+    Json of_point, of_failure;  // what hovering shows
+    std::size_t series;
+};
+
+// Decades are labelled; on an axis of less than three decades 2 and 5 as well.
+Json axis(const char* field) {
+    constexpr const char* digit = "round(pow(10, log(datum.value)/LN10 - floor(log(datum.value)/LN10 + 1e-9)))";
+    const std::string label = fmt::format(
+        "{1} == 1 || (domain('{0}')[1]/domain('{0}')[0] < 1000 && indexof([2, 5], {1}) >= 0) ? "
+        "(datum.value < 1e-3 || datum.value >= 1e6 ? format(datum.value, '~e') : format(datum.value, ',~r')) : ''",
+        field, digit);
+    return {{"field", field},
+            {"type", "quantitative"},
+            {"scale", {{"type", "log"}, {"nice", false}, {"padding", 36}}},
+            {"axis", {{"title", nullptr}, {"labelExpr", label}, {"labelOverlap", true}}}};
+}
+
+Json column(const char* field, const char* title, const char* format = nullptr) {
+    Json j{{"field", field}, {"title", title}};
+    if (format) j["format"] = format;
+    return j;
+}
+
+Encodings encodings_of(const WorkPrecision& w) {
+    const auto series = drawn_series(w.cells);
+    return {axis("x"),
+            axis("y"),
+            Json::parse(colour_of_series(series)),
+            Json::parse(shape_of_series(series)),
+            Json::parse(dash_of_series(series)),
+            {{"condition", {{"test", {{"and", {{{"param", "pick"}}, "brought_out == '' || brought_out == datum.series"}}}}, {"value", 1}}},
+             {"value", 0.12}},
+            Json::array({column("series", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
+                         column("y", "error", ".3e"), column("x", "cost", ",.3~r"), column("below", "below floor")}),
+            Json::array({column("series", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
+                         column("x", "cost", ",.3~r"), column("reason", "reason")}),
+            series.size()};
+}
+
+Json chosen(const char* condition) {  // x and y of the columns that are chosen, then the rows that satisfy the condition
+    return Json::array({{{"filter", "datum.problem == problem_field"}},
+                        {{"calculate", "datum[cost_field]"}, {"as", "x"}},
+                        {{"calculate", "datum[error_field]"}, {"as", "y"}},
+                        {{"filter", condition}}});
+}
+constexpr const char* sound = "isValid(datum.x) && isValid(datum.y) && datum.x > 0 && datum.y > 0 && datum.status == 'ok'";
+
+Json once(Json mark) {  // a mark without rows
+    return {{"data", {{"values", Json::array({Json::object()})}}}, {"mark", std::move(mark)}};
+}
+
+// From the level of what limits the chosen error down to the lower edge.
+void add_band(Json& layers, const std::string& field, const char* name, const char* colour, double opacity) {
+    const std::string known = fmt::format("bands[problem_field + '|' + error_field]{}", field);
+    const std::string level =
+        fmt::format("bands[problem_field + '|' + error_field] && isValid({0}) ? clamp(scale('y', {0}), 0, height) : height", known);
+    layers.push_back(once({{"type", "rect"},
+                           {"x", 0},
+                           {"x2", {{"expr", "width"}}},
+                           {"y", {{"expr", level}}},
+                           {"y2", {{"expr", "height"}}},
+                           {"color", colour},
+                           {"opacity", opacity},
+                           {"tooltip", nullptr}}));
+    layers.push_back(once({{"type", "text"},
+                           {"x", 6},
+                           {"y", {{"expr", level}}},
+                           {"dy", 10},
+                           {"align", "left"},
+                           {"fontSize", 10},
+                           {"opacity", 0.75},
+                           {"text", {{"expr", fmt::format("({}) < height - 14 ? '{}' : ''", level, name)}}}}));
+}
+
+void add_front(Json& layers, const Encodings& e) {
+    layers.push_back(
+        {{"data", {{"name", "fronts"}}},
+         {"transform",
+          Json::array(
+              {{{"filter", "datum.problem == problem_field && datum.error == error_field && datum.cost == cost_field && datum.y > 0"}}})},
+         {"mark",
+          {{"type", "line"}, {"strokeWidth", 9}, {"opacity", 0.28}, {"color", "#888"}, {"strokeCap", "round"}, {"strokeJoin", "round"}}},
+         {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}}}});
+}
+
+void add_schemes(Json& layers, const Encodings& e) {
+    layers.push_back(
+        {{"transform", chosen(sound)},
+         {"mark", {{"type", "line"}, {"strokeWidth", 1.6}}},
+         {"encoding",
+          {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"strokeDash", e.dash}, {"order", {{"field", "rate"}}}, {"opacity", e.faint}}}});
+    layers.push_back(
+        {{"transform", chosen(sound)},
+         {"mark", {{"type", "point"}, {"filled", true}, {"size", 75}}},
+         {"params",
+          Json::array({{{"name", "pick"}, {"select", {{"type", "point"}, {"fields", Json::array({"series"})}}}, {"bind", "legend"}}})},
+         {"encoding", {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"shape", e.shape}, {"opacity", e.faint}, {"tooltip", e.of_point}}}});
+    Json labelled = chosen(sound);
+    if (e.series > direct_labels) {
+        labelled.push_back(
+            {{"calculate", "problem_field + '|' + error_field + '|' + cost_field + '|' + datum.series + '|' + datum.rate"}, {"as", "key"}});
+        labelled.push_back({{"lookup", "key"},
+                            {"from", {{"data", {{"name", "fronts"}}}, {"key", "key"}, {"fields", Json::array({"key"})}}},
+                            {"as", Json::array({"front"})}});
+        labelled.push_back({{"filter", "isValid(datum.front)"}});
+    }
+    layers.push_back({{"transform", labelled},
+                      {"mark", {{"type", "text"}, {"align", "left"}, {"dx", 8}, {"dy", -7}, {"fontSize", 10}}},
+                      {"encoding", {{"x", e.x}, {"y", e.y}, {"text", {{"field", "label"}}}, {"color", e.colour}, {"opacity", e.faint}}}});
+}
+
+void add_failures(Json& layers, const Encodings& e) {  // at the upper edge over their cost, also those whose error is not finite
+    layers.push_back({{"transform", chosen("datum.x > 0 && (datum.status != 'ok' || !isValid(datum.y))")},
+                      {"mark", {{"type", "text"}, {"text", "\u2715"}, {"fontSize", 14}, {"fontWeight", "bold"}, {"y", 8}}},
+                      {"encoding", {{"x", e.x}, {"color", e.colour}, {"opacity", e.faint}, {"tooltip", e.of_failure}}}});
+}
+
+void add_goals(Json& layers, const Encodings& e) {  // of computing time, which they are the cheapest by
+    const Json goals{{"data", {{"name", "goals"}}},
+                     {"transform", Json::array({{{"filter",
+                                                  "datum.problem == problem_field && datum.error == error_field && "
+                                                  "cost_field == 'cost_s_per_s'"}}})},
+                     {"encoding", {{"y", e.y}}}};
+    Json rule = goals, text = goals;
+    rule["mark"] = {{"type", "rule"}, {"strokeDash", {2, 4}}, {"color", "#888"}};
+    text["mark"] = {{"type", "text"}, {"x", {{"expr", "width - 6"}}},     {"dy", -6}, {"align", "right"},
+                    {"fontSize", 10}, {"limit", {{"expr", "width - 12"}}}};
+    text["encoding"]["text"] = {{"field", "text"}};
+    layers.push_back(std::move(rule));
+    layers.push_back(std::move(text));
+}
+
+void add_axis_names(Json& layers) {  // upright, above and below the frame, following the choice
+    layers.push_back(once({{"type", "text"},
+                           {"x", 0},
+                           {"y", -10},
+                           {"align", "left"},
+                           {"fontSize", 12},
+                           {"fontWeight", "bold"},
+                           {"text", {{"expr", "error_titles[error_field]"}}}}));
+    layers.push_back(once({{"type", "text"},
+                           {"x", {{"expr", "width"}}},
+                           {"y", {{"expr", "height + 36"}}},
+                           {"align", "right"},
+                           {"fontSize", 12},
+                           {"fontWeight", "bold"},
+                           {"text", {{"expr", "cost_titles[cost_field]"}}}}));
+}
+
+Json titles_json(const std::vector<Axis>& axes) {
+    Json titles = Json::object();
+    for (const Axis& a : axes) titles[a.column] = a.title;
+    return titles;
+}
+
+Json parameter(const char* name, Json value) {
+    return {{"name", name}, {"value", std::move(value)}};
+}
+}  // namespace
+
+std::string work_precision_spec(const WorkPrecision& w) {
+    const Encodings e = encodings_of(w);
+    Json bands = Json::object(), layers = Json::array();
+    for (const Band& b : w.bands) {
+        Json& levels = bands[b.problem + "|" + b.error] = Json::object();
+        if (b.floor > 0 && std::isfinite(b.floor)) levels["floor"] = b.floor;
+        if (b.certificate > 0 && std::isfinite(b.certificate)) levels["certificate"] = b.certificate;
+    }
+    add_band(layers, ".certificate", "the reference is certain to here", "#56b4e9", 0.16);
+    add_band(layers, ".floor", "noise floor", "#888", 0.18);
+    add_goals(layers, e);
+    add_front(layers, e);
+    add_schemes(layers, e);
+    add_failures(layers, e);
+    add_axis_names(layers);
+
+    const bool print = w.medium == Medium::print;
+    const std::string shown = !w.problem.empty() || w.cells.rows.empty() ? w.problem : problem_of(w.cells, 0);
+    Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"}};
+    if (print) spec["title"] = {{"text", w.title}, {"subtitle", w.subtitle}, {"anchor", "start"}, {"offset", 26}, {"subtitlePadding", 5}};
+    spec.update({{"width", print ? Json(760) : Json("container")}, {"height", 470}, {"padding", 12}});
+    if (print) spec["background"] = "white";
+    spec["params"] = {parameter("error_field", w.errors.empty() ? "" : w.errors.front().column),
+                      parameter("cost_field", w.costs.empty() ? "" : w.costs.front().column),
+                      parameter("bands", bands),
+                      parameter("problem_field", shown),
+                      parameter("brought_out", ""),
+                      parameter("error_titles", titles_json(w.errors)),
+                      parameter("cost_titles", titles_json(w.costs))};
+    spec["datasets"] = {{"cells", Json::parse(chart_cells(w))}, {"fronts", Json::parse(chart_fronts(w))}, {"goals", Json::array()}};
+    for (const Goal& g : w.goals)
+        spec["datasets"]["goals"].push_back({{"problem", g.problem}, {"error", g.error}, {"y", g.most}, {"text", g.text}});
+    spec["data"] = {{"name", "cells"}};
+    spec["layer"] = layers;
+    spec["config"] = Json::parse(config_of(w.medium, e.series > 1));
+    return spec.dump();
+}
+
+}  // namespace jvari

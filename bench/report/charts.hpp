@@ -1,0 +1,46 @@
+// The work-precision chart as a Vega-Lite specification (https://vega.github.io/vega-lite), drawn by vl2svg or in a page by vega-embed.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/report/chart_style.hpp"
+#include "bench/store/records.hpp"
+
+namespace jvari {
+
+struct Axis {
+    std::string column, title;
+};
+
+struct Band {  // what is not known better of an error: a tie below the noise floor, no finding below the reference's own certificate
+    std::string problem, error;
+    double floor, certificate;  // NaN: not known
+};
+
+struct Goal {  // an accuracy that is asked for, and who gets there at the least cost
+    std::string problem, error;
+    double most;
+    std::string text;
+};
+
+struct WorkPrecision {
+    std::string title, subtitle;
+    Table cells;                      // as compare writes them; with `problem` and `series` where they are of several
+    std::vector<Axis> errors, costs;  // what a reader can choose between; the first of each is shown
+    std::vector<Band> bands;
+    std::vector<Goal> goals;
+    std::string problem;  // that is shown; "": the first
+    Medium medium = Medium::print;
+};
+
+// Cost across, error up, both logarithmic: a line per series through its rates, the Pareto front behind, noise floor and certificate as
+// bands, the goals across, failures at the upper edge. The signals `error_field`, `cost_field`, `problem_field` and `brought_out` choose.
+std::string work_precision_spec(const WorkPrecision&);
+
+std::vector<Axis> error_axes(const Table& cells, const std::vector<std::string>& taps,
+                             const std::string& first);  // those with a finite value
+std::vector<Axis> cost_axes();
+
+}  // namespace jvari

@@ -1,0 +1,193 @@
+// Colours follow Okabe & Ito's palette; names come in the order in which the rows bring them up.
+#include "bench/report/figure_chart.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/report/vega.hpp"
+#include "bench/suite/row_facet.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+constexpr const char* palette[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c8c8c"};
+constexpr int most_rectangles = 2800;  // of a spectrogram: a file below 300 kB
+
+bool same(const std::string& field, const std::string& wanted) {
+    const double a = number_of(field), b = number_of(wanted);
+    return std::isnan(a) || std::isnan(b) ? field == wanted : a == b;
+}
+
+void must_have(const Table& t, const Figure& f, const std::string& column) {
+    if (t.column(column) < 0) throw UsageError(fmt::format("table {}: {}", f.table, unknown("column", column, t.columns)));
+}
+
+bool chosen(const Figure& f, const Table& t, std::size_t row) {
+    return std::ranges::all_of(f.where, [&](const auto& w) {
+        return std::ranges::any_of(w.second, [&](const std::string& value) { return same(t.at(row, w.first), value); });
+    });
+}
+
+std::string name_in(const Figure& f, const Table& t, std::size_t row, const std::vector<std::string>& columns) {
+    std::string name;
+    for (const std::string& column : columns)
+        if (const std::string& field = t.at(row, column); !field.empty()) name += (name.empty() ? "" : ", ") + field;
+    const auto label = std::ranges::find(f.labels, name, &std::pair<std::string, std::string>::first);
+    return label == f.labels.end() ? name : label->second;
+}
+
+double drawn_number(double x) {  // five digits: a hundredth of a pixel
+    return std::stod(fmt::format("{:.5g}", x));
+}
+
+void add_once(std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+Json wrapped(const std::string& text, std::size_t length) {
+    Json lines = Json::array();
+    std::string line;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        if (!line.empty() && line.size() + 1 + end - at > length) lines.push_back(std::exchange(line, ""));
+        line += (line.empty() ? "" : " ") + text.substr(at, end - at);
+        at = end + 1;
+    }
+    if (!line.empty()) lines.push_back(line);
+    return lines;
+}
+
+// Without a screen Vega takes a letter for 0.8 of the font's size and makes the picture as wide as its longest line.
+Json title_of(const Figure& f, double width) {
+    const std::string under = f.paper + (f.paper.empty() || f.statement.empty() ? "" : ": ") + f.statement;
+    return {{"text", wrapped(f.title, static_cast<std::size_t>(width / (0.8 * 16)))},
+            {"subtitle", wrapped(under, static_cast<std::size_t>(width / (0.8 * 12)))},
+            {"anchor", "start"},
+            {"offset", 14},
+            {"subtitlePadding", 5}};
+}
+
+Json axis(const FigureAxis& a, const char* field, bool free) {
+    Json scale{{"zero", false}, {"nice", a.log || !free}};
+    if (a.log) scale["type"] = "log";
+    if (a.domain) scale["domain"] = *a.domain, scale["nice"] = false;
+    Json encoded{{"field", field}, {"type", "quantitative"}, {"title", a.title}, {"scale", scale}};
+    if (a.log) encoded["axis"]["format"] = "~g";
+    return encoded;
+}
+
+const Json config = {{"font", "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif"},
+                     {"axis", {{"gridOpacity", 0.45}, {"labelFontSize", 11}, {"titleFontSize", 12}}},
+                     {"title", {{"fontSize", 16}, {"subtitleFontSize", 12}}},
+                     {"header", {{"title", nullptr}, {"labelFontSize", 12}, {"labelFontWeight", "bold"}, {"labelAnchor", "start"}}},
+                     {"legend", {{"labelFontSize", 12}, {"labelLimit", 500}, {"symbolStrokeWidth", 3}}}};
+
+std::string spectrogram_figure(const Figure& f, const SuitePlan& plan, const std::vector<SuiteRecord>& records, const Table& cells) {
+    std::vector<Panel> panels;
+    for (std::size_t i = 0; i < records.size(); ++i)
+        if (plan.cells[i].set->measures(Facet::spectrogram) && chosen(f, cells, i))
+            panels.push_back({name_in(f, cells, i, f.colour), name_in(f, cells, i, f.panels), cells.at(i, "status"), records[i].levels});
+    if (panels.empty()) throw UsageError("no cell with a spectrogram is left by `where`");
+    const int scale = panels.size() == 1 ? 2 : 1;
+    Json spec = Json::parse(spectrogram_spec(f.title, "", std::move(panels), most_rectangles));
+    int width = 0;
+    for (Json& panel : spec["concat"]) width += panel["width"].get<int>() * scale;
+    spec["title"] = title_of(f, std::max(480, width));
+    for (Json& panel : spec["concat"])
+        for (const char* side : {"width", "height"}) panel[side] = panel[side].get<int>() * scale;
+    return spec.dump();
+}
+}  // namespace
+
+std::string figure_spec(const Figure& f, const Table& t) {
+    for (const std::string& column : {f.x.column, f.y.column}) must_have(t, f, column);
+    if (!f.y.to.empty()) must_have(t, f, f.y.to);
+    for (const auto* columns : {&f.colour, &f.panels})
+        for (const std::string& column : *columns) must_have(t, f, column);
+    for (const auto& [column, values] : f.where) must_have(t, f, column);
+
+    Json values = Json::array();
+    std::vector<std::string> colours, panels;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        if (!chosen(f, t, i)) continue;
+        const double x = t.number(i, f.x.column) * f.x.factor, y = t.number(i, f.y.column) * f.y.factor;
+        const double to = f.y.to.empty() ? y : t.number(i, f.y.to) * f.y.factor;
+        if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(to)) continue;
+        if ((f.x.log && x <= 0) || (f.y.log && (y <= 0 || to <= 0))) continue;
+        if (f.x.domain && (x < (*f.x.domain)[0] || x > (*f.x.domain)[1])) continue;
+        Json row{{"x", drawn_number(x)}, {"y", drawn_number(y)}};
+        if (!f.y.to.empty()) row["z"] = drawn_number(to);
+        if (!f.colour.empty()) add_once(colours, row["c"] = name_in(f, t, i, f.colour));
+        if (!f.panels.empty()) add_once(panels, row["p"] = name_in(f, t, i, f.panels));
+        values.push_back(std::move(row));
+    }
+    if (values.empty()) throw UsageError(fmt::format("table {}: no row is left to draw", f.table));
+
+    Json mark{{"type", f.kind == FigureKind::band ? "area" : "line"}, {"clip", true}, {"tooltip", nullptr}, {"aria", false}};
+    if (f.kind == FigureKind::band) mark["opacity"] = colours.size() > 1 ? 0.6 : 0.9;
+    else mark["strokeWidth"] = 1.4;
+    if (f.kind == FigureKind::points) mark["point"] = {{"size", 45}};
+    if (f.kind == FigureKind::points && f.colour.empty()) mark["point"]["color"] = palette[0];
+    Json encoding{{"x", axis(f.x, "x", f.free)}, {"y", axis(f.y, "y", f.free)}};
+    if (f.kind == FigureKind::band) encoding["y2"] = {{"field", "z"}};
+    else encoding["order"] = {{"field", "x"}};
+    if (!f.colour.empty()) {
+        Json range = Json::array();
+        for (std::size_t k = 0; k < colours.size(); ++k) range.push_back(palette[k % std::size(palette)]);
+        Json legend;
+        if (colours.size() > 1) legend = {{"title", nullptr}, {"orient", "bottom"}, {"direction", "horizontal"}, {"columns", 3}};
+        encoding["color"] = {{"field", "c"}, {"type", "nominal"}, {"scale", {{"domain", colours}, {"range", range}}}, {"legend", legend}};
+    } else {
+        mark["color"] = palette[0];
+    }
+    Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
+              {"title", title_of(f, f.width * (f.panels.empty() ? 1 : std::min<int>(f.across, static_cast<int>(panels.size()))) + 60)},
+              {"background", "white"},
+              {"padding", 12},
+              {"data", {{"values", values}}}};
+    Json unit{{"width", f.width}, {"height", f.height}, {"mark", mark}, {"encoding", encoding}};
+    if (f.panels.empty()) {
+        spec.update(unit);
+    } else {
+        spec["facet"] = {{"field", "p"}, {"type", "nominal"}, {"sort", panels}};
+        spec["columns"] = f.across;
+        spec["spacing"] = 18;
+        spec["spec"] = unit;
+        if (f.free) spec["resolve"] = {{"scale", {{"x", "independent"}, {"y", "independent"}}}};
+    }
+    spec["config"] = config;
+    return spec.dump();
+}
+
+std::vector<DrawnFigure> draw_figures(const Suite& suite, const SuitePlan& plan, const std::vector<SuiteRecord>& records,
+                                      const Table& cells, const Console& console) {
+    std::vector<DrawnFigure> drawn;
+    if (suite.figures.empty()) return drawn;
+    const Vega vega = find_vega();
+    if (!vega.missing.empty()) {
+        console.note(vega.missing);
+        return drawn;
+    }
+    for (const Figure& f : suite.figures) {
+        const std::string file = "figure-" + f.name + ".svg";
+        std::string why;
+        try {
+            Table rows = cells;
+            for (const RowFacet& facet : row_facets())
+                if (f.table == name_of(facet.facet)) rows = rows_of(facet.facet, plan, records);
+            const bool levels = f.kind == FigureKind::spectrogram;
+            if (const auto svg = svg_of(vega, levels ? spectrogram_figure(f, plan, records, cells) : figure_spec(f, rows), why))
+                drawn.push_back({file, *svg});
+        } catch (const UsageError& e) {
+            why = e.what();
+        }
+        if (!why.empty()) console.note(file + ": " + why);
+    }
+    return drawn;
+}
+
+}  // namespace jvari

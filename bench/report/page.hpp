@@ -1,0 +1,68 @@
+// The report's page: one file, no network. Sections of charts with menus, pictures, sounds and tables; what it was measured with at the
+// foot.
+//
+// A section is made by one page_*.cpp of the files that lie in a folder; the page is put together here and shown by bench/page/*.js.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/store/records.hpp"
+
+namespace jvari {
+
+struct Menu {  // a <select>: sets a signal of the chart
+    std::string label, signal;
+    std::vector<std::pair<std::string, std::string>> choices;  // value as JSON, what stands in the menu; the first is shown
+};
+
+struct Twin {  // a picture for papers, beside the page
+    std::string file, spec;
+};
+
+struct Chart {
+    std::string name;      // what it shows, in a few words: for those who cannot see it
+    std::string spec;      // Vega-Lite that fills its container
+    bool scrolls = false;  // has a width of its own
+    std::vector<Menu> menus{};
+    std::vector<Twin> twins{};
+};
+
+struct Picture {  // an SVG that others made
+    std::string name, svg;
+};
+
+struct Heard {
+    std::string scheme, detail;  // "modal_two_point", "44100 Hz"
+    std::string wav;             // of the file
+};
+
+struct Section {
+    std::string id, heading;
+    std::vector<std::string> notes{};  // sentences above the charts
+    std::vector<Chart> charts{};
+    std::vector<Picture> pictures{};
+    std::vector<Heard> sounds{};
+    std::vector<std::string> left_out{};  // sentences: what is not there for the page's size
+    Table table{};
+    std::vector<std::string> first_columns{};  // shown before "every column" is asked for; empty: all
+};
+
+struct Page {
+    std::string title, about;
+    std::string scripts;  // the chart libraries as <script> elements; "": no chart
+    std::string missing;  // why there is no chart
+    std::vector<Section> sections;
+    std::string manifest;  // JSON
+};
+std::string page_of(const Page&);
+// The page in less than 15 MB: pictures, then sounds are left out from the last on, and the page says so.
+std::string fitting_page_of(Page, std::size_t limit = 14'900'000);
+
+// What parts of a page may weigh [bytes].
+constexpr std::size_t sounds_limit = 7'500'000;    // as the WAV data stands in the page
+constexpr std::size_t pictures_limit = 4'000'000;  // as files
+constexpr std::size_t table_limit = 1'500'000;     // one table; beyond, its first columns alone, then fewer rows
+
+}  // namespace jvari

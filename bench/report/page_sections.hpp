@@ -1,0 +1,30 @@
+// The sections of the report, in the order in which they stand. Each is made of what lies in the folder; one without data has neither
+// charts nor rows, and does not appear.
+#pragma once
+
+#include "bench/report/charts.hpp"
+#include "bench/report/page.hpp"
+#include "bench/report/results.hpp"
+
+namespace jvari {
+
+Section work_precision_section(const Results&);
+Section dispersion_section(const Results&);
+Section convergence_section(const Results&);
+Section cost_section(const Results&);
+Section map_section(const Results&);
+Section spectrogram_section(const Results&);
+Section waveform_section(const Results&);
+Section picture_section(const Results&, const std::vector<std::string>& own);  // SVGs in the folder that are none of `own`
+Section cell_section(const Results&);
+
+// The menu of problems (signal problem_field), none where there is one alone; and how many pictures are made of one chart at most.
+std::vector<Menu> problem_menu(const std::vector<std::string>& problems);
+constexpr std::size_t most_twins = 12;
+// "dispersion.svg", with the problem in the name where there are several.
+std::string twin_file(const std::string& chart, const std::string& problem, std::size_t problems);
+Table rows_where(const Table&, const std::string& column, const std::string& text);
+Table without_names(const Table&);                // less problem and series, which stand for columns that are there anyway
+WorkPrecision work_precision_of(const Results&);  // of all problems
+
+}  // namespace jvari

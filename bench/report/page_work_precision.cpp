@@ -1,0 +1,164 @@
+// The first section: any cost against any error, problem by problem. And the cells it is drawn from, as a table.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "bench/compare/cheapest.hpp"
+#include "bench/report/chart_data.hpp"
+#include "bench/report/page_sections.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr std::size_t most_cells_with_taps = 600;  // beyond, the headline errors alone can be chosen: the page stays small
+
+// What the reference is certain to, of error_l2_50ms_nut: certificate_l2_50ms_nut. It goes with the scene and the modes: the largest
+// stands.
+double certificate_of(const Table& t, const std::string& problem, const std::string& error) {
+    if (error.rfind("error_", 0) != 0) return std::nan("");
+    const std::string column = "certificate_" + error.substr(6);
+    double largest = std::nan("");
+    for (std::size_t i = 0; t.column(column) >= 0 && i < t.rows.size(); ++i)
+        if (problem_of(t, i) == problem) largest = std::fmax(largest, t.number(i, column));
+    return largest;
+}
+
+double known_floor(const Results& r, const std::string& problem, const std::string& error) {
+    for (const auto& [name, value] : r.floors)
+        if (name == error) return value;
+    const std::string column = "floor_" + error;
+    for (std::size_t i = 0; r.cells.column(column) >= 0 && i < r.cells.rows.size(); ++i)
+        if (const double floor = r.cells.number(i, column); problem_of(r.cells, i) == problem && !std::isnan(floor)) return floor;
+    return std::nan("");
+}
+
+// Of a suite, whose cells do not say it: the first of these that has a finite value.
+std::string headline_of(const Results& r) {
+    if (!r.headline.empty()) return r.headline;
+    for (const char* column : {"error_l2_50ms", "error_l2_10ms"})
+        for (std::size_t i = 0; i < r.cells.rows.size(); ++i)
+            if (std::isfinite(r.cells.number(i, column))) return column;
+    return "error_l2_whole";
+}
+
+// Of a suite: every text behind error_l2_whole_ in the columns.
+std::vector<std::string> taps_of(const Results& r) {
+    std::vector<std::string> taps{""};
+    if (r.cells.rows.size() > most_cells_with_taps) return taps;
+    const std::string stem = "error_l2_whole_";
+    for (const std::string& name : r.cells.columns)
+        if (name.rfind(stem, 0) == 0) taps.push_back(name.substr(stem.size()));
+    return taps;
+}
+
+std::string goal_text(const Table& cheapest, std::size_t row) {
+    std::string text = goal_name(cheapest, row) + ": " + cheapest.at(row, "scheme");
+    if (!cheapest.at(row, "options").empty()) text += " " + cheapest.at(row, "options");
+    text += fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
+    std::istringstream ties(cheapest.at(row, "ties"));
+    for (std::string name; ties >> name;) text += " or " + name;
+    return text;
+}
+
+// The goals that some cells of the problem reach and some do not, so that they lie among the points.
+std::vector<Goal> goals_of(const Results& r, const std::string& headline) {
+    std::vector<Goal> goals;
+    for (const std::string& problem : distinct(r.cells, "problem")) {
+        const Table own = rows_where(r.cells, "problem", problem), cheapest = cheapest_of(without_names(own), headline, r.name);
+        for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
+            const std::string& error = cheapest.at(i, "measure");
+            const double most = cheapest.number(i, "target");
+            bool missed = false;
+            for (std::size_t k = 0; k < own.rows.size(); ++k)
+                missed = missed || (own.at(k, "status") == "ok" && std::isfinite(own.number(k, error)) && own.number(k, error) > most);
+            if (missed && !cheapest.at(i, "scheme").empty()) goals.push_back({problem, error, most, goal_text(cheapest, i)});
+        }
+    }
+    return goals;
+}
+
+Menu axis_menu(const char* label, const char* signal, const std::vector<Axis>& axes) {
+    Menu m{label, signal, {}};
+    for (const Axis& a : axes) m.choices.emplace_back(json_text(a.column), a.title);
+    return m;
+}
+
+bool any_finite(const Table& t, const std::string& column) {
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (std::isfinite(t.number(i, column))) return true;
+    return false;
+}
+}  // namespace
+
+WorkPrecision work_precision_of(const Results& r) {
+    WorkPrecision w;
+    w.cells = r.cells;
+    w.title = r.name + ": error and cost";
+    w.subtitle = r.floors.empty() ? r.source : r.about.substr(0, r.about.rfind(';'));
+    w.errors = error_axes(r.cells, taps_of(r), headline_of(r));
+    for (const Axis& a : cost_axes())
+        if (any_finite(r.cells, a.column)) w.costs.push_back(a);
+    for (const std::string& problem : distinct(r.cells, "problem"))
+        for (const Axis& a : w.errors) {
+            const Band b{problem, a.column, known_floor(r, problem, a.column), certificate_of(r.cells, problem, a.column)};
+            if (!std::isnan(b.floor) || !std::isnan(b.certificate)) w.bands.push_back(b);
+        }
+    return w;
+}
+
+Section work_precision_section(const Results& r) {
+    Section s{"work-precision", "Error and cost"};
+    WorkPrecision w = work_precision_of(r);
+    if (w.errors.empty() || w.costs.empty()) return s;
+    w.goals = goals_of(r, headline_of(r));
+    const auto problems = distinct(r.cells, "problem");
+    Chart c{"error against cost of each scheme at each rate", "", false, problem_menu(problems), {}};
+    c.menus.push_back(axis_menu("error", "error_field", w.errors));
+    c.menus.push_back(axis_menu("cost", "cost_field", w.costs));
+    if (const auto series = drawn_series(r.cells); series.size() > 1) {
+        Menu m{"bring out", "brought_out", {{"\"\"", "every scheme"}}};
+        for (const std::string& name : series) m.choices.emplace_back(json_text(name), name);
+        c.menus.push_back(std::move(m));
+    }
+    w.medium = Medium::page;
+    c.spec = work_precision_spec(w);
+    w.medium = Medium::print;
+    const std::string title = w.title;
+    for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k) {
+        w.cells = rows_where(r.cells, "problem", problems[k]);
+        w.errors = error_axes(w.cells, {""}, headline_of(r));
+        if (problems.size() > 1) w.title = problems[k] + ": error and cost";
+        if (!w.errors.empty()) c.twins.push_back({twin_file("work_precision", problems[k], problems.size()), work_precision_spec(w)});
+    }
+    s.charts.push_back(std::move(c));
+    s.notes = {
+        "Down is more accurate, left is cheaper. The grey track is the Pareto front; crosses at the upper edge are runs that failed. "
+        "Numbers at the points are rates: \u00d71 is the lowest. Dotted lines are accuracies, with the cheapest that gets there."};
+    if (!w.bands.empty())
+        s.notes.emplace_back(
+            "What lies in a grey band is a tie (the reference's own sensitivity), in a blue one below what the reference is certain to.");
+    return s;
+}
+
+Section cell_section(const Results& r) {
+    Section s{"cells", "Cells", {"Each run, failures and refusals too."}};
+    if (r.cells.column("pareto") >= 0) s.notes[0] += " Marked rows are on the Pareto front.";
+    std::vector<std::string> columns;  // that say something
+    for (std::size_t k = 0; k < r.cells.columns.size(); ++k)
+        if (r.cells.columns[k] != "problem" && r.cells.columns[k] != "series" &&
+            std::any_of(r.cells.rows.begin(), r.cells.rows.end(), [k](const auto& row) { return !row[k].empty(); }))
+            columns.push_back(r.cells.columns[k]);
+    s.table = r.cells.only(columns);
+    const int from = s.table.column("scene"), to = s.table.column("scheme");
+    if (from >= 0) s.first_columns.assign(s.table.columns.begin() + from, s.table.columns.begin() + to);
+    for (const char* name : {"scheme", "options", "rate", "modes", "status", "error_l2_10ms", "error_l2_50ms", "error_l2_whole",
+                             "horizon_s", "third_octave_db", "stft_db", "cost_s_per_s", "times_real_time", "ns_per_step",
+                             "energy_residual_accumulated", "smallest_contact_force", "deepest_penetration", "reason"})
+        if (s.table.column(name) >= 0) s.first_columns.emplace_back(name);
+    if (s.table.rows.empty()) s.table = {};
+    return s;
+}
+
+}  // namespace jvari

@@ -1,0 +1,128 @@
+#include "bench/report/results.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/store/cell_rows.hpp"
+#include "bench/store/console.hpp"
+#include "bench/store/fresh_file.hpp"
+
+namespace jvari {
+
+namespace fs = std::filesystem;
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+Table read_table(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) return {};
+    try {
+        return read_csv(read_whole(path));
+    } catch (const UsageError&) {
+        throw;
+    } catch (const std::runtime_error& e) {
+        throw UsageError(fmt::format("{}: {}", path.string(), e.what()));
+    }
+}
+
+std::string problem_of(const Table& t, std::size_t row, const std::vector<std::string>& keys, const std::string& scene) {
+    std::string problem = t.column("scene") < 0 ? scene : t.at(row, "scene");
+    for (const std::string& key : keys)
+        if (key != "map" && !t.at(row, key).empty()) problem += fmt::format(", {} = {}", key, t.at(row, key));
+    return problem;
+}
+
+void name_rows(Table& t, const std::string& scene) {
+    const auto keys = swept_keys(t);
+    std::vector<std::string> problems, names;
+    std::map<std::string, std::set<std::string>> modes;  // of a scheme on a problem at a rate
+    const auto place = [&](std::size_t i) { return problems[i] + "|" + names[i] + "|" + t.at(i, "rate"); };
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        const std::string& options = t.at(i, "options");
+        problems.push_back(problem_of(t, i, keys, scene));
+        names.push_back(t.at(i, "scheme") + (options.empty() ? "" : " " + options));
+        modes[place(i)].insert(t.at(i, "modes"));
+    }
+    std::set<std::string> several;  // schemes with more than one number of modes at a rate
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (t.column("rate") >= 0 && modes[place(i)].size() > 1) several.insert(names[i]);
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        const std::string series = names[i] + (several.contains(names[i]) ? fmt::format(", {} modes", t.at(i, "modes")) : "");
+        t.rows[i].insert(t.rows[i].begin(), {problems[i], series});
+    }
+    t.columns.insert(t.columns.begin(), {"problem", "series"});
+}
+
+void read_manifest(Results& r) {
+    const fs::path path = r.folder / "manifest.json";
+    r.manifest = read_whole(path);
+    try {
+        const Json m = Json::parse(r.manifest);
+        r.about = m.value("date", "");
+        if (!m.contains("scene")) {  // of a suite
+            r.name = m.value("suite", "");
+            r.source = m.value("source", "");
+            return;
+        }
+        const Json &scene = m.at("scene"), &headline = m.at("headline");
+        r.name = scene.at("name");
+        r.source = scene.at("source");
+        r.headline = headline.at("error");
+        r.about = fmt::format("against {}, {} s; nut tap {}, bridge tap {}; {}", m.at("reference").at("name").get<std::string>(),
+                              scene.at("duration").get<double>(), headline.at("nut").get<std::string>(),
+                              headline.at("bridge").get<std::string>(), r.about);
+        for (const Json& tap : scene.at("taps")) r.taps.push_back(tap.at("name"));
+        for (const auto& [name, value] : m.at("noise_floor").items())
+            if (value.is_number()) r.floors.emplace_back(name, value.get<double>());
+    } catch (const Json::exception& e) {
+        throw UsageError(fmt::format("{}: {}", path.string(), e.what()));
+    }
+}
+}  // namespace
+
+Results read_results(const fs::path& folder) {
+    Results r;
+    r.folder = folder;
+    std::error_code error;
+    if (!fs::is_regular_file(folder / "cells.csv", error) && !fs::is_regular_file(folder / "maps.csv", error))
+        throw UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
+    read_manifest(r);
+    const std::pair<const char*, Table*> files[] = {{"cells.csv", &r.cells},
+                                                    {"dispersion.csv", &r.dispersion},
+                                                    {"convergence.csv", &r.convergence},
+                                                    {"scaling.csv", &r.scaling},
+                                                    {"maps.csv", &r.maps},
+                                                    {"boundaries.csv", &r.boundaries},
+                                                    {"sounds.csv", &r.sounds}};
+    for (const auto& [name, table] : files) {
+        *table = read_table(folder / name);
+        if (!table->columns.empty()) name_rows(*table, r.name);
+    }
+    return r;
+}
+
+std::vector<std::string> distinct(const Table& t, const std::string& column) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (std::find(texts.begin(), texts.end(), t.at(i, column)) == texts.end()) texts.push_back(t.at(i, column));
+    return texts;
+}
+
+std::string file_part(const std::string& text) {
+    std::string part;
+    for (const char c : text) {
+        const bool kept = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
+        if (kept) part += c;
+        else if (!part.empty() && part.back() != '-') part += '-';
+    }
+    while (!part.empty() && part.back() == '-') part.pop_back();
+    return part.substr(0, 100);
+}
+
+}  // namespace jvari

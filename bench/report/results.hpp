@@ -1,0 +1,32 @@
+// What lies in a folder of compare or of suite: the tables of results, read for its report.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/store/records.hpp"
+
+namespace jvari {
+
+struct Results {
+    std::filesystem::path folder;
+    std::string manifest;  // JSON
+    std::string name, source, about;
+    std::vector<std::string> taps;                       // of compare's scene
+    std::string headline;                                // error column
+    std::vector<std::pair<std::string, double>> floors;  // noise floor of an error column, where the manifest holds them
+    // Empty where the file is absent. Each row has the columns `problem` and `series` in front (below).
+    Table cells, dispersion, convergence, scaling, maps, boundaries, sounds;
+};
+
+// Throws UsageError where there is no manifest.json, neither cells.csv nor maps.csv, or one of the files cannot be read.
+Results read_results(const std::filesystem::path&);
+
+// A problem is a scene at one point of what is swept; runs of different problems are not compared. A series is a scheme with its options,
+// and with its modes where the table has it with several at one rate.
+std::vector<std::string> distinct(const Table&, const std::string& column);  // its texts, in the order in which they first come up
+std::string file_part(const std::string& text);                              // fit to stand in a file's name
+
+}  // namespace jvari

@@ -1,0 +1,32 @@
+// Files appear whole or not at all: written beside their place, then renamed onto it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bench/store/interruption.hpp"
+
+namespace jvari {
+
+class FreshFile {
+public:
+    explicit FreshFile(std::filesystem::path);  // throws UsageError where it could not be written
+    ~FreshFile();                               // removes what was written where it was not kept
+    FreshFile(const FreshFile&) = delete;
+    FreshFile& operator=(const FreshFile&) = delete;
+    const std::filesystem::path& path() const { return beside_; }  // write here
+    void keep();                                                   // flushes to the disk and renames
+
+private:
+    Undisturbed writing_;  // an interruption leaves no part behind
+    std::filesystem::path path_, beside_;
+    bool kept_ = false;
+};
+
+void write_fresh(const std::filesystem::path&, const std::string& content);
+std::string read_whole(const std::filesystem::path&);  // throws UsageError
+
+// Throws UsageError where no file could be written there, before an hour of work is spent on it.
+void must_be_writable(const std::filesystem::path&);
+
+}  // namespace jvari

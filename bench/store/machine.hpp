@@ -1,0 +1,23 @@
+// What a result depends on beside its scene: the program, its compiler and the machine.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace jvari {
+
+struct Machine {
+    std::string version, commit;         // commit: git describe when built, "unknown" outside git
+    std::string compiler, flags, build;  // build: CMake's build type
+    std::string cpu, system;
+    int cores;
+};
+const Machine& machine();
+
+// JSON: version, commit, build type, plugins by their contents.
+std::string program_identity(const std::vector<std::string>& plugins);
+
+std::string made_by();  // all of it and the date as a JSON object: what a manifest begins with
+std::string now_utc();  // "2016-05-04T12:00:00Z"
+
+}  // namespace jvari

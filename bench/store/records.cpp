@@ -1,0 +1,123 @@
+#include "bench/store/records.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+namespace jvari {
+
+std::string text_of(double x) {
+    if (std::isnan(x)) return "";
+    return fmt::format("{}", x);
+}
+
+double number_of(const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && stop == end ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string options_text(const Options& options) {
+    std::string text;
+    for (const auto& [name, value] : options) text += (text.empty() ? "" : " ") + name + "=" + value;
+    return text;
+}
+
+std::string hash_of(const std::string& text) {
+    std::uint64_t h = 0xcbf29ce484222325;
+    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3;
+    return fmt::format("{:016x}", h);
+}
+
+int Table::column(const std::string& name) const {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
+}
+
+const std::string& Table::at(std::size_t row, const std::string& name) const {
+    static const std::string nothing;
+    const int k = column(name);
+    return k < 0 ? nothing : rows.at(row).at(k);
+}
+
+Table Table::only(const std::vector<std::string>& names) const {
+    Table part;
+    std::vector<int> from;
+    for (const std::string& name : names)
+        if (const int k = column(name); k >= 0) {
+            part.columns.push_back(name);
+            from.push_back(k);
+        }
+    for (const auto& row : rows) {
+        part.rows.emplace_back();
+        for (int k : from) part.rows.back().push_back(row.at(k));
+    }
+    return part;
+}
+
+std::string quoted(const std::string& field) {
+    if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+    std::string text = "\"";
+    for (char c : field) text += c == '"' ? "\"\"" : std::string(1, c);
+    return text + '"';
+}
+
+std::string csv(const Table& table) {
+    std::string text;
+    const auto line = [&text](const std::vector<std::string>& fields) {
+        for (std::size_t k = 0; k < fields.size(); ++k) text += (k ? "," : "") + quoted(fields[k]);
+        text += '\n';
+    };
+    line(table.columns);
+    for (const auto& row : table.rows) line(row);
+    return text;
+}
+
+Table read_csv(const std::string& text) {
+    Table table;
+    std::vector<std::string> fields{""};
+    bool inside = false, begun = false;
+    int line = 1;
+    const auto end_row = [&] {
+        if (!begun) return;  // an empty line
+        if (table.columns.empty()) {
+            table.columns = fields;
+        } else if (fields.size() != table.columns.size()) {
+            throw std::runtime_error(fmt::format("line {}: found {} fields, expected {}", line, fields.size(), table.columns.size()));
+        } else {
+            table.rows.push_back(fields);
+        }
+        fields.assign(1, "");
+        begun = false;
+    };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (inside) {
+            if (c != '"') fields.back() += c;
+            else if (i + 1 < text.size() && text[i + 1] == '"') fields.back() += text[++i];
+            else inside = false;
+        } else if (c == '"') {
+            inside = begun = true;
+        } else if (c == ',') {
+            fields.emplace_back();
+            begun = true;
+        } else if (c == '\n') {
+            end_row();
+            ++line;
+        } else if (c != '\r') {
+            fields.back() += c;
+            begun = true;
+        }
+    }
+    if (inside) throw std::runtime_error(fmt::format("line {}: a quotation mark is not closed", line));
+    end_row();
+    return table;
+}
+
+}  // namespace jvari

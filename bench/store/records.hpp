@@ -1,0 +1,34 @@
+// Results are rows: a table of text with named columns, and CSV (RFC 4180) to and fro.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace jvari {
+
+// A number as the shortest text that reads back as itself; "" for NaN, "inf" for an infinity.
+std::string text_of(double);
+double number_of(const std::string&);  // NaN for "" and for what is no number
+
+std::string hash_of(const std::string&);  // 16 hexadecimal digits (FNV-1a)
+
+using Options = std::vector<std::pair<std::string, std::string>>;  // of a scheme: name, value
+std::string options_text(const Options&);                          // "control=none tolerance=1e-9"
+
+struct Table {
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::string>> rows;
+
+    int column(const std::string& name) const;                              // -1: absent
+    const std::string& at(std::size_t row, const std::string& name) const;  // "" where the column is absent
+    double number(std::size_t row, const std::string& name) const { return number_of(at(row, name)); }
+    Table only(const std::vector<std::string>& names) const;  // those columns, in that order; absent ones are left out
+};
+
+std::string quoted(const std::string& field);  // as CSV writes it
+std::string rows_json(const Table& cells);     // JSON: one object per row, numbers as numbers
+std::string csv(const Table&);
+Table read_csv(const std::string& text);  // throws std::runtime_error with the line where a row has too few or too many fields
+
+}  // namespace jvari

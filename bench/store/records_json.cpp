@@ -1,0 +1,35 @@
+#include <nlohmann/json.hpp>
+
+#include "bench/store/records.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Table& table) {
+    Json rows = Json::array();
+    for (const auto& row : table.rows) {
+        Json j = Json::object();
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            const std::string& name = table.columns[k];
+            if (name == "scheme" || name == "status" || name == "reason" || name == "flags" || name == "below_floor" || name == "cell" ||
+                name == "scene" || name == "options" || name == "reference" || name == "measure" || name == "ties")
+                j[name] = row[k];
+            else if (name == "pareto") j[name] = row[k] == "1";
+            else if (row[k].find_first_not_of("0123456789") == std::string::npos && !row[k].empty() && row[k].size() < 18)
+                j[name] = std::stol(row[k]);
+            else j[name] = number_of(row[k]);  // "" and infinities become null
+        }
+        rows.push_back(std::move(j));
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::string rows_json(const Table& cells) {
+    return json_of(cells).dump();
+}
+
+}  // namespace jvari

@@ -1,0 +1,65 @@
+#include "bench/store/trace_hdf5.hpp"
+
+#include <hdf5.h>
+
+#include "bench/store/console.hpp"
+#include "bench/store/records.hpp"
+
+namespace jvari {
+
+namespace {
+struct Handle {  // closes what was opened; every id is checked once, here
+    Handle(hid_t i, herr_t (*c)(hid_t)) : id(i), close(c) {
+        if (id < 0) throw UsageError("cannot write the HDF5 file");
+    }
+    ~Handle() { close(id); }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    hid_t id;
+    herr_t (*close)(hid_t);
+};
+
+void must(herr_t status) {
+    if (status < 0) throw UsageError("cannot write the HDF5 file");
+}
+
+void attribute(hid_t at, const std::string& name, const std::string& text) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
+    must(H5Tset_size(type.id, text.empty() ? 1 : text.size()));
+    must(H5Tset_cset(type.id, H5T_CSET_UTF8));
+    Handle a(H5Acreate2(at, name.c_str(), type.id, space.id, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    must(H5Awrite(a.id, type.id, text.c_str()));
+}
+
+void attribute(hid_t at, const std::string& name, double value) {
+    Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    Handle a(H5Acreate2(at, name.c_str(), H5T_IEEE_F64LE, space.id, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    must(H5Awrite(a.id, H5T_NATIVE_DOUBLE, &value));
+}
+
+void dataset(hid_t file, const std::string& name, std::span<const double> values, const std::string& unit) {
+    const hsize_t size = values.size();
+    Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    must(H5Pset_create_intermediate_group(links.id, 1));  // a tap may be named "left/nut"
+    Handle set(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space.id, links.id, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+    must(H5Dwrite(set.id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    attribute(set.id, "unit", unit);
+}
+}  // namespace
+
+void write_hdf5(const std::filesystem::path& path, const std::vector<std::pair<std::string, std::string>>& attributes, const Scene& scene,
+                const Trace& trace) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // messages are ours
+    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    attribute(file.id, "tap_rate", trace.tap_rate);
+    for (const auto& [name, text] : attributes) {
+        const double number = number_of(text);
+        if (number == number) attribute(file.id, name, number);
+        else attribute(file.id, name, text);
+    }
+    for (int k = 0; k < trace.taps(); ++k) dataset(file.id, trace.names[k], trace.column(k), unit_of(scene.taps[k].quantity));
+    constexpr const char* names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
+    for (int k = 0; k < 3 && !trace.energy.empty(); ++k) dataset(file.id, names[k], trace.energy_column(k), "J");
+}
+
+}  // namespace jvari

@@ -1,0 +1,134 @@
+#include "bench/suite/figure_facets.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/spectrum.hpp"
+#include "bench/store/console.hpp"
+#include "bench/suite/figure_rows.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr const char* profile_tap = "profile_";
+
+std::string short_text(double x) {
+    return std::isfinite(x) ? fmt::format("{:.8g}", x) : "";
+}
+
+std::span<const double> column_of(const MeasuredCell& m, const std::string& tap) {
+    if (tap == "energy") return m.trace.energy.empty() ? std::span<const double>() : m.trace.energy_column(0);
+    const auto name = std::find(m.trace.names.begin(), m.trace.names.end(), tap);
+    return m.trace.column(static_cast<int>(name - m.trace.names.begin()));
+}
+
+double position_of(const ProfileRows& p, int i) {
+    return p.positions == 1 ? p.from : p.from + (p.to - p.from) * i / (p.positions - 1);
+}
+}  // namespace
+
+Scene with_figure_taps(Scene scene, const FigureFacets& f) {
+    scene.taps.insert(scene.taps.end(), f.taps.begin(), f.taps.end());
+    std::vector<std::string> names{"energy"};
+    for (const Tap& t : scene.taps) names.push_back(t.name);
+    const auto must_be_there = [&names](const auto& facet, const char* key) {
+        if (!facet) return;
+        for (const std::string& tap : facet->taps)
+            if (std::find(names.begin(), names.end(), tap) == names.end())
+                throw UsageError(std::string(key) + ": " + unknown("tap", tap, names));
+    };
+    must_be_there(f.trace, "trace");
+    must_be_there(f.extent, "extent");
+    must_be_there(f.envelope, "envelope");
+    must_be_there(f.centroid, "centroid");
+    if (f.profile)
+        for (int i = 0; i < f.profile->positions; ++i)
+            scene.taps.push_back({fmt::format("{}{}", profile_tap, i), Quantity::displacement, 0, position_of(*f.profile, i)});
+    validate(scene);
+    return scene;
+}
+
+Scene without_profile_taps(Scene scene) {
+    std::erase_if(scene.taps, [](const Tap& t) { return t.name.rfind(profile_tap, 0) == 0; });
+    return scene;
+}
+
+Table trace_rows(const MeasuredCell& m) {
+    Table t{{"tap", "window_s", "time_s", "value"}, {}};
+    const TraceRows& f = *m.set.figures.trace;
+    for (const std::string& tap : f.taps) {
+        const auto x = column_of(m, tap);
+        for (const auto& [from, to] : f.windows) {
+            const double rate = m.trace.tap_rate, last = std::min<double>(std::floor(to * rate + 1e-6), static_cast<double>(x.size()) - 1);
+            for (auto n = static_cast<long>(std::ceil(from * rate - 1e-6)); static_cast<double>(n) <= last; ++n)
+                t.rows.push_back({tap, short_text(from), short_text(static_cast<double>(n) / rate), short_text(x[n])});
+        }
+    }
+    return t;
+}
+
+Table extent_rows(const MeasuredCell& m) {
+    Table t{{"tap", "time_s", "low", "high"}, {}};
+    const ExtentRows& f = *m.set.figures.extent;
+    for (const std::string& tap : f.taps) {
+        const auto x = column_of(m, tap);
+        const double each = static_cast<double>(x.size()) / f.intervals;
+        for (int i = 0; i < f.intervals; ++i) {
+            const auto first = static_cast<std::size_t>(i * each), end = std::min(x.size(), static_cast<std::size_t>((i + 1) * each));
+            if (first >= end) continue;
+            const auto [low, high] = std::minmax_element(x.begin() + first, x.begin() + end);
+            t.rows.push_back({tap, short_text((i + 0.5) * each / m.trace.tap_rate), short_text(*low), short_text(*high)});
+        }
+    }
+    return t;
+}
+
+Table profile_rows(const MeasuredCell& m) {
+    Table t{{"time_s", "position_m", "displacement_m"}, {}};
+    const ProfileRows& f = *m.set.figures.profile;
+    const int first = m.trace.taps() - f.positions;
+    for (const double instant : f.instants) {
+        const long row = std::lround(instant * m.trace.tap_rate);
+        if (row >= m.trace.rows) continue;
+        for (int i = 0; i < f.positions; ++i)
+            t.rows.push_back({short_text(static_cast<double>(row) / m.trace.tap_rate), short_text(position_of(f, i)),
+                              short_text(m.trace.column(first + i)[row])});
+    }
+    return t;
+}
+
+Table envelope_rows(const MeasuredCell& m) {
+    Table t{{"tap", "frequency_hz", "level_db"}, {}};
+    const EnvelopeRows& f = *m.set.figures.envelope;
+    for (const std::string& tap : f.taps) {
+        const PowerSpectrum s = power_spectrum(column_of(m, tap), m.trace.tap_rate);
+        const auto envelope = spectral_envelope(s, f.width_hz);
+        for (int i = 1; i <= f.points; ++i) {
+            const double frequency = f.to_hz * i / f.points;
+            const auto bin = static_cast<std::size_t>(std::lround(frequency / s.bin_hz));
+            if (bin < envelope.size()) t.rows.push_back({tap, short_text(frequency), short_text(envelope[bin])});
+        }
+    }
+    return t;
+}
+
+Table centroid_rows(const MeasuredCell& m) {
+    Table t{{"tap", "time_s", "centroid_hz"}, {}};
+    const CentroidRows& f = *m.set.figures.centroid;
+    for (const std::string& tap : f.taps) {
+        const int window = std::max(2, static_cast<int>(std::lround(f.window * m.trace.tap_rate)));
+        const int hop = std::max(1, static_cast<int>(std::lround(f.hop * m.trace.tap_rate)));
+        const Spectrogram s = spectrogram(column_of(m, tap), m.trace.tap_rate, window, hop);
+        for (int i = 0; i < s.frames; ++i) {
+            double power = 0, moment = 0;
+            for (int k = 0; k < s.bins; ++k)
+                if (k * s.bin_hz >= f.from_hz) power += s.frame(i)[k], moment += k * s.bin_hz * s.frame(i)[k];
+            t.rows.push_back({tap, short_text(s.centre + i * s.hop), short_text(power > 0 ? moment / power : NAN)});
+        }
+    }
+    return t;
+}
+
+}  // namespace jvari

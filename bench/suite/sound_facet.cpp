@@ -1,0 +1,88 @@
+// The row facet `sound`: one row per cell, its samples and its reference's as base64 of 16 bit, which become files when all cells are
+// there.
+#include "bench/suite/sound_facet.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <deque>
+#include <map>
+
+#include "bench/compare/errors.hpp"
+#include "bench/store/base64.hpp"
+#include "bench/store/sound.hpp"
+
+namespace jvari {
+
+namespace {
+std::string text_of_samples(const Sound& s) {  // least significant byte first, as in a .wav
+    std::string bytes;
+    for (const std::int16_t v : s.samples) {
+        bytes += static_cast<char>(v & 255);
+        bytes += static_cast<char>(v >> 8 & 255);
+    }
+    return base64(bytes);
+}
+
+std::vector<std::int16_t> samples_of(const std::string& text) {
+    const std::string bytes = bytes_of_base64(text);
+    std::vector<std::int16_t> samples;
+    for (std::size_t n = 0; n + 1 < bytes.size(); n += 2)
+        samples.push_back(static_cast<std::int16_t>(static_cast<unsigned char>(bytes[n]) | static_cast<unsigned char>(bytes[n + 1]) << 8));
+    return samples;
+}
+
+std::string digest(const std::string& text) {  // FNV-1a
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return fmt::format("{:016x}", hash);
+}
+}  // namespace
+
+Table sound_rows(const MeasuredCell& c) {
+    Table t{{"tap", "quantity", "sample_rate", "peak", "samples", "reference_peak", "reference_samples"}, {}};
+    const int tap = headline_of(c.scene).nut;
+    const auto whole = static_cast<std::size_t>(c.scene.duration * c.trace.tap_rate);
+    if (c.trace.column(tap).size() < whole) return t;  // it failed on its way
+    const Sound own = sound_of(c.trace.column(tap), c.trace.tap_rate);
+    if (own.samples.empty()) return t;
+    const Sound reference = c.reference ? sound_of(c.reference->column(tap), c.reference->tap_rate) : Sound{};
+    t.rows.push_back({c.scene.taps.at(tap).name, name_of(c.scene.taps.at(tap).quantity), text_of(own.rate), text_of(own.peak),
+                      text_of_samples(own), text_of(reference.peak), text_of_samples(reference)});
+    return t;
+}
+
+void write_sound_rows(const std::filesystem::path& folder, const Table& g) {
+    const std::vector<std::string> who(g.columns.begin(), g.columns.begin() + g.column("tap"));
+    std::deque<Sound> sounds;
+    std::map<std::string, std::string> references;  // samples, file: cells of one reference share it
+    std::vector<NamedSound> named;
+    for (std::size_t i = 0; i < g.rows.size(); ++i) {
+        const auto keep = [&](const char* peak, const char* samples) {
+            return &sounds.emplace_back(Sound{g.number(i, "sample_rate"), g.number(i, peak), samples_of(g.at(i, samples))});
+        };
+        NamedSound own{{g.rows[i].begin(), g.rows[i].begin() + static_cast<long>(who.size())},
+                       g.at(i, "cell"),
+                       g.at(i, "tap"),
+                       g.at(i, "quantity"),
+                       keep("peak", "samples"),
+                       ""};
+        if (const std::string& truth = g.at(i, "reference_samples"); !truth.empty()) {
+            std::string& file = references[truth + g.at(i, "reference_peak")];
+            if (file.empty()) {
+                file = "reference-" + digest(truth + g.at(i, "reference_peak"));
+                NamedSound reference{own.who, file, own.tap, own.quantity, keep("reference_peak", "reference_samples"), ""};
+                for (const char* column : {"cell", "options", "rate"})
+                    if (const int k = g.column(column); k >= 0) reference.who[static_cast<std::size_t>(k)].clear();
+                reference.who[static_cast<std::size_t>(g.column("scheme"))] = "reference";
+                named.push_back(std::move(reference));
+            }
+            own.reference = file;
+        }
+        named.push_back(std::move(own));
+    }
+    if (!named.empty()) write_sounds(folder, who, named);
+}
+
+}  // namespace jvari

@@ -1,0 +1,11 @@
+// The row facet `sound` of a suite: a cell's samples and its reference's lie in its record, and become sounds/*.wav and sounds.csv.
+#pragma once
+
+#include "bench/suite/row_facet.hpp"
+
+namespace jvari {
+
+Table sound_rows(const MeasuredCell&);
+void write_sound_rows(const std::filesystem::path& folder, const Table& gathered);
+
+}  // namespace jvari

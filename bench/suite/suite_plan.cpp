@@ -1,0 +1,110 @@
+#include "bench/suite/suite_plan.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/machine.hpp"
+#include "bench/store/records.hpp"
+#include "bench/suite/row_facet.hpp"
+#include "bench/trust/certificate_library.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+Json settings_json(const Settings& s) {
+    Json options = Json::array();
+    for (const auto& [name, value] : s.options) options.push_back({name, value});
+    return {{"rate", text_of(s.sample_rate)}, {"tap_rate", text_of(s.tap_rate)}, {"modes", s.modes}, {"options", options}};
+}
+
+int tap_of(const CellSet& set, const Scene& scene) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < scene.taps.size(); ++k) {
+        if (set.tap.empty() || scene.taps[k].name == set.tap) return static_cast<int>(k);
+        names.push_back(scene.taps[k].name);
+    }
+    throw UsageError(unknown("tap", set.tap, names));
+}
+
+// What one scene of the file is; messages of compare's planner come with its name.
+Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& into) {
+    const CompareRequest& r = point.request;
+    const std::string where = "scene " + r.scene + ": ";
+    into.scene = load_scene(r.scene, r.set, r.duration);
+    into.element = point.element;
+    try {
+        if (point.element) into.scene = without(*point.element, std::move(into.scene));
+        into.scene = with_figure_taps(into.scene, point.set->figures);
+        into.tap = tap_of(*point.set, into.scene);
+        return plan_of(r, catalogue, into.scene);
+    } catch (const UsageError& e) {
+        throw UsageError(where + e.what());
+    } catch (const Refusal& e) {
+        throw Refusal(where + e.what());
+    }
+}
+
+bool makes_rows(const CellSet& set) {
+    return std::ranges::any_of(row_facets(), [&set](const RowFacet& f) { return set.measures(f.facet); });
+}
+}  // namespace
+
+SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vector<std::string>& plugins) {
+    const Json program = Json::parse(program_identity(plugins));
+    SuitePlan all;
+    std::set<std::string> seen;
+    for (const SuitePoint& point : points_of(suite)) {
+        PlannedPoint& p = all.points.emplace_back();
+        const Plan plan = planned(point, catalogue, p);
+        for (const std::string& assignment : point.request.set) {
+            const auto equals = assignment.find('=');
+            p.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
+        }
+        if (p.element) p.swept.emplace_back("element", change_of(*p.element));
+        p.references = plan.references;
+        const std::string hash = scene_hash(p.scene);
+        Json references = Json::array(), measure = Json::array();
+        for (const ReferenceChoice& c : plan.references)
+            references.push_back({{"name", c.scheme->name}, {"settings", settings_json(c.settings)}});
+        p.reference_key = hash + references.dump();
+        for (const Facet f : facets())
+            if (point.set->measures(f)) measure.push_back(name_of(f));
+        for (const Cell& cell : plan.cells) {
+            Json identity{{"program", program},
+                          {"scene", p.scene.name},
+                          {"scene_hash", hash},
+                          {"scheme", cell.scheme->name},
+                          {"settings", settings_json(cell.settings)},
+                          {"measure", measure}};
+            if (point.set->measures(Facet::errors)) identity["references"] = references;
+            if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
+            if (point.set->measures(Facet::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
+            if (!point.set->figures.identity.empty()) identity["figures"] = point.set->figures.identity;
+            if (p.element == Element::probe) identity["probe"] = true;
+            if (point.set->time_limit) identity["time_limit_s"] = *point.set->time_limit;
+            PlannedCell planned_cell{point.set, &p, cell, identity.dump(), {}};
+            if (!seen.insert(planned_cell.identity).second) continue;
+            planned_cell.id = hash_of(planned_cell.identity);
+            all.cells.push_back(std::move(planned_cell));
+        }
+    }
+    return all;
+}
+
+std::vector<Rows> sets_of(const SuitePlan& plan) {
+    std::map<const CellSet*, Rows> sets;  // in the order of the file: they lie in one vector
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) sets[plan.cells[i].set].push_back(i);
+    std::vector<Rows> all;
+    for (auto& [set, cells] : sets) all.push_back(std::move(cells));
+    return all;
+}
+
+}  // namespace jvari

@@ -1,0 +1,42 @@
+// A suite spread out to its cells: each a scheme at its settings on one scene, and what addresses its result.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/compare/compare_plan.hpp"
+#include "bench/store/cell_rows.hpp"
+#include "bench/suite/suite_file.hpp"
+
+namespace jvari {
+
+struct PlannedPoint {  // one scene at one point of the sweep, and who is its reference
+    Scene scene;
+    std::vector<std::pair<std::string, std::string>> swept;  // key, value; the last may be "element", "-thread"
+    std::optional<Element> element;                          // that the scene is without; the probe: that is on while it is timed
+    std::vector<ReferenceChoice> references;
+    std::string reference_key;  // points that share it share the reference's run
+    int tap = 0;                // of the spectrogram
+};
+
+struct PlannedCell {
+    const CellSet* set;
+    const PlannedPoint* point;
+    Cell cell;
+    std::string identity;  // JSON: the scene's hash, the scheme, the settings, the program, what is measured
+    std::string id;        // 16 hexadecimal digits (FNV-1a) of it
+};
+
+struct SuitePlan {
+    std::deque<PlannedPoint> points;  // does not move what it holds
+    std::vector<PlannedCell> cells;   // each identity once, in the order of the file
+};
+
+// `plugins` are files whose contents count as part of the program. Throws UsageError, SceneFileError, BadScene, Refusal.
+SuitePlan plan_of(const Suite&, const Catalogue&, const std::vector<std::string>& plugins);
+
+std::vector<Rows> sets_of(const SuitePlan&);  // indices of cells by the set they are of
+
+}  // namespace jvari

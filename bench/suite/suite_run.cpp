@@ -1,0 +1,166 @@
+#include "bench/suite/suite_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <ctime>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "bench/compare/cost.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/side_by_side.hpp"
+#include "bench/suite/row_facet.hpp"
+
+namespace jvari {
+
+namespace {
+struct PastItsLimit {};
+
+double processor_seconds() {  // of this thread: a limit that does not depend on what else the machine does
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+struct Truth {  // the run of a reference, made by the first cell that needs it, gone with the last
+    std::once_flag once;
+    std::unique_ptr<Reference> reference;
+    Errors floor;
+    std::string refused;
+    std::atomic<int> needed_by = 0;
+
+    void make(const PlannedPoint& p) {
+        std::call_once(once, [&] {
+            try {
+                reference = std::make_unique<Reference>(run_reference(p.references, p.scene, 1, Console(false, true)));
+                floor = errors_of(reference->moved.trace, reference->run.trace);
+            } catch (const std::exception& e) {
+                refused = e.what();
+            }
+        });
+    }
+};
+
+class Accuracy {  // the cells to run
+public:
+    Accuracy(const SuitePlan& plan, std::vector<std::size_t> missing, std::filesystem::path folder, SuiteRun& into)
+        : plan_(plan), todo_(std::move(missing)), folder_(std::move(folder)), into_(into) {
+        for (const std::size_t i : todo_)
+            if (plan_.cells[i].set->measures(Facet::errors)) {
+                auto& truth = truths_[plan_.cells[i].point->reference_key];
+                if (!truth) truth = std::make_unique<Truth>();
+                ++truth->needed_by;
+            }
+    }
+
+    void run(int jobs, const Console& console) {
+        std::vector<double> sizes;
+        for (const std::size_t i : todo_)
+            sizes.push_back(std::max(plan_.cells[i].cell.settings.sample_rate, 44100.0) * plan_.cells[i].point->scene.duration);
+        side_by_side(sizes, jobs, console, "cells", [this](std::size_t k, Done& done) {
+            const PlannedCell& planned = plan_.cells[todo_[k]];
+            SuiteRecord& record = into_.records[todo_[k]];
+            record = cell(planned, done);
+            if (!folder_.empty()) write_fresh(folder_ / (planned.id + ".json"), json_of(record, planned.identity));
+        });
+    }
+
+private:
+    SuiteRecord cell(const PlannedCell& planned, Done& fraction) {
+        Truth* truth = nullptr;
+        if (planned.set->measures(Facet::errors)) {
+            truth = truths_.at(planned.point->reference_key).get();
+            truth->make(*planned.point);
+        }
+        const bool known = truth && truth->reference;
+        Cell cell = planned.cell;
+        Trace trace;
+        std::string status;
+        const double start = processor_seconds(), limit = planned.set->time_limit.value_or(HUGE_VAL);
+        try {
+            trace = measure(cell, planned.point->scene, known ? &truth->reference->run.trace : nullptr, [&](long done, long rows) {
+                fraction.store(static_cast<double>(done) / static_cast<double>(rows), std::memory_order_relaxed);
+                if (processor_seconds() - start > limit) throw PastItsLimit{};
+            });
+        } catch (const Refusal& e) {
+            status = "refused";
+            cell.reason = e.what();
+        } catch (const PastItsLimit&) {
+            status = "past_time_limit";
+            cell.reason = fmt::format("past its time limit of {} s", limit);
+        } catch (const std::exception& e) {
+            status = "error";
+            cell.reason = e.what();
+        }
+        cell.refused = !status.empty();
+        if (truth && !known) cell.reason += (cell.reason.empty() ? "" : "; ") + truth->refused;
+        SuiteRecord record = record_of(planned, cell, known ? truth->floor : Errors{}, known ? truth->reference->trust : Trust{});
+        if (!status.empty()) record.row.rows[0][record.row.column("status")] = status;
+        if (known) record.reference = truth->reference->choice.name();
+        if (planned.set->measures(Facet::spectrogram) && !cell.refused)
+            record.levels = levels_of(trace.column(planned.point->tap), trace.tap_rate);
+        for (const RowFacet& f : row_facets())
+            if (planned.set->measures(f.facet) && !cell.refused)
+                record.rows[f.facet] = f.rows({planned.point->scene, *cell.scheme, cell.settings, trace,
+                                               known ? &truth->reference->run.trace : nullptr, planned.point->tap, *planned.set});
+        if (truth && --truth->needed_by == 0) truth->reference.reset();
+        return record;
+    }
+
+    const SuitePlan& plan_;
+    const std::vector<std::size_t> todo_;
+    const std::filesystem::path folder_;
+    SuiteRun& into_;
+    std::map<std::string, std::unique_ptr<Truth>> truths_;
+};
+
+// Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.
+void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, SuiteRun& into, const Console& console) {
+    for (Rows indices : sets_of(plan)) {
+        const CellSet& set = *plan.cells[indices.front()].set;
+        std::erase_if(indices, [&into](std::size_t i) { return !into.records[i].ran || into.records[i].timed; });
+        if (!set.measures(Facet::cost) || indices.empty()) continue;
+        std::vector<Cell> cells;
+        for (const std::size_t i : indices) {
+            cells.push_back(plan.cells[i].cell);
+            cells.back().summary.wall_seconds = into.records[i].seconds;
+        }
+        std::vector<Contender> contenders;
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            const PlannedPoint& p = *plan.cells[indices[k]].point;
+            contenders.push_back({&cells[k], &p.scene, p.element == Element::probe});
+        }
+        time_cells(contenders, set.repeats, console);
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            const PlannedCell& planned = plan.cells[indices[k]];
+            SuiteRecord& record = into.records[indices[k]];
+            add_clock(record, planned, cells[k]);
+            if (!folder.empty()) write_fresh(folder / (planned.id + ".json"), json_of(record, planned.identity));
+            ++into.timed;
+        }
+    }
+}
+}  // namespace
+
+SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const Console& console) {
+    SuiteRun result;
+    result.records.resize(plan.cells.size());
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+        std::optional<SuiteRecord> kept;
+        if (resume && !folder.empty()) kept = read_record(folder / (plan.cells[i].id + ".json"), plan.cells[i].identity);
+        if (kept) result.records[i] = std::move(*kept);
+        else missing.push_back(i);
+    }
+    result.ran = static_cast<int>(missing.size());
+    result.read_back = static_cast<int>(plan.cells.size() - missing.size());
+    if (!missing.empty()) Accuracy(plan, std::move(missing), folder, result).run(jobs, console);
+    time_missing(plan, folder, result, console);
+    return result;
+}
+
+}  // namespace jvari

@@ -1,0 +1,163 @@
+#include "bench/trust/certificate_library.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace jvari {
+
+namespace fs = std::filesystem;
+
+namespace {
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double slack = 1e-6;  // of an instant [s]: less than a row
+
+// The instant at which a window of the comparison ends, NaN where the run is shorter.
+std::array<double, 3> window_ends(double until) {
+    return {10e-3 <= until + slack ? 10e-3 : nan, 50e-3 <= until + slack ? 50e-3 : nan, until};
+}
+
+// The shortest window that is no shorter than `end`, of a run that lasted `reached`; NaN where there is none.
+double covering(const Certificate::ByWindow& values, double end, double reached) {
+    if (std::isnan(end) || end > reached + slack) return nan;
+    if (end > reached - slack) return values.back();
+    for (std::size_t w = 0; w + 1 < values.size(); ++w)
+        if (end <= agreement_windows[w] + slack && agreement_windows[w] <= reached + slack) return values[w];
+    return values.back();
+}
+
+std::string name_of(const Certificate::Entry& e) {
+    return e.reference + (e.options.empty() ? "" : " " + options_text(e.options));
+}
+
+struct Evidence {
+    const Certificate::Entry* other;
+    const std::vector<Agreement>* taps;
+    double reached;
+};
+}  // namespace
+
+double Trust::at(std::size_t tap, std::size_t window) const {
+    return tap < figure.size() ? figure[tap][window] : nan;
+}
+
+bool Trust::any() const {
+    return std::any_of(figure.begin(), figure.end(),
+                       [](const auto& tap) { return std::any_of(tap.begin(), tap.end(), [](double x) { return !std::isnan(x); }); });
+}
+
+std::string file_stem(const std::string& scene_name) {
+    std::string stem;
+    for (const char c : scene_name) stem += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+    return stem.empty() ? "scene" : stem;
+}
+
+Trust trust_of(const KeptCertificate& kept, const std::string& reference, const Certificate::Options& options, double until) {
+    const Certificate& c = kept.certificate;
+    Trust t;
+    t.key = kept.key;
+    const auto mine = std::find_if(c.entries.begin(), c.entries.end(),
+                                   [&](const auto& e) { return e.reference == reference && e.options == options && e.reason.empty(); });
+    if (mine == c.entries.end()) {
+        t.missing = "the certificate of this scene has no " + reference + (options.empty() ? "" : " " + options_text(options));
+        return t;
+    }
+    std::vector<Evidence> independent, same;
+    for (const auto& p : c.pairs) {
+        const int index = static_cast<int>(mine - c.entries.begin());
+        if (p.first != index && p.second != index) continue;
+        const Certificate::Entry& other = c.entries[p.first == index ? p.second : p.first];
+        if (other.sample_rate > 0) continue;
+        (other.reference == reference ? same : independent).push_back({&other, &p.taps, std::min(mine->reached, other.reached)});
+    }
+    std::sort(independent.begin(), independent.end(), [](const Evidence& a, const Evidence& b) { return a.other < b.other; });  // authority
+
+    t.figure.assign(c.taps.size(), {nan, nan, nan});
+    const auto ends = window_ends(until);
+    std::vector<std::string> names;
+    const auto named = [&names](const Evidence& e) {
+        if (const std::string name = name_of(*e.other); std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    for (std::size_t k = 0; k < c.taps.size(); ++k)
+        for (std::size_t w = 0; w < ends.size(); ++w) {
+            const auto of = [&](const Evidence& e) { return covering((*e.taps)[k].relative_l2, ends[w], e.reached); };
+            double& figure = t.figure[k][w];
+            for (const Evidence& e : independent)
+                if (std::isnan(figure) && !std::isnan(of(e))) figure = of(e), named(e);
+            if (!std::isnan(figure)) continue;
+            for (const Evidence& e : same)
+                if (!std::isnan(of(e))) figure = std::fmax(figure, of(e)), named(e);
+        }
+    for (const std::string& name : names) t.against += (t.against.empty() ? "" : ", ") + name;
+    if (!t.any()) t.missing = fmt::format("the certificate of this scene has nothing for {} over {:.6g} s", reference, until);
+    return t;
+}
+
+std::vector<fs::path> certificate_folders() {
+    std::vector<fs::path> folders;
+    std::error_code error;
+    const char* set = std::getenv("JVARI_CERTIFICATES");
+    if (set && *set) return {set};
+    if (fs::is_directory("results/certificates", error)) folders.emplace_back("results/certificates");
+    for (const char* folder : {JVARI_SOURCE_CERTIFICATES, JVARI_INSTALLED_CERTIFICATES})
+        if (fs::is_directory(folder, error)) {
+            folders.emplace_back(folder);
+            break;
+        }
+    return folders;
+}
+
+Trust trust_of(const Scene& scene, const std::string& reference, const Settings& settings, double until) {
+    const std::string hash = timeless_hash(scene), stem = file_stem(scene.name);
+    const int modes = modes_for(scene.strings.at(0), settings);
+    Trust best;
+    best.missing = "no certificate of this scene at these settings";
+    std::error_code error;
+    for (const fs::path& folder : certificate_folders()) {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(folder, error))
+            if (const std::string name = entry.path().filename().string();
+                name.rfind(stem, 0) == 0 && entry.path().extension() == ".json" && entry.path().stem().extension() != ".cost")
+                files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        for (const fs::path& file : files) {
+            std::string why;
+            const auto kept = read_certificate(file, why);
+            if (!kept || kept->scene_hash != hash || kept->certificate.modes != modes || kept->certificate.tap_rate != settings.tap_rate)
+                continue;
+            Trust t = trust_of(*kept, reference, settings.options, until);
+            t.file = file.string();
+            const auto figures = [](const Trust& x) {
+                int n = 0;
+                for (const auto& tap : x.figure)
+                    for (const double v : tap) n += !std::isnan(v);
+                return n;
+            };
+            if (figures(t) > figures(best) || best.file.empty()) best = t;
+        }
+    }
+    return best;
+}
+
+Trust trust_of(const Oversampled& o, double until) {
+    Trust t;
+    if (o.estimates.empty()) {
+        t.missing = "one of the three rates failed, so there is no estimate";
+        return t;
+    }
+    const auto ends = window_ends(until);
+    for (const auto& tap : o.estimates) {
+        Certificate::ByWindow errors;
+        for (std::size_t w = 0; w < errors.size(); ++w) errors[w] = tap[w].error;
+        auto& figure = t.figure.emplace_back();
+        for (std::size_t w = 0; w < ends.size(); ++w) figure[w] = covering(errors, ends[w], until);
+    }
+    t.against = fmt::format("Richardson's rule from {:.6g}, {:.6g} and {:.6g} Hz", o.rate / 4, o.rate / 2, o.rate);
+    return t;
+}
+
+}  // namespace jvari

@@ -1,0 +1,42 @@
+// What the reference of a comparison may be trusted with: the figures of its certificate, on the comparison's own windows.
+//
+// For a reference: its relative L2 difference from the next reference in order of authority, else (it stands alone) the largest from itself
+// at other tolerances or by another integrator. A scheme at a multiple of a rate confirms no reference, its own error being larger: it is
+// left aside. For a scheme at a multiple of a rate that stands in: its estimate of its own error, by Richardson's rule. A window has the
+// figure of the shortest certified window that holds it; none where the certificate ends before.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/trust/certificate_file.hpp"
+#include "reference/oversampled.hpp"
+
+namespace jvari {
+
+struct Trust {
+    static constexpr std::array<const char*, 3> columns = {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole"};
+    std::vector<std::array<double, 3>> figure;  // by tap of the scene, by window; NaN: none. Empty: no certificate at all
+    std::string against;                        // "sundials rtol=1e-12"
+    std::string file, key;                      // of the certificate; "" where there is no file
+    std::string missing;                        // why there is none
+    double at(std::size_t tap, std::size_t window) const;
+    bool any() const;
+};
+
+// <scene name>*.json in ./results/certificates, where `jvari certify` writes, and in the library: that of the sources, else the installed
+// one. $JVARI_CERTIFICATES stands in place of all.
+std::vector<std::filesystem::path> certificate_folders();
+
+// The best figures that any certificate of this scene (whatever its duration) at these modes and this tap rate has for `reference`, over
+// `until` s.
+Trust trust_of(const Scene&, const std::string& reference, const Settings&, double until);
+Trust trust_of(const KeptCertificate&, const std::string& reference, const Certificate::Options&, double until);
+
+Trust trust_of(const Oversampled&, double until);  // of a stand-in; `until`: its last row [s]
+
+std::string file_stem(const std::string& scene_name);  // what its file may be called
+
+}  // namespace jvari

@@ -1,0 +1,225 @@
+// The unknown is each contact's new depth eta - r, and not r: a stiff contact's depth is far below the rounding of r.
+// Source: the contact equations of van Walstijn et al. 2016 (eq 48) and Issanchou et al. 2016 (eq 16) for several contacts; Newton's
+// method with a derivative line search (Nocedal & Wright 2006, chapter 3) on a convex merit.
+#include "schemes/contact/contact_gram.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr int most_iterations = 100, plain_iterations = 20;
+constexpr double rounding = 2e-15;     // of the terms of one equation: nothing finer can be asked
+constexpr double force_change = 1e-8;  // relative; Newton's next error is about its square
+}  // namespace
+
+MeanForce mean_force(const ContactLaw& law, double eta, double depth) {
+    const double r = eta - depth, a = law.alpha;
+    if (eta <= 0) {  // enters, or stays out
+        if (depth <= 0) return {};
+        const double F = law.potential(depth) / -r;
+        return {F, (law.force(depth) - F) / r};
+    }
+    if (depth <= 0) {  // leaves: r >= eta > 0
+        const double F = law.potential(eta) / r;
+        return {F, -F / r};
+    }
+    if (a == 1) return {law.k * (eta - 0.5 * r), -0.5 * law.k};
+    const double z = -r / eta, F0 = law.force(eta);  // stays: F = F0 S(z), S = ((1+z)^(a+1) - 1)/((a+1) z)
+    if (std::abs(z) < 1e-4) {
+        const double S = 1 + a / 2 * z * (1 + (a - 1) / 3 * z * (1 + (a - 2) / 4 * z * (1 + (a - 3) / 5 * z)));
+        return {F0 * S, -F0 / eta * a / 2 * (1 + (a - 1) / 3 * z * (2 + (a - 2) / 4 * z * 3))};
+    }
+    const double S = std::expm1((a + 1) * std::log1p(z)) / ((a + 1) * z);
+    return {F0 * S, std::min(0.0, -F0 / eta * (std::pow(1 + z, a) - S) / z)};
+}
+
+ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta)
+    : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {
+    const int n = count();
+    std::vector<char> seen(n, 0);
+    for (int seed = 0; seed < n; ++seed) {
+        if (seen[seed]) continue;
+        const int first = static_cast<int>(order_.size());
+        order_.push_back(seed);
+        seen[seed] = 1;
+        for (std::size_t i = first; i < order_.size(); ++i)
+            for (int j = 0; j < n; ++j)
+                if (!seen[j] && theta_[order_[i] * n + j] != 0) {
+                    order_.push_back(j);
+                    seen[j] = 1;
+                }
+        groups_.push_back({first, static_cast<int>(order_.size()) - first});
+    }
+    for (auto* w : {&depth_, &mean_, &slope_, &defect_, &dr_, &df_}) w->assign(n, 0.0);
+    active_.assign(n, 0);
+    int largest = 0;
+    for (const Group& g : groups_) largest = std::max(largest, g.count);
+    matrix_.assign(static_cast<std::size_t>(largest) * largest, 0.0);
+}
+
+GramSolution ContactGram::solve(const double* eta, const double* b, double* r, double* force) noexcept {
+    const int n = count();
+    GramSolution worst;
+    for (const Group& g : groups_) {
+        const int a = order_[g.first];
+        GramSolution s;
+        if (g.count == 1) {
+            const ContactSolution one = solve_contact(laws_[a], eta[a], b[a], theta_[a * n + a]);
+            r[a] = one.r;
+            force[a] = one.force;
+            s = {one.iterations, one.residual, one.converged};
+        } else {
+            s = solve_group(g, eta, b, r, force);
+        }
+        worst.iterations = std::max(worst.iterations, s.iterations);
+        worst.residual = std::max(worst.residual, s.residual);
+        worst.converged = worst.converged && s.converged;
+    }
+    return worst;
+}
+
+// dr = -(I + Theta D)^-1 (r + b - Theta F), D = -dF/dr; with w = D^1/2 dr on the active set the matrix I + D^1/2 Theta D^1/2 is symmetric
+// and positive definite whatever Theta's rank. df is the matching change of f, dr = Theta df. False where the factor is not finite.
+bool ContactGram::newton_step(const int* set, int n) noexcept {
+    const int stride = count();
+    int m = 0;
+    for (int i = 0; i < n; ++i)
+        if (slope_[set[i]] < 0) active_[m++] = set[i];
+    for (int i = 0; i < m; ++i) {  // Cholesky factor, row by row
+        const int a = active_[i];
+        const double root = std::sqrt(-slope_[a]);
+        double* row = matrix_.data() + i * m;
+        for (int j = 0; j <= i; ++j) {
+            const double* other = matrix_.data() + j * m;
+            double sum = root * theta_[a * stride + active_[j]] * std::sqrt(-slope_[active_[j]]) + (i == j);
+            for (int l = 0; l < j; ++l) sum -= row[l] * other[l];
+            row[j] = i == j ? std::sqrt(sum) : sum / other[j];
+        }
+        if (!(row[i] > 0) || !std::isfinite(row[i])) return false;
+    }
+    double* w = df_.data();  // by position in the active set, until the end
+    for (int i = 0; i < m; ++i) {
+        double sum = -std::sqrt(-slope_[active_[i]]) * defect_[active_[i]];
+        for (int l = 0; l < i; ++l) sum -= matrix_[i * m + l] * w[l];
+        w[i] = sum / matrix_[i * m + i];
+    }
+    for (int i = m - 1; i >= 0; --i) {
+        double sum = w[i];
+        for (int l = i + 1; l < m; ++l) sum -= matrix_[l * m + i] * w[l];
+        w[i] = sum / matrix_[i * m + i];
+    }
+    for (int i = 0; i < n; ++i) {  // dr = -defect - Theta D dr; on the active set D dr = D^1/2 w
+        const int a = set[i];
+        double sum = -defect_[a];
+        for (int l = 0; l < m; ++l) sum -= theta_[a * stride + active_[l]] * std::sqrt(-slope_[active_[l]]) * w[l];
+        dr_[a] = sum;
+    }
+    for (int i = 0; i < m; ++i)  // stiff: the same without the difference of nearly equal terms
+        if (-slope_[active_[i]] * theta_[active_[i] * stride + active_[i]] > 1) dr_[active_[i]] = w[i] / std::sqrt(-slope_[active_[i]]);
+    return true;
+}
+
+GramSolution ContactGram::solve_group(const Group& group, const double* eta, const double* b, double* r, double* f) noexcept {
+    const int stride = count(), n = group.count;
+    const int* set = order_.data() + group.first;
+    bool out = true;
+    for (int i = 0; i < n; ++i) {
+        const int a = set[i];
+        r[a] = -b[a];
+        f[a] = 0;
+        out = out && eta[a] <= 0 && eta[a] + b[a] <= 0;
+    }
+    if (out) return {};
+
+    for (int sweep = 0; sweep < 2; ++sweep)  // a first guess: each contact with the others' forces held
+        for (int i = 0; i < n; ++i) {
+            const int a = set[i];
+            double held = b[a];
+            for (int j = 0; j < n; ++j)
+                if (j != i) held -= theta_[a * stride + set[j]] * f[set[j]];
+            f[a] = solve_contact(laws_[a], eta[a], held, theta_[a * stride + a]).force;
+        }
+
+    const auto reach = [&](int a) {  // the scale of rounding in r_a's equation
+        double sum = std::abs(b[a]) + std::abs(eta[a]);
+        for (int j = 0; j < n; ++j) sum += std::abs(theta_[a * stride + set[j]] * f[set[j]]);
+        return sum;
+    };
+    const auto displaced = [&](int a) {  // r_a = -b_a + (Theta f)_a
+        double sum = -b[a];
+        for (int j = 0; j < n; ++j) sum += theta_[a * stride + set[j]] * f[set[j]];
+        return sum;
+    };
+    const auto evaluate = [&] {  // F, dF/dr and the defect r + b - Theta F, all from the depths
+        for (int i = 0; i < n; ++i) {
+            const MeanForce F = mean_force(laws_[set[i]], eta[set[i]], depth_[set[i]]);
+            mean_[set[i]] = F.value;
+            slope_[set[i]] = F.slope;
+        }
+        for (int i = 0; i < n; ++i) {
+            double sum = eta[set[i]] + b[set[i]] - depth_[set[i]];
+            for (int j = 0; j < n; ++j) sum -= theta_[set[i] * stride + set[j]] * mean_[set[j]];
+            defect_[set[i]] = sum;
+        }
+    };
+    const auto merit_slope = [&](double t) {  // along f + t df, r + t dr
+        double sum = 0;
+        for (int i = 0; i < n; ++i) {
+            const int a = set[i];
+            sum += dr_[a] * (f[a] + t * df_[a] - mean_force(laws_[a], eta[a], depth_[a] - t * dr_[a]).value);
+        }
+        return sum;
+    };
+
+    GramSolution s;
+    s.converged = false;
+    for (int i = 0; i < n; ++i) depth_[set[i]] = eta[set[i]] - displaced(set[i]);
+    evaluate();
+    for (s.iterations = 1; s.iterations <= most_iterations && !s.converged; ++s.iterations) {
+        if (!newton_step(set, n)) break;
+        s.converged = true;
+        for (int i = 0; i < n; ++i) {
+            const int a = set[i];
+            df_[a] = mean_[a] + slope_[a] * dr_[a] - f[a];
+            const double step = std::abs(dr_[a]);
+            const bool stays_out = slope_[a] == 0 && step <= -1e-3 * depth_[a];
+            const bool settled = slope_[a] < 0 && -slope_[a] * step <= force_change * mean_[a];
+            s.converged = s.converged && (stays_out || settled || std::abs(defect_[a]) <= rounding * reach(a));
+        }
+        double t = 1;
+        if (!s.converged) {
+            const double start = merit_slope(0);
+            const double end = merit_slope(1), allowed = s.iterations <= plain_iterations ? 0.25 * std::abs(start) : 0;
+            if (end > allowed) {  // past the minimum: bisect for a point before it where the slope has fallen by half
+                double low = 0, high = 1;
+                for (int i = 0; i < 60; ++i) {
+                    t = 0.5 * (low + high);
+                    const double slope = merit_slope(t);
+                    if (slope > 0) high = t;
+                    else low = t;
+                    if (slope <= 0 && slope >= 0.5 * start) break;
+                }
+                t = low > 0 ? low : 1;  // no descent at all: the slopes are rounding
+            }
+        }
+        for (int i = 0; i < n; ++i) {
+            f[set[i]] += t * df_[set[i]];
+            depth_[set[i]] -= t * dr_[set[i]];
+        }
+        evaluate();
+    }
+    --s.iterations;
+    for (int i = 0; i < n; ++i) {
+        const int a = set[i];
+        if (f[a] < 0) f[a] = mean_[a];
+    }
+    for (int i = 0; i < n; ++i) {
+        const int a = set[i];
+        r[a] = displaced(a);
+        const double scale = reach(a) * (1 - theta_[a * stride + a] * slope_[a]);
+        if (scale > 0) s.residual = std::max(s.residual, std::abs(defect_[a]) / scale);
+    }
+    s.converged = s.converged && std::isfinite(s.residual);
+    return s;
+}
+
+}  // namespace jvari

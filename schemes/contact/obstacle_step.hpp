@@ -1,0 +1,55 @@
+// One step of a string's contacts and thread, given what every scheme has at hand: the reading of each point at the older level, the
+// force-free increment of each reading over the step, and the compliances between the points.
+//
+//     r = free + Theta F;   contacts: F_a = -[V_a(eta_a - r_a) - V_a(eta_a)]/r_a, eta = h - older   (contact_gram.hpp)
+//                           thread:   F_c = -k_c (older_c + r_c/2 - h_c) - r_c (damping)/span
+//
+// span is the time between the older and the newer level: dt in two-point schemes (van Walstijn et al. 2016, eqs 44-48), 2 dt in
+// three-point ones, where the thread so sees the mean of the two outer levels and stays stable at any stiffness. The thread is linear and
+// eliminated: it leaves the contacts with Theta_bb' - Theta_bc s Theta_cb'/(1 + s Theta_cc), s = k_c/2 + damping/span.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "schemes/contact/contact_gram.hpp"
+
+namespace jvari {
+
+class ObstacleStep {
+public:
+    ObstacleStep() = default;
+    // theta [m/N]: row-major over the points, the contacts first and then the thread where there is one.
+    ObstacleStep(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
+                 std::span<const double> theta, double span);
+
+    int contacts() const { return contacts_; }
+    int points() const { return contacts_ + (thread_ ? 1 : 0); }
+
+    // older and free [m] in, force on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
+    bool solve(const double* older, const double* free, double* force) noexcept;
+
+    double potential(const double* reading) const;  // of contacts and thread at these readings [J]
+    double thread_loss(double r_c) const { return damping_ * (r_c / span_) * (r_c / span_); }  // [W]
+
+    struct Tally {  // over the solves since clear()
+        double smallest_force = 0, deepest = 0, residual = 0;
+        long solves = 0, iterations = 0;
+        int most_iterations = 0;
+    };
+    const Tally& tally() const { return tally_; }
+    void clear() { tally_ = {}; }
+
+private:
+    int contacts_ = 0;
+    bool thread_ = false;
+    ContactGram gram_;
+    std::vector<ContactLaw> laws_;
+    std::vector<double> heights_, coupling_, eta_, b_, r_;  // coupling_: Theta_bc
+    double stiffness_ = 0, damping_ = 0, rest_ = 0, span_ = 1, s_ = 0, theta_cc_ = 0, inverse_ = 1;
+    Tally tally_;
+};
+
+}  // namespace jvari

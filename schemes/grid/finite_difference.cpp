@@ -1,0 +1,368 @@
+// See finite_difference.hpp for sources. Long: weights, loss fit, limits, von Neumann relations, grid and band matrix stand in the header's
+// order, each a few functions that no other file needs apart.
+#include "schemes/grid/finite_difference.hpp"
+
+#include <gsl/gsl_multifit.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/barrier.hpp"
+#include "scenes/modes.hpp"
+
+namespace jvari {
+
+using std::numbers::pi;
+
+const Features grid_features = Features(Feature::several_strings) | Feature::bending_stiffness | Feature::damping |
+                               Feature::frequency_dependent_damping | Feature::lumped_barrier | Feature::profile_barrier |
+                               Feature::several_barriers | Feature::power_law_contact | Feature::thread | Feature::initial_shape |
+                               Feature::pluck;
+
+// ---- Weights on nodes.
+
+namespace {
+Stencil trimmed(int first, std::vector<double> w) {  // without zeros at either end
+    std::size_t low = 0, high = w.size();
+    while (low < high && w[low] == 0) ++low;
+    while (high > low && w[high - 1] == 0) --high;
+    return {first + static_cast<int>(low), std::vector<double>(w.begin() + low, w.begin() + high)};
+}
+
+// P(x), P'' the footprint (pi/2w) cos(pi x/w) on |x| < w/2: 0 before it, x after it   (van Walstijn et al. 2016, eq 6)
+long double twice_integrated(long double x, long double w) {
+    if (x <= -w / 2) return 0;
+    if (x >= w / 2) return x;
+    constexpr long double p = std::numbers::pi_v<long double>;
+    return (x + w / 2) / 2 - w / (2 * p) * std::cos(p * x / w);
+}
+}  // namespace
+
+Stencil footprint_stencil(const Grid& g, double position, double width) {
+    const long double h = g.dx;
+    std::vector<double> w;
+    for (int l = 1; l < g.intervals; ++l) {  // the integral of footprint x hat: second difference of P over h
+        const auto P = [&](int node) { return twice_integrated(node * h - position, width); };
+        const bool outside = (l + 1) * h <= position - width / 2 || (l - 1) * h >= position + width / 2;
+        w.push_back(outside ? 0.0 : static_cast<double>((P(l + 1) - 2 * P(l) + P(l - 1)) / h));
+    }
+    return trimmed(1, w);
+}
+
+Stencil displacement_stencil(const Grid& g, double position) {
+    const double at = position / g.dx;
+    const int cell = std::clamp(static_cast<int>(std::floor(at)), 0, g.intervals - 1);
+    std::vector<double> w(g.intervals - 1, 0.0);
+    for (int j = -1; j <= 2; ++j) {
+        double weight = 1;
+        for (int i = -1; i <= 2; ++i)
+            if (i != j) weight *= (at - cell - i) / (j - i);
+        int node = cell + j;
+        if (node < 0) node = -node, weight = -weight;                             // u(-x) = -u(x)
+        if (node > g.intervals) node = 2 * g.intervals - node, weight = -weight;  // u(2L - x) = -u(x)
+        if (node > 0 && node < g.intervals) w[node - 1] += weight;
+    }
+    return trimmed(1, w);
+}
+
+Stencil nut_force_stencil(const Grid& g, const String& s) {
+    const double slope = s.tension / (12 * g.dx), shear = s.bending_stiffness / (8 * g.dx * g.dx * g.dx);
+    // y' = (-16 u_{N-1} + 2 u_{N-2})/12 dx, y''' = (26 u_{N-1} - 16 u_{N-2} + 2 u_{N-3})/8 dx^3: central differences of an odd function
+    return {g.intervals - 3, {2 * shear, -2 * slope - 16 * shear, 16 * slope + 26 * shear}};
+}
+
+// ---- Losses.
+
+namespace {
+struct Fit {
+    LossFit loss;
+    double square = HUGE_VAL;  // weighted sum of squared relative errors
+};
+
+// Least squares with the powers 0, 1, 2 of x that `powers` has a bit for.
+Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<double>& sigma, const std::vector<double>& weight) {
+    const std::size_t n = x.size(), terms = std::popcount(static_cast<unsigned>(powers));
+    const auto matrix = gsl_matrix_alloc(n, terms), covariance = gsl_matrix_alloc(terms, terms);
+    const auto coefficients = gsl_vector_alloc(terms);
+    const auto work = gsl_multifit_linear_alloc(n, terms);
+    const auto y = gsl_vector_const_view_array(sigma.data(), n), w = gsl_vector_const_view_array(weight.data(), n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (int p = 0, column = 0; p < 3; ++p)
+            if (powers >> p & 1) gsl_matrix_set(matrix, i, column++, std::pow(x[i], p));
+    Fit fit;
+    gsl_multifit_wlinear(matrix, &w.vector, &y.vector, coefficients, covariance, &fit.square, work);
+    double* const into[] = {&fit.loss.sigma0, &fit.loss.sigma1, &fit.loss.sigma2};
+    for (int p = 0, column = 0; p < 3; ++p)
+        if (powers >> p & 1) *into[p] = gsl_vector_get(coefficients, column++);
+    gsl_multifit_linear_free(work);
+    gsl_vector_free(coefficients);
+    gsl_matrix_free(covariance);
+    gsl_matrix_free(matrix);
+    return fit;
+}
+}  // namespace
+
+LossFit fit_losses(const String& s) {
+    const Modes modes = modes_of(s, std::max(3, modes_below(s, 20e3)));
+    const std::size_t n = modes.beta.size();
+    std::vector<double> x, w;
+    double all = 0;  // of the weights: the square that a fit of nothing would leave
+    for (std::size_t i = 0; i < n; ++i) {
+        if (modes.sigma[i] <= 0) return {};
+        const double relative = modes.beta[i] / modes.beta.back(), weight = 1 / static_cast<double>(i + 1);
+        x.push_back(relative * relative);
+        w.push_back(weight / (modes.sigma[i] * modes.sigma[i]));
+        all += weight;
+    }
+    Fit best;  // the least squares without negative coefficients are those of the best set of powers that needs none; fewest first
+    for (const int powers : {1, 2, 4, 3, 5, 6, 7}) {
+        const Fit fit = fit_powers(powers, x, modes.sigma, w);
+        const bool negative = std::min({fit.loss.sigma0, fit.loss.sigma1, fit.loss.sigma2}) < 0;
+        if (!negative && fit.square < best.square - 1e-20 * all) best = fit;
+    }
+    LossFit fit = best.loss;
+    for (std::size_t i = 0; i < n; ++i) fit.misfit = std::max(fit.misfit, std::abs(fit.at(x[i]) / modes.sigma[i] - 1));
+    const double square = modes.beta.back() * modes.beta.back();
+    fit.sigma1 /= square;
+    fit.sigma2 /= square * square;
+    return fit;
+}
+
+// ---- Stability limits and von Neumann relations.
+
+double explicit_spacing_limit(const String& s, const LossFit& loss, double dt) {
+    const double c2 = s.tension / s.linear_density, kappa2 = s.bending_stiffness / s.linear_density;
+    const double p = c2 * dt * dt + 4 * loss.sigma1 * dt;
+    const double q = kappa2 * dt * dt + 4 * loss.sigma2 * dt;
+    return std::sqrt(0.5 * (p + std::sqrt(p * p + 16 * q)));
+}
+
+double theta_spacing_limit(const String& s, double dt, double theta) {  // 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4
+    const double p = s.tension / s.linear_density * dt * dt, q = s.bending_stiffness / s.linear_density * dt * dt;
+    const double room = 2 * theta - 1;
+    return std::sqrt(0.5 * (p + std::sqrt(p * p + 16 * room * q)) / room);
+}
+
+double tuned_theta(const String& s, double dt, double dx) {
+    return 5.0 / 6 + s.tension / s.linear_density * dt * dt / (6 * dx * dx);
+}
+
+double theta_spacing_limit(const String& s, double dt) {  // the same at the tuned theta: 1 >= c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4
+    const double p = s.tension / s.linear_density * dt * dt, q = s.bending_stiffness / s.linear_density * dt * dt;
+    return std::sqrt(0.5 * (p + std::sqrt(p * p + 24 * q)));
+}
+
+namespace {
+struct Symbols {
+    double lambda, stiffness, loss;  // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
+};
+Symbols symbols(double c2, double kappa2, const LossFit& f, const Grid& g, int mode) {
+    const double sine = std::sin(0.5 * pi * mode / g.intervals) / (0.5 * g.dx), lambda = sine * sine;
+    return {lambda, (c2 + kappa2 * lambda) * lambda, 2 * f.at(lambda)};
+}
+Symbols symbols(const String& s, const LossFit& f, const Grid& g, int mode) {
+    return symbols(s.tension / s.linear_density, s.bending_stiffness / s.linear_density, f, g, mode);
+}
+
+// (M + dt R/2) z^2 - (2M - dt^2 K) z + (M - dt R/2) = 0, for |z| and arg z
+GridMode three_point_mode(double M, const Symbols& y, double dt) {
+    const double over = M + 0.5 * dt * y.loss, under = M - 0.5 * dt * y.loss;
+    const double cosine = M - 0.5 * dt * dt * y.stiffness;  // both times |z|
+    const double square = dt * dt * (y.stiffness * M - 0.25 * (dt * dt * y.stiffness * y.stiffness + y.loss * y.loss));
+    return {std::atan2(std::sqrt(std::max(0.0, square)), cosine) / dt, -0.5 * std::log(under / over) / dt};
+}
+}  // namespace
+
+GridMode explicit_mode(const String& s, const LossFit& f, const Grid& g, double dt, int mode) {
+    const Symbols y = symbols(s, f, g, mode);
+    return three_point_mode(1 - (f.sigma1 + f.sigma2 * y.lambda) * dt * y.lambda, y,
+                            dt);  // the backward difference in the loss takes from the mass
+}
+
+GridMode theta_mode(const String& s, const LossFit& f, const Grid& g, double dt, double theta, int mode) {
+    const Symbols y = symbols(s, f, g, mode);
+    return three_point_mode(1 - 0.5 * (1 - theta) * g.dx * g.dx * y.lambda, y, dt);
+}
+
+GridMode three_point_mode(const GridString& g, double dt, double m, double m4, int mode) {
+    const Symbols y = symbols(g.c2, g.kappa2, g.loss, g.grid, mode);
+    return three_point_mode(1 - (m - m4 * y.lambda) * y.lambda, y, dt);
+}
+
+namespace {
+GridMode midpoint_mode(const Symbols& y, double dt) {
+    // z = (1 + p)/(1 - p), p = p_r + i p_i the scaled pole of y'' + R y' + K y = 0; without loss omega = 2/dt atan(sqrt(K) dt/2)
+    const double real = -0.25 * dt * y.loss, imaginary = std::sqrt(std::max(0.0, 0.25 * dt * dt * y.stiffness - real * real));
+    const double omega = std::atan2(imaginary, 1 + real) + std::atan2(imaginary, 1 - real);
+    const double size = std::log(((1 + real) * (1 + real) + imaginary * imaginary) / ((1 - real) * (1 - real) + imaginary * imaginary));
+    return {omega / dt, -0.5 * size / dt};
+}
+}  // namespace
+
+GridMode midpoint_mode(const String& s, const LossFit& f, const Grid& g, double dt, int mode) {
+    return midpoint_mode(symbols(s, f, g, mode), dt);
+}
+
+GridMode midpoint_mode(const GridString& g, double dt, int mode) {
+    return midpoint_mode(symbols(g.c2, g.kappa2, g.loss, g.grid, mode), dt);
+}
+
+// ---- The grid.
+
+Grid grid_of(const Descriptor& d, const String& s, double intervals) {
+    if (!(intervals >= 5) || intervals != std::floor(intervals) || intervals > 1e6)
+        throw Refusal(std::string(d.name) + ": the grid has " + std::to_string(intervals) +
+                      " intervals, expected a whole number from 5 on");
+    return {static_cast<int>(intervals), s.length / intervals};
+}
+
+Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, double limit) {
+    const double finest = s.length / limit, most = std::floor(finest * (1 + 1e-12));
+    const double over = number_option(settings, "over_limit", 0), asked = number_option(settings, "grid", 0);
+    if (over != 0 && !(over > 1)) throw Refusal("option over_limit: found " + std::to_string(over) + ", expected a factor above 1");
+    if (asked > std::max(most, over * finest))
+        throw Refusal(std::string(d.name) + ": " + std::to_string(std::lround(asked)) + " intervals are over the stability limit, " +
+                      std::to_string(std::lround(most)) + " at " + std::to_string(settings.sample_rate) +
+                      " Hz; option over_limit goes there on purpose");
+    return grid_of(d, s, asked != 0 ? asked : over != 0 ? std::ceil(finest * over) : most);
+}
+
+// ---- A string of the scene on its grid.
+
+namespace {
+struct PlaceBarrier {
+    GridString& g;
+    void operator()(const LumpedBarrier& b) const {
+        g.points.push_back(footprint_stencil(g.grid, b.position, b.width));
+        g.laws.push_back({b.stiffness.k, b.exponent});
+        g.heights.push_back(b.height);
+    }
+    void operator()(const ProfileBarrier& b) const {
+        std::vector<double> x;
+        for (int l = 1; l < g.grid.intervals; ++l) {
+            const double at = l * g.grid.dx;
+            if (at < b.from || at > b.to) continue;
+            x.push_back(at);
+            g.points.push_back({l, {1.0}});
+            g.laws.push_back({b.stiffness.K * g.grid.dx, b.exponent});  // lumped: a node stands for dx of the profile
+        }
+        if (x.empty())
+            throw Refusal("no node of the grid lies on the barrier from " + std::to_string(b.from) + " m to " + std::to_string(b.to) +
+                          " m: the spacing is " + std::to_string(g.grid.dx) + " m");
+        for (double h : heights(b.curve, x)) g.heights.push_back(h);
+    }
+};
+
+// K u = g/(mu dx) against the series of the string's modes, as many as leave less than 1e-4 out.
+double relative_compliance(const GridString& g, const String& s, const LumpedBarrier& b) {
+    const Modes modes = modes_of(s, 20000);
+    std::vector<double> u(g.grid.intervals + 1, 0.0);
+    g.points.front().add(1 / g.mass, u.data());
+    BandedFactor(g.grid, 0, -g.c2, g.kappa2).solve(u.data());
+    const double own = g.points.front().read(u.data());
+    return own / static_compliance(modes, footprint_weights(modes, b.position, b.width));
+}
+
+std::vector<double> initial_shape(const String& s, const Grid& g) {
+    std::vector<double> u(g.intervals + 1, 0.0);
+    if (!s.initial) return u;
+    if (const auto* mode = std::get_if<ModeInitial>(&*s.initial); mode && mode->number >= g.intervals)
+        throw Refusal("the initial shape is mode " + std::to_string(mode->number) + " and the grid carries " +
+                      std::to_string(g.intervals - 1));
+    const auto a = initial_displacement(modes_of(s, g.intervals - 1), s);  // as many as the grid can carry
+    std::vector<double> sine(2 * g.intervals);
+    for (int k = 0; k < 2 * g.intervals; ++k) sine[k] = std::sin(pi * k / g.intervals);
+    for (int l = 1; l < g.intervals; ++l)
+        for (long i = 1; i < g.intervals; ++i)
+            if (a[i - 1] != 0) u[l] += a[i - 1] * sine[i * l % (2 * g.intervals)];
+    return u;
+}
+}  // namespace
+
+GridString on_grid(const Scene& scene, int index, const Grid& grid, const LossFit& loss) {
+    const String& s = scene.strings[index];
+    GridString g;
+    g.grid = grid;
+    g.mass = s.linear_density * grid.dx;
+    g.c2 = s.tension / s.linear_density;
+    g.kappa2 = s.bending_stiffness / s.linear_density;
+    g.loss = loss;
+    g.initial = initial_shape(s, grid);
+    for (const Barrier& b : s.barriers) {
+        std::visit(PlaceBarrier{g}, b);
+        if (const auto* lumped = std::get_if<LumpedBarrier>(&b))
+            g.narrowest = g.narrowest == 0 ? lumped->width / grid.dx : std::min(g.narrowest, lumped->width / grid.dx);
+    }
+    if (s.barriers.size() == 1)
+        if (const auto* b = std::get_if<LumpedBarrier>(&s.barriers.front())) g.compliance = relative_compliance(g, s, *b);
+    g.thread = s.thread;
+    if (s.thread) {
+        g.points.push_back(footprint_stencil(grid, s.thread->position, s.thread->width));
+        g.narrowest = g.narrowest == 0 ? s.thread->width / grid.dx : std::min(g.narrowest, s.thread->width / grid.dx);
+    }
+    g.pluck = s.pluck;
+    if (s.pluck) g.pluck_stencil = footprint_stencil(grid, s.pluck->position, s.pluck->width);
+    for (std::size_t k = 0; k < scene.taps.size(); ++k) {
+        const Tap& tap = scene.taps[k];
+        const bool of_a_point = tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
+        if (tap.string ? *tap.string != index : of_a_point && index != 0) continue;
+        GridTap t{static_cast<int>(k), tap.quantity, {}};
+        if (of_a_point) t.stencil = displacement_stencil(grid, tap.position);
+        if (tap.quantity == Quantity::nut_force) t.stencil = nut_force_stencil(grid, s);
+        g.taps.push_back(t);
+    }
+    return g;
+}
+
+// ---- The band matrix.
+
+BandedFactor::BandedFactor(const Grid& g, double a0, double a2, double a4) : n_(g.intervals - 1), wide_(a4 != 0) {
+    const double p = a2 / (g.dx * g.dx), q = a4 / (g.dx * g.dx * g.dx * g.dx);
+    std::vector<double> D(n_);
+    for (auto* v : {&one_, &two_, &inverse_}) v->assign(n_ + 1, 0.0);
+    for (int i = 0; i < n_; ++i) {
+        const double corner = i == 0 || i == n_ - 1 ? 5 : 6;  // D2 D2 with u_0 = u_N = 0
+        double diagonal = a0 - 2 * p + corner * q, below = p - 4 * q;
+        if (i > 1) {
+            two_[i] = q / D[i - 2];
+            diagonal -= two_[i] * two_[i] * D[i - 2];
+            below -= two_[i] * one_[i - 1] * D[i - 2];
+        }
+        if (i > 0) {
+            one_[i] = below / D[i - 1];
+            diagonal -= one_[i] * one_[i] * D[i - 1];
+        }
+        if (!(diagonal > 0)) throw Refusal("the implicit operator is not positive definite at this rate and grid");
+        D[i] = diagonal;
+        inverse_[i] = 1 / diagonal;
+    }
+}
+
+void BandedFactor::solve(double* u) const noexcept {
+    double* x = u + 1;
+    const double *l1 = one_.data(), *l2 = two_.data(), *d = inverse_.data();
+    if (wide_) {
+        for (int i = 1; i < n_; ++i) x[i] = (x[i] - l2[i] * x[i - 2]) - l1[i] * x[i - 1];  // l2[1] = l2[n] = 0: the ends are not seen
+        for (int i = 0; i < n_; ++i) x[i] *= d[i];
+        for (int i = n_ - 2; i >= 0; --i) x[i] = (x[i] - l2[i + 2] * x[i + 2]) - l1[i + 1] * x[i + 1];
+    } else {
+        for (int i = 1; i < n_; ++i) x[i] -= l1[i] * x[i - 1];
+        for (int i = 0; i < n_; ++i) x[i] *= d[i];
+        for (int i = n_ - 2; i >= 0; --i) x[i] -= l1[i + 1] * x[i + 1];
+    }
+}
+
+Stencil BandedFactor::solve(const Stencil& s) const {
+    std::vector<double> u(n_ + 2, 0.0);
+    s.add(1, u.data());
+    solve(u.data());
+    double largest = 0;
+    for (double v : u) largest = std::max(largest, std::abs(v));
+    for (double& v : u)
+        if (std::abs(v) < 1e-19 * largest) v = 0;
+    return trimmed(0, u);
+}
+
+}  // namespace jvari

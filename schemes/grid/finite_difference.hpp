@@ -1,0 +1,122 @@
+// What the finite difference schemes share: one string on the grid x_l = l dx, l = 0..N, dx = L/N, with simply supported ends.
+//
+// Sources: Bilbao, Torin & Chatziioannou 2015 (grid, stability limit, energy), Bilbao 2009 chapter 7 (theta scheme), Chatziioannou & van
+// Walstijn 2015 (two-step midpoint), van Walstijn et al. 2016 eqs 5-6 (footprints). D2 is the second difference with u_0 = u_N = 0 and
+// D4 = D2 D2, so that sin(i pi l/N) is an eigenvector of both: D2 -> -lambda_i, lambda_i = 4/dx^2 sin^2(i pi/2N).
+// Footprints are projected on the grid's hat functions; the weights that spread a force also read the displacement, which is what closes
+// the energy balance. A point (width 0) is the hat function itself. Profiles are lumped: a node carries the stiffness density times dx.
+// The loss is 2 sigma0 u_t - 2 sigma1 u_xxt + 2 sigma2 u_xxxxt, fitted to the scene's law, since a grid cannot follow a general one. All
+// three are non-negative: no wavenumber of the grid gains energy.
+// Left out: contact loss, measured modes, polarisation, the body.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "schemes/contact/contact.hpp"
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+// ---- Weights on nodes.
+
+struct Stencil {  // sum_j weight[j] u[first + j]
+    int first = 1;
+    std::vector<double> weight;
+
+    double read(const double* u) const {
+        double sum = 0;
+        for (std::size_t j = 0; j < weight.size(); ++j) sum += weight[j] * u[first + static_cast<int>(j)];
+        return sum;
+    }
+    void add(double scale, double* u) const {
+        for (std::size_t j = 0; j < weight.size(); ++j) u[first + static_cast<int>(j)] += scale * weight[j];
+    }
+};
+
+struct Grid {
+    int intervals = 0;  // N
+    double dx = 0;      // [m]
+};
+Stencil footprint_stencil(const Grid&, double position, double width);  // the cosine footprint against every hat function
+Stencil displacement_stencil(const Grid&, double position);             // cubic through four nodes, odd about the ends
+Stencil nut_force_stencil(const Grid&, const String&);                  // -T y' + EI y''' at L, both of fourth order, odd about L
+
+// ---- Losses.
+
+struct LossFit {        // sigma(beta) ~ sigma0 + sigma1 beta^2 + sigma2 beta^4
+    double sigma0 = 0;  // [1/s]
+    double sigma1 = 0;  // [m^2/s]
+    double sigma2 = 0;  // [m^4/s]
+    double misfit = 0;  // worst relative error over the modes below 20 kHz
+
+    double at(double square) const { return sigma0 + (sigma1 + sigma2 * square) * square; }  // [1/s], of beta^2 [1/m^2]
+};
+// Least squares of the relative error over the modes below 20 kHz, each octave of them weighing the same; no coefficient negative.
+LossFit fit_losses(const String&);
+
+// ---- Stability limits and von Neumann relations, dt [s], dx [m].
+
+double explicit_spacing_limit(const String&, const LossFit&, double dt);  // the smallest dx
+double theta_spacing_limit(const String&, double dt);                     // with the tuned theta
+double theta_spacing_limit(const String&, double dt, double theta);       // theta > 1/2
+double tuned_theta(const String&, double dt, double dx);
+
+using GridMode = FreeMode;
+GridMode explicit_mode(const String&, const LossFit&, const Grid&, double dt, int mode);
+GridMode theta_mode(const String&, const LossFit&, const Grid&, double dt, double theta, int mode);
+GridMode midpoint_mode(const String&, const LossFit&, const Grid&, double dt, int mode);
+
+// ---- The grid a scheme takes: option `grid`, or the finest that the limit allows, or `over_limit` times finer than the limit on purpose;
+// with both, `grid`, which may then be up to `over_limit` times finer than the limit.
+// Settings::modes asks for modes, which a grid does not have; the grid comes from the rate, and fact `grid_intervals` reports it.
+Grid grid_for(const Descriptor&, const String&, const Settings&, double spacing_limit);
+Grid grid_of(const Descriptor&, const String&, double intervals);  // Refusal unless a whole number, 5 or more
+
+// ---- A string of the scene on its grid.
+
+struct GridTap {
+    int column = 0;
+    Quantity quantity = Quantity::displacement;
+    Stencil stencil;  // displacement, velocity and nut_force
+};
+struct GridString {
+    Grid grid;
+    double mass = 0;            // mu dx, of a node [kg]
+    double c2 = 0, kappa2 = 0;  // T/mu [m^2/s^2], EI/mu [m^4/s^2]
+    LossFit loss;
+    std::vector<double> initial;   // u_0..u_N at t = 0 [m]
+    std::vector<Stencil> points;   // where obstacles read and push: the contacts in order, then the thread where there is one
+    std::vector<ContactLaw> laws;  // one per contact
+    std::vector<double> heights;   // [m], one per contact
+    std::optional<Thread> thread;
+    std::optional<Pluck> pluck;
+    Stencil pluck_stencil;
+    double compliance = 0;  // of the first contact under a steady force, relative to the scene's string; 0 unless it is lumped
+    double narrowest = 0;   // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
+    std::vector<GridTap> taps;
+};
+// The same relations of a string on its grid; m and m4 as in three_point_string.hpp.
+GridMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);
+GridMode midpoint_mode(const GridString&, double dt, int mode);
+
+GridString on_grid(const Scene&, int string, const Grid&, const LossFit&);
+
+extern const Features grid_features;  // what every scheme on a grid represents
+
+// ---- The symmetric band matrix a0 I + a2 D2 + a4 D4 over the interior nodes, factored L D L'.
+
+class BandedFactor {
+public:
+    BandedFactor() = default;
+    BandedFactor(const Grid&, double a0, double a2, double a4);  // Refusal unless positive definite
+    void solve(double* u) const noexcept;                        // u_1..u_{N-1} in place, between finite u_0 and u_N
+    Stencil solve(const Stencil&) const;                         // the response to a stencil, cut where it has fallen below rounding
+
+private:
+    int n_ = 0;
+    bool wide_ = false;                        // a4 != 0: five diagonals, else three
+    std::vector<double> one_, two_, inverse_;  // below the diagonal by one and two; 1/D
+};
+
+}  // namespace jvari

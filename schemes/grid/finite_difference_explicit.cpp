@@ -1,0 +1,51 @@
+// Explicit finite differences with implicit contact: Bilbao, Torin & Chatziioannou 2015, "Numerical modeling of collisions in musical
+// instruments"; the contact equation is that of van Walstijn et al. 2016, eq 48, over the span 2 dt.
+//
+//     (1 + sigma0 dt) u+ = (2 I + c^2 dt^2 D2 - kappa^2 dt^2 D4 - S) u - ((1 - sigma0 dt) I - S) u- + dt^2/(mu dx) g F
+//
+// with S = -2 sigma1 dt D2 + 2 sigma2 dt D4: the loss in space takes the backward difference in time, that of sigma0 the central one.
+// Written with the central one throughout, the difference is taken from the mass, M = I - S/2, so the balance is exact and R >= 0; it is
+// stable where M >= dt^2 K/4, that is dx^2 >= (p + sqrt(p^2 + 16 q))/2, p = c^2 dt^2 + 4 sigma1 dt, q = kappa^2 dt^2 + 4 sigma2 dt.
+// Options: `grid` (intervals), `over_limit`.
+// What it approximates and leaves out: finite_difference.hpp. Rows, energy and start: three_point_string.hpp.
+#include "schemes/grid/three_point_string.hpp"
+
+namespace jvari {
+
+extern const Descriptor finite_difference_explicit;
+
+namespace {
+struct ExplicitUpdate {
+    FivePoint pass;
+    double inverse;  // 1/(1 + sigma0 dt)
+
+    void operator()(double* next, const double* now, const double* before) noexcept { pass(next, now, before); }
+    Stencil response(Stencil s) const {
+        for (double& w : s.weight) w *= inverse;
+        return s;
+    }
+};
+
+std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
+    refuse_missing(finite_difference_explicit, scene);
+    refuse_unknown_options(settings, {"grid", "over_limit"});
+    const int rows = steps_per_row(settings);
+    const double dt = 1 / settings.sample_rate;
+    std::vector<ThreePointString<ExplicitUpdate>> strings;
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
+        const String& s = scene.strings[i];
+        const LossFit loss = fit_losses(s);
+        const double limit = explicit_spacing_limit(s, loss, dt), m = loss.sigma1 * dt, m4 = -loss.sigma2 * dt,
+                     divisor = 1 + loss.sigma0 * dt;
+        const GridString g = on_grid(scene, static_cast<int>(i), grid_for(finite_difference_explicit, s, settings, limit), loss);
+        strings.emplace_back(g, dt, rows, m, m4, ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
+                             std::vector<Fact>{{"spacing_over_limit", g.grid.dx / limit, ""}});
+    }
+    return std::make_unique<GridScheme<ThreePointString<ExplicitUpdate>>>(std::move(strings));
+}
+}  // namespace
+
+const Descriptor finite_difference_explicit = {
+    "finite_difference_explicit", "Bilbao, Torin & Chatziioannou 2015", grid_features, Balance::exact, Clock::stepped, make};
+
+}  // namespace jvari

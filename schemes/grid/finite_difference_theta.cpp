@@ -1,0 +1,55 @@
+// The theta scheme for the stiff string: Bilbao 2009, "Numerical Sound Synthesis", chapter 7; a parametric implicit three-point scheme of
+// the kind that section 5 of van Walstijn et al. 2016 names.
+//
+//     (theta + (1 - theta) A) (u+ - 2u + u-)/dt^2 = c^2 D2 u - kappa^2 D4 u - R (u+ - u-)/2dt + g F/(mu dx),  A = I + dx^2/2 D2
+//
+// so M = I + (1 - theta) dx^2/2 D2, and u+ costs one solve of three diagonals, or five where the loss has u_xxxxt. Expanding omega^2 = c^2
+// beta^2 + kappa^2 beta^4 in dx and dt, the error c^2 beta^4 [dx^2/12 - c^2 dt^2/12 - (1 - theta) dx^2/2] vanishes for
+//     theta = 5/6 + c^2 dt^2/(6 dx^2),
+// the default (option `theta` overrides): what is left is of second order times kappa^2 beta^2/c^2, and of fourth order.
+// Stable where 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4; at the default theta, c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4 <= 1.
+// Losses are centred, and do not enter the limit. Options: `grid` (intervals), `over_limit`, `theta`.
+#include "schemes/grid/three_point_string.hpp"
+
+namespace jvari {
+
+extern const Descriptor finite_difference_theta;
+
+namespace {
+struct ThetaUpdate {
+    FivePoint pass;
+    BandedFactor factor;  // of M + dt R/2
+
+    void operator()(double* next, const double* now, const double* before) noexcept {
+        pass(next, now, before);
+        factor.solve(next);
+    }
+    Stencil response(const Stencil& s) const { return factor.solve(s); }
+};
+
+std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
+    refuse_missing(finite_difference_theta, scene);
+    refuse_unknown_options(settings, {"grid", "over_limit", "theta"});
+    const int rows = steps_per_row(settings);
+    const double dt = 1 / settings.sample_rate, asked = number_option(settings, "theta", 0);
+    if (asked != 0 && !(asked > 0.5)) throw Refusal("option theta: found " + std::to_string(asked) + ", expected more than 0.5");
+    std::vector<ThreePointString<ThetaUpdate>> strings;
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
+        const String& s = scene.strings[i];
+        const double limit = asked != 0 ? theta_spacing_limit(s, dt, asked) : theta_spacing_limit(s, dt);
+        const Grid grid = grid_for(finite_difference_theta, s, settings, limit);
+        const GridString g = on_grid(scene, static_cast<int>(i), grid, fit_losses(s));
+        const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
+        ThetaUpdate update{FivePoint(g, dt, m, 0, 1),
+                           BandedFactor(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt)};
+        strings.emplace_back(g, dt, rows, m, 0.0, std::move(update),
+                             std::vector<Fact>{{"spacing_over_limit", grid.dx / limit, ""}, {"theta", theta, ""}});
+    }
+    return std::make_unique<GridScheme<ThreePointString<ThetaUpdate>>>(std::move(strings));
+}
+}  // namespace
+
+const Descriptor finite_difference_theta = {
+    "finite_difference_theta", "Bilbao 2009, chapter 7", grid_features, Balance::exact, Clock::stepped, make};
+
+}  // namespace jvari

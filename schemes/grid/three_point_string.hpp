@@ -1,0 +1,258 @@
+// A string on a grid stepped by a three-point scheme,
+//
+//     M (u+ - 2u + u-)/dt^2 + R (u+ - u-)/2dt + K u = sum g F/(mu dx),     K = -c^2 D2 + kappa^2 D4, M = I + m D2 + m4 D4
+//
+// R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4,
+// with contacts and thread over the span 2 dt (obstacle_step.hpp). Update solves for u+: explicit where m = sigma1 dt and m4 = -sigma2 dt
+// (Bilbao, Torin & Chatziioannou 2015: the backward difference in the loss), banded where m = (1 - theta) dx^2/2 (Bilbao 2009, theta
+// scheme).
+//
+// The string is stepped one ahead of the row it writes: at row n it holds u^{n-1}, u^n, u^{n+1}. So
+//   velocity is the central difference (u^{n+1} - u^{n-1})/2dt;
+//   contact forces, which act over [n - 1/2, n + 1/2], count half at either end of a row's interval (trapezoid);
+//   energy `stored` at row n is that of the half step, mass/2 <d, M d>/dt^2 + mass/2 <u^{n+1}, K u^n> + [P^{n+1} + P^n]/2, d = u^{n+1} -
+//   u^n, `supplied` and `dissipated` are sums over the steps centred on the instants after the last row's, so that the columns balance
+//   exactly.
+// Start from rest: u^1 = u^0 + dt^2/2 (acceleration), contacts and thread taken between u^0 and u^1, so that the start is stable however
+// stiff they are, of second order, and without losses exactly the scheme's own cosine.
+#pragma once
+
+#include <cmath>
+
+#include "scenes/excitation.hpp"
+#include "schemes/aligned.hpp"
+#include "schemes/grid/five_point_pass.hpp"
+#include "schemes/grid/grid_scheme.hpp"
+
+namespace jvari {
+
+constexpr int node_offset = 7;  // of node 0 in its array: node 1 on a 64-byte boundary, node -1 inside
+
+template <class Update>  // operator()(next, now, before): u+ without forces, `before` its last `now`; response(g): what a unit of dt^2/(mu
+                         // dx) on g adds to u+
+class ThreePointString {
+public:
+    ThreePointString(const GridString& string, double dt, int steps_per_row, double m, double m4, Update update,
+                     std::vector<Fact> facts = {})
+        : g_(string),
+          dt_(dt),
+          m_(m),
+          m4_(m4),
+          gain_(dt * dt / g_.mass),
+          steps_(steps_per_row),
+          update_(std::move(update)),
+          own_(std::move(facts)) {
+        const int points = static_cast<int>(g_.points.size());
+        for (const Stencil& s : g_.points) responses_.push_back(update_.response(s));
+        if (g_.pluck) pluck_response_ = update_.response(g_.pluck_stencil);
+        std::vector<double> theta(points * points), half(points * points);
+        std::vector<double> line(g_.grid.intervals + 1);
+        for (int b = 0; b < points; ++b) {
+            std::fill(line.begin(), line.end(), 0.0);
+            responses_[b].add(gain_, line.data());
+            for (int a = 0; a < points; ++a) theta[a * points + b] = g_.points[a].read(line.data());
+        }
+        for (int a = 0; a < points; ++a)  // symmetric to the last bit
+            for (int b = 0; b < a; ++b) theta[a * points + b] = theta[b * points + a];
+        for (std::size_t i = 0; i < theta.size(); ++i) half[i] = 0.5 * theta[i];
+        obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, 2 * dt);
+        start_ = ObstacleStep(g_.laws, g_.heights, g_.thread, half, dt);
+        for (auto* v : {&older_, &free_, &force_, &reading_}) v->assign(points, 0.0);
+        for (auto& b : buffer_) b = AlignedVector(node_offset + g_.grid.intervals + five_point_overhang);
+    }
+
+    void reset() noexcept {
+        const int N = g_.grid.intervals;
+        for (int i = 0; i < 3; ++i) {
+            level_[i] = buffer_[i].data() + node_offset;
+            std::fill_n(buffer_[i].data(), buffer_[i].size(), 0.0);
+        }
+        double *before = level_[0], *now = level_[1], *next = level_[2];
+        std::copy_n(g_.initial.data(), N + 1, now);
+        std::copy_n(g_.initial.data(), N + 1, before);
+        mirror(now);
+        mirror(before);
+        obstacle_.clear();
+        start_.clear();
+        failed_ = {};
+        step_ = 0;
+        update_(next, now, before);  // so that it keeps what it needs of u-
+        update_(next, now, before);  // with u- = u this is u + dt^2 (acceleration)
+        for (int l = 1; l < N; ++l) next[l] = now[l] + 0.5 * (next[l] - now[l]);
+        pluck(0, 0.5, next);
+        const int points = start_.points();
+        for (int a = 0; a < points; ++a) {
+            older_[a] = g_.points[a].read(now);
+            free_[a] = g_.points[a].read(next) - older_[a];
+        }
+        if (!start_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, 0};
+        for (int a = 0; a < points; ++a)
+            if (force_[a] != 0) responses_[a].add(0.5 * gain_ * force_[a], next);
+        std::copy_n(next - 1, N + 2, before - 1);         // at rest: u^{-1} = u^1
+        bridge_ = thread_ = supplied_ = dissipated_ = 0;  // row 0 takes the halves of this force
+        budget_ = std::abs(stored());
+    }
+
+    Status advance(const Block& out) noexcept {
+        for (int row = 0; row < out.rows && failed_.outcome == Outcome::ok; ++row) {
+            write(out, row);
+            if (out.energy)
+                for (int i = 0; i < steps_ && failed_.outcome == Outcome::ok; ++i) step<true>();
+            else
+                for (int i = 0; i < steps_ && failed_.outcome == Outcome::ok; ++i) step<false>();
+        }
+        return failed_;
+    }
+
+    int dofs() const { return 2 * (g_.grid.intervals - 1); }
+    std::vector<Fact> facts() const {
+        std::vector<Fact> all = grid_facts(g_, obstacle_);
+        all.insert(all.end(), own_.begin(), own_.end());
+        return all;
+    }
+    std::vector<FreeMode> free_modes() const {
+        std::vector<FreeMode> all;
+        for (int i = 1; i < g_.grid.intervals; ++i) all.push_back(three_point_mode(g_, dt_, m_, m4_, i));
+        return all;
+    }
+
+private:
+    void mirror(double* u) const noexcept {  // odd about both ends
+        const int N = g_.grid.intervals;
+        u[-1] = -u[1];
+        u[0] = u[N] = 0;
+        u[N + 1] = -u[N - 1];
+    }
+    double bridge_force() const noexcept {
+        double sum = 0;
+        for (int a = 0; a < obstacle_.contacts(); ++a) sum += force_[a];
+        return sum;
+    }
+    double thread_force() const noexcept { return g_.thread ? force_.back() : 0; }
+
+    double pluck(double t, double share, double* next) const noexcept {  // returns the force [N]
+        if (!g_.pluck || t < g_.pluck->start || t > g_.pluck->start + g_.pluck->duration) return 0;
+        const double F = force(*g_.pluck, t);
+        if (F != 0) pluck_response_.add(share * gain_ * F, next);
+        return F;
+    }
+
+    template <bool probed>
+    void step() noexcept {
+        double* spare = level_[0];
+        level_[0] = level_[1];
+        level_[1] = level_[2];
+        level_[2] = spare;
+        const double* before = level_[0];
+        double *now = level_[1], *next = level_[2];
+        ++step_;
+        mirror(now);
+        update_(next, now, before);
+        const double F_e = pluck(step_ * dt_, 1, next);
+        const int points = obstacle_.points();
+        for (int a = 0; a < points; ++a) {
+            older_[a] = g_.points[a].read(before);
+            free_[a] = g_.points[a].read(next) - older_[a];
+        }
+        if (points > 0 && !obstacle_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, step_ - 1};
+        for (int a = 0; a < points; ++a)
+            if (force_[a] != 0) responses_[a].add(gain_ * force_[a], next);
+        bridge_ += bridge_force();
+        thread_ += thread_force();
+        if (F_e != 0) {
+            const double work = 0.5 * F_e * (g_.pluck_stencil.read(next) - g_.pluck_stencil.read(before));
+            supplied_ += work;
+            budget_ += std::max(work, 0.0);
+        }
+        if (probed) dissipated_ += dt_ * loss();
+        if (step_ % divergence_check == 0 && !(kinetic(0, 0) <= divergence_factor * budget_ + 1e-30))
+            failed_ = {Outcome::diverged, step_ - 1};
+    }
+
+    double kinetic(double m, double m4) const noexcept {  // mass/2 <d, (I + m D2 + m4 D4) d>/dt^2
+        const double *now = level_[1], *next = level_[2];
+        const Squares d = squares(g_.grid, [=](int l) { return next[l] - now[l]; });
+        return 0.5 * g_.mass / (dt_ * dt_) * (d.own - m * d.slope + m4 * d.curve);
+    }
+    double stored() noexcept {
+        double *now = level_[1], *next = level_[2];
+        mirror(now);
+        mirror(next);
+        double slope = 0, curve = 0;
+        for (int l = 0; l < g_.grid.intervals; ++l) {
+            slope += (next[l + 1] - next[l]) * (now[l + 1] - now[l]);
+            curve += (next[l + 1] - 2 * next[l] + next[l - 1]) * (now[l + 1] - 2 * now[l] + now[l - 1]);
+        }
+        const double h2 = g_.grid.dx * g_.grid.dx;
+        double sum = kinetic(m_, m4_) + 0.5 * g_.mass * (g_.c2 * slope + g_.kappa2 / h2 * curve) / h2;
+        for (const double* u : {now, next}) {
+            for (int a = 0; a < obstacle_.points(); ++a) reading_[a] = g_.points[a].read(u);
+            sum += 0.5 * obstacle_.potential(reading_.data());
+        }
+        return sum;
+    }
+    double loss() const noexcept {  // power [W]: <v, R v> and the thread's damper, v = (u+ - u-)/2dt
+        const double *before = level_[0], *next = level_[2];
+        const Squares d = squares(g_.grid, [=](int l) { return next[l] - before[l]; });
+        double power = 0.5 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
+        if (g_.thread) power += obstacle_.thread_loss(g_.points.back().read(next) - older_.back());
+        return power;
+    }
+
+    void write(const Block& out, int row) noexcept {
+        const double *before = level_[0], *next = level_[2];
+        const double last_bridge = bridge_force(), last_thread = thread_force();
+        const double bridge = step_ == 0 ? 0 : (bridge_ - 0.5 * last_bridge) / steps_;
+        const double thread = step_ == 0 ? 0 : (thread_ - 0.5 * last_thread) / steps_;
+        bridge_ = 0.5 * last_bridge;
+        thread_ = 0.5 * last_thread;
+        const auto velocity = [&](const Stencil& at) { return (at.read(next) - at.read(before)) / (2 * dt_); };
+        add_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
+        if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
+        supplied_ = dissipated_ = 0;
+    }
+
+    GridString g_;
+    double dt_, m_, m4_, gain_;  // gain_ = dt^2/(mu dx) [m/N]
+    int steps_;
+    Update update_;
+    std::vector<Fact> own_;
+    std::vector<Stencil> responses_;
+    Stencil pluck_response_;
+    ObstacleStep obstacle_, start_;
+    std::vector<double> older_, free_, force_, reading_;
+    AlignedVector buffer_[3];
+    double* level_[3] = {};  // u^{n-1}, u^n, u^{n+1}; [l] is node l
+    long step_ = 0;          // n
+    double bridge_ = 0, thread_ = 0, supplied_ = 0, dissipated_ = 0, budget_ = 0;
+    Status failed_;
+};
+
+// (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`
+class FivePoint {
+public:
+    FivePoint(const GridString& g, double dt, double m, double m4, double divisor) : intervals_(g.grid.intervals) {
+        kept_ = AlignedVector(node_offset + intervals_ + five_point_overhang);
+        const double h2 = g.grid.dx * g.grid.dx, s = g.c2 * dt * dt / h2, q = g.kappa2 * dt * dt / (h2 * h2);
+        const double n = m / h2, n4 = m4 / (h2 * h2);
+        const double p = n + g.loss.sigma1 * dt / h2, p4 = n4 - g.loss.sigma2 * dt / (h2 * h2);  // M - dt R/2
+        w_.a0 = (2 - 4 * n + 12 * n4 - 2 * s - 6 * q) / divisor;
+        w_.a1 = (2 * n - 8 * n4 + s + 4 * q) / divisor;
+        w_.a2 = (2 * n4 - q) / divisor;
+        w_.b0 = -(1 - g.loss.sigma0 * dt - 2 * p + 6 * p4) / divisor;
+        w_.b1 = -(p - 4 * p4) / divisor;
+        w_.b2 = -p4 / divisor;
+        pass_ = five_point_pass(w_);
+    }
+    void operator()(double* next, const double* now, const double* before) noexcept {
+        pass_(w_, intervals_, next, now, before, kept_.data() + node_offset);
+    }
+
+private:
+    int intervals_;
+    FivePointWeights w_;
+    FivePointPass pass_;
+    AlignedVector kept_;  // of the level before
+};
+
+}  // namespace jvari

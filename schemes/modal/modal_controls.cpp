@@ -1,0 +1,130 @@
+// Controls that promise no energy balance, on the three-point recursion of modal_three_point.hpp. Only the contact or the gain is the
+// control: the string is exact and the thread implicit, as in the schemes that they stand beside. Stored energy is the true one,
+//     sum m (den d^2 + num s^2)/(8 dt^2) + V_c + (V(eta^{n+1}) + V(eta^n))/2,
+// so that what a scheme gains or loses is to be seen in the columns.
+//
+// modal_explicit_penalty   F_b^n = V'(eta^n). With exponent 1 stable in lasting contact only below
+//     k_max = m/(dt^2 sum g^2/den),  den = 1 + C + C~ = 4 cos^2(omega dt/2) without losses,
+//   the stiffness at which the highest root passes z = -1: 4 m/(dt^2 sum g^2) where the modes are far below half the sample rate. The
+//   thread adds its compliance (Sherman-Morrison). Fact `stable_stiffness_limit`. It is the limit of lasting contact, necessary and not
+//   sufficient: impacts gain energy below it too (C3 released without losses: still where the limit is 1.4 k, no longer where it is 11 k).
+//
+// modal_impulse_invariant  the impulse-invariant transform of eq 17 in van Walstijn et al. 2016 (end of section 2.3): each mode has its own
+//   gain e_i = dt R sin(omega dt)/(m omega); three-point discrete gradient for the contact. The paper rules it out since gains that
+//   differ from mode to mode would admit no balance with non-negative energy. They do admit one: in place of m each mode takes dt^2/e_i,
+//   which is positive below half the sample rate. Option `energy` = true (default) | adapted: with `adapted` the columns balance to
+//   rounding, so no run can diverge. But a mode near half the sample rate hardly feels a force and keeps what it has as if it were
+//   heavier by a = omega dt/(R sin omega dt): where an obstacle or a thread takes energy out of it into lower modes, more arrives than
+//   left. True energy grows by up to a_j/a_1 - 1 after a start in mode j, by a_j mean(1/a) - 1 where all modes end with equal shares of
+//   what is conserved; energy that goes the other way is lost by the same factor.
+//
+// Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+#include <cmath>
+
+#include "schemes/modal/modal_three_point.hpp"
+
+namespace jvari {
+
+extern const Descriptor modal_explicit_penalty, modal_impulse_invariant;
+
+namespace {
+
+struct TrueEnergyContact {  // what both have in common
+    static constexpr int dofs = 0;
+    ContactLaw law;
+    double least_force = 0, depth = 0, force = 0;
+
+    void begin(double) {}
+    bool solved() const { return true; }
+    void settle(double eta, double) {
+        least_force = std::min(least_force, force);
+        depth = std::max(depth, eta);
+    }
+    double energy(double eta, double eta_old) const { return 0.5 * (law.potential(eta) + law.potential(eta_old)); }
+    double energy_next(double eta, double eta_old) const { return energy(eta, eta_old); }
+    std::vector<Fact> facts() const { return {{"smallest_contact_force", least_force, "N"}, {"deepest_penetration", depth, "m"}}; }
+};
+
+struct ExplicitContact : TrueEnergyContact {
+    double limit = 0;  // [N/m]
+    double first(double eta, double, double) { return force = 0.5 * law.force(eta); }
+    double next(double eta, double, double, double) { return force = law.force(eta); }
+    std::vector<Fact> facts() const {
+        auto f = TrueEnergyContact::facts();
+        f.push_back({"stable_stiffness_limit", limit, "N/m"});
+        return f;
+    }
+};
+
+struct GradientContact : TrueEnergyContact {  // Issanchou et al. 2016, eq 16
+    long steps = 0, iterations = 0;
+    bool converged = true;
+    double take(const ContactSolution& s, double share) {
+        ++steps;
+        iterations += s.iterations;
+        converged = converged && s.converged;
+        return force = share * s.force;
+    }
+    bool solved() const { return converged; }
+    double first(double eta, double s0, double theta) { return take(solve_contact(law, eta, -s0, 0.5 * theta), 0.5); }
+    double next(double, double eta_old, double r0, double theta) { return take(solve_contact(law, eta_old, -r0, theta), 1); }
+    std::vector<Fact> facts() const {
+        auto f = TrueEnergyContact::facts();
+        f.push_back({"contact_iterations_mean", steps > 0 ? static_cast<double>(iterations) / static_cast<double>(steps) : 0, ""});
+        return f;
+    }
+};
+
+double stiffness_limit(const ModalString& m) {
+    double bb = 0, bc = 0, cc = 0;
+    for (int i = 0; i < m.count; ++i) {
+        const double b = m.g_b.empty() ? 0 : m.g_b[i], c = m.g_c.empty() ? 0 : m.g_c[i];
+        bb += b * b / m.den[i];
+        bc += b * c / m.den[i];
+        cc += c * c / m.den[i];
+    }
+    const double kappa_c = m.k_c * m.dt * m.dt / m.mass;  // at z = -1 the thread is its spring alone
+    return m.mass / (m.dt * m.dt * (bb - kappa_c * bc * bc / (1 + kappa_c * cc)));
+}
+
+std::unique_ptr<Scheme> make_explicit(const Scene& scene, const Settings& settings) {
+    refuse_unknown_options(settings, {});
+    ModalString string = modal_string(modal_explicit_penalty, scene, settings);
+    ExplicitContact contact;
+    contact.law = string.barrier;
+    contact.limit = stiffness_limit(string);
+    const ModalArray gain(string.size, string.dt * string.dt / string.mass), inertia(string.count, string.mass);
+    return std::make_unique<ModalThreePoint<ExplicitContact>>(std::move(string), gain, inertia, contact);
+}
+
+std::unique_ptr<Scheme> make_impulse_invariant(const Scene& scene, const Settings& settings) {
+    refuse_unknown_options(settings, {"energy"});
+    const std::string energy = option(settings, "energy", "true");
+    if (energy != "true" && energy != "adapted") throw Refusal("option energy: found \"" + energy + "\", expected true or adapted");
+    ModalString string = modal_string(modal_impulse_invariant, scene, settings);
+    GradientContact contact;
+    contact.law = string.barrier;
+    const double dt = string.dt;
+    ModalArray gain, inertia;
+    for (int i = 0; i < string.count; ++i) {
+        const double w = string.omega[i], wave = w > 0 ? std::sin(w * dt) / w : w < 0 ? std::sinh(w * dt) / w : dt;
+        gain.push_back(dt * std::exp(-string.sigma[i] * dt) * wave / string.mass);
+        inertia.push_back(energy == "true" ? string.mass : dt * dt / gain.back());
+    }
+    return std::make_unique<ModalThreePoint<GradientContact>>(std::move(string), gain, inertia, contact);
+}
+
+}  // namespace
+
+const Descriptor modal_explicit_penalty = {
+    "modal_explicit_penalty", "exact modes, contact force of the last step (conditionally stable control)",
+    modal_features,           Balance::none,
+    Clock::stepped,           make_explicit};
+const Descriptor modal_impulse_invariant = {"modal_impulse_invariant",
+                                            "van Walstijn et al. 2016, end of section 2.3: gains that differ from mode to mode (control)",
+                                            modal_features,
+                                            Balance::none,
+                                            Clock::stepped,
+                                            make_impulse_invariant};
+
+}  // namespace jvari

@@ -1,0 +1,291 @@
+// Modal schemes with quadratised (linearly implicit) contact: quadratised_contact.hpp on the two-point form of van Walstijn et al. 2016
+// (eqs 38-52, the pass below) and on the three-point form of Issanchou et al. 2016 (modal_three_point.hpp). The thread is eliminated as in
+// eqs 45-47 of the first. Energy columns hold the scheme's own energy, with psi^2/2 for the contact; the facts tell how far that is from
+// the true one. Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+#include <cmath>
+
+#include "schemes/contact/quadratised_contact.hpp"
+#include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal/modal_three_point.hpp"
+
+namespace jvari {
+
+extern const Descriptor modal_quadratised, modal_quadratised_two_point_constrained, modal_quadratised_two_point_raw,
+    modal_quadratised_three_point, modal_quadratised_three_point_constrained, modal_quadratised_three_point_raw;
+
+namespace {
+
+// ---- Three-point: psi lives at half steps.
+
+struct QuadratisedThreePointContact {
+    static constexpr int dofs = 1;
+    QuadratisedLaw q;
+    double psi = 0, psi_next = 0, force = 0;
+    QuadratisedFacts seen;
+
+    void begin(double eta) { psi = q.psi(eta); }
+    double first(double eta, double s0, double theta) {  // F^0/2 = gamma psi^{1/2}, psi^{1/2} = psi^0 - gamma s
+        force = 0;
+        psi_next = psi;
+        if (eta <= 0) return 0;
+        const double gamma = q.gamma(eta);
+        force = std::max(gamma * (psi - gamma * s0) / (1 + gamma * gamma * theta), 0.0);
+        psi_next = std::max(psi - gamma * (s0 + theta * force), 0.0);
+        return force;
+    }
+    double next(double eta, double, double r0, double theta) {
+        const QuadratisedStep s = solve_quadratised(q, eta, psi, r0, theta);
+        psi_next = s.psi;
+        return force = s.force;
+    }
+    void settle(double eta, double eta_old) {
+        psi = psi_next;
+        const double a = q.psi(eta), b = q.psi(eta_old);
+        seen.note(force, psi, eta, std::sqrt(0.5 * (a * a + b * b)));
+    }
+    bool solved() const { return true; }
+    double energy(double, double) const { return 0.5 * psi * psi; }
+    double energy_next(double, double) const { return 0.5 * psi_next * psi_next; }
+    std::vector<Fact> facts() const { return seen.list(); }
+};
+
+// ---- Two-point: s = y^{n+1} - y^n = u + e_b F_b + e_c F_c + e_e F_e in the form y' = y + s, u' = a s - (u + c y).
+
+class QuadratisedTwoPoint final : public Scheme {
+public:
+    QuadratisedTwoPoint(ModalString string, Quadratisation variant)
+        : m_(std::move(string)), q_(QuadratisedLaw::make(m_.barrier, variant, 0.5)), y_(m_.size), u_(m_.size), A_(m_.size), B_(m_.size) {
+        xi_ = m_.dt * m_.dt / (2 * m_.mass);
+        a_ = c_ = J_ = A_;
+        for (int i = 0; i < m_.count; ++i) {
+            A_[i] = m_.num[i] / m_.den[i];
+            B_[i] = 2 * m_.loss[i] / m_.den[i];  // (33)
+            J_[i] = 1 + A_[i] + B_[i];
+            a_[i] = 2 * (1 - A_[i]) / J_[i];
+            c_[i] = 4 * A_[i] / J_[i];
+        }
+        e_b_ = scaled(m_.g_b);
+        e_c_ = scaled(m_.g_c);
+        e_e_ = scaled(m_.g_e);
+        theta_cc_ = modal_dot(m_.g_c, e_c_);
+        theta_bc_ = modal_dot(m_.g_b, e_c_);
+        theta_be_ = modal_dot(m_.g_b, e_e_);
+        theta_ce_ = modal_dot(m_.g_c, e_e_);
+        phi_c_ = m_.k_c / 2 + m_.r_c / m_.dt;
+        inverse_c_ = 1 / (1 + phi_c_ * theta_cc_);
+        beta_c_ = phi_c_ * theta_bc_ * inverse_c_;  // (47)
+        theta_ = modal_dot(m_.g_b, e_b_) - beta_c_ * theta_bc_;
+        const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
+        unplucked_ = two_point_pass(barrier, thread, false);
+        plucked_ = two_point_pass(barrier, thread, true);
+        pass_.size = m_.size;
+        pass_.p = a_.data();
+        pass_.r = c_.data();
+        pass_.g_b = m_.g_b.data();
+        pass_.g_c = m_.g_c.data();
+        pass_.e_b = e_b_.data();
+        pass_.e_c = e_c_.data();
+        pass_.e_e = e_e_.data();
+        pass_.x = y_.data();
+        pass_.v = u_.data();
+        QuadratisedTwoPoint::reset();
+    }
+
+    void reset() noexcept override {
+        y_ = m_.y0;
+        for (int i = 0; i < m_.count; ++i) u_[i] = -2 * A_[i] / J_[i] * y_[i];  // (42) with q = 0
+        y_b_ = modal_dot(m_.g_b, y_);
+        u_b_ = modal_dot(m_.g_b, u_);
+        y_c_ = modal_dot(m_.g_c, y_);
+        u_c_ = modal_dot(m_.g_c, u_);
+        psi_ = q_.psi(m_.h_b - y_b_);
+        step_ = 0;
+        status_ = {};
+        seen_ = {};
+        impulse_b_ = impulse_c_ = supplied_ = dissipated_ = 0;
+    }
+
+    Status advance(const Block& out) noexcept override {
+        if (status_.outcome != Outcome::ok) return status_;
+        for (int row = 0; row < out.rows; ++row) {
+            write(out, row);
+            impulse_b_ = impulse_c_ = supplied_ = dissipated_ = 0;
+            for (int k = 0; k < m_.steps_per_row; ++k) {
+                solve();
+                if (out.energy) ledger();
+                step();
+                if (!m_.g_b.empty()) seen_.note(F_b_, psi_, m_.h_b - y_b_, q_.psi(m_.h_b - y_b_));
+            }
+            if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
+        }
+        return {};
+    }
+
+    int dofs() const override { return 2 * m_.count + (m_.g_b.empty() ? 0 : 1); }
+    std::vector<Fact> facts() const override {
+        if (m_.g_b.empty()) return {};
+        double compliance = 0;
+        for (int i = 0; i < m_.count; ++i) compliance += 0.5 * xi_ * m_.g_b[i] * m_.g_b[i] / A_[i];
+        std::vector<Fact> f = seen_.list();
+        f.push_back({"static_compliance", compliance / m_.true_compliance, ""});
+        return f;
+    }
+    std::vector<FreeMode> free_modes() const override {
+        std::vector<FreeMode> all;
+        for (int i = 0; i < m_.count; ++i) all.push_back(two_point_mode(A_[i], B_[i], m_.dt));
+        return all;
+    }
+
+private:
+    ModalArray scaled(const ModalArray& g) const {  // e_z = xi g_z/J
+        ModalArray e = g;
+        for (std::size_t i = 0; i < std::min<std::size_t>(e.size(), m_.count); ++i) e[i] *= xi_ / J_[i];
+        return e;
+    }
+
+    void solve() {
+        F_e_ = 0.5 * (m_.pluck_at(step_) + m_.pluck_at(step_ + 1));
+        const double u_b = u_b_ + theta_be_ * F_e_, u_c = u_c_ + theta_ce_ * F_e_;
+        const double v_c = (m_.k_c * (m_.h_c - y_c_) - phi_c_ * u_c) * inverse_c_;  // (47)
+        const QuadratisedStep s = solve_quadratised(q_, m_.h_b - y_b_, psi_, u_b + theta_bc_ * v_c, theta_);
+        F_b_ = s.force;
+        psi_ = s.psi;
+        F_c_ = v_c - beta_c_ * F_b_;  // (46)
+        s_c_ = u_c + theta_bc_ * F_b_ + theta_cc_ * F_c_;
+        impulse_b_ += F_b_;
+        impulse_c_ += F_c_;
+    }
+
+    void step() {
+        pass_.F_b = F_b_;
+        pass_.F_c = F_c_;
+        pass_.F_e = F_e_;
+        (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
+        y_b_ = pass_.x_b;
+        u_b_ = pass_.v_b;
+        y_c_ = pass_.x_c;
+        u_c_ = pass_.v_c;
+        ++step_;
+    }
+
+    double increment(int i) const {
+        return u_[i] + (e_b_.empty() ? 0 : e_b_[i] * F_b_) + (e_c_.empty() ? 0 : e_c_[i] * F_c_) + (e_e_.empty() ? 0 : e_e_[i] * F_e_);
+    }
+    void ledger() {  // (51), (52) over one step
+        double loss = 0, work = 0;
+        for (int i = 0; i < m_.size; ++i) {
+            const double s = increment(i);
+            loss += B_[i] * s * s;
+            if (F_e_ != 0) work += m_.g_e[i] * s;
+        }
+        dissipated_ += loss / xi_ + m_.r_c / m_.dt * s_c_ * s_c_;
+        supplied_ += F_e_ * work;
+    }
+    double momentum(int i) const { return 0.5 * J_[i] * u_[i] + A_[i] * y_[i]; }  // q of (31)
+
+    double stored() const {  // (49) with psi
+        double sum = 0;
+        for (int i = 0; i < m_.size; ++i) sum += momentum(i) * momentum(i) + A_[i] * y_[i] * y_[i];
+        const double e_c = m_.h_c - y_c_;
+        return sum / xi_ + 0.5 * m_.k_c * e_c * e_c + 0.5 * psi_ * psi_;
+    }
+
+    void write(const Block& out, int row) const {
+        const double per_row = m_.steps_per_row;
+        const auto velocity = [this](const ModalArray& weights) {  // p/m = 2 q/dt
+            double sum = 0;
+            for (int i = 0; i < m_.size; ++i) sum += weights[i] * momentum(i);
+            return sum * (2 / m_.dt);
+        };
+        write_taps(out, row, m_.taps, y_, velocity, impulse_b_ / per_row, impulse_c_ / per_row);
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
+    }
+
+    ModalString m_;
+    QuadratisedLaw q_;
+    ModalArray y_, u_, A_, B_, a_, c_, J_, e_b_, e_c_, e_e_;
+    double xi_ = 0, theta_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
+    double phi_c_ = 0, inverse_c_ = 1, beta_c_ = 0;
+    ModalPass pass_;
+    ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
+    long step_ = 0;
+    Status status_;
+    QuadratisedFacts seen_;
+    double psi_ = 0;                                // [sqrt(J)]
+    double y_b_ = 0, u_b_ = 0, y_c_ = 0, u_c_ = 0;  // [m]
+    double F_b_ = 0, F_c_ = 0, F_e_ = 0, s_c_ = 0;  // of the step in hand [N], [m]
+    double impulse_b_ = 0, impulse_c_ = 0;          // sums of F over the interval of a row [N]
+    double supplied_ = 0, dissipated_ = 0;          // [J]
+};
+
+// ---- The table.
+
+using Made = std::unique_ptr<Scheme>;
+
+Made make(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels, Quadratisation variant) {
+    ModalString string = modal_string(descriptor, scene, settings);
+    if (levels == 2) return std::make_unique<QuadratisedTwoPoint>(std::move(string), variant);
+    const QuadratisedThreePointContact contact{QuadratisedLaw::make(string.barrier, variant, 1), 0, 0, 0, {}};
+    const ModalArray gain(string.size, string.dt * string.dt / string.mass), inertia(string.count, string.mass);
+    return std::make_unique<ModalThreePoint<QuadratisedThreePointContact>>(std::move(string), gain, inertia, contact);
+}
+
+Made make_chosen(const Scene& scene, const Settings& settings) {
+    refuse_unknown_options(settings, {"levels", "variant"});
+    const std::string levels = option(settings, "levels", "2"), variant = option(settings, "variant", "released");
+    if (levels != "2" && levels != "3") throw Refusal("option levels: found \"" + levels + "\", expected 2 or 3");
+    if (variant != "raw" && variant != "constrained" && variant != "released")
+        throw Refusal("option variant: found \"" + variant + "\", expected raw, constrained or released");
+    return make(modal_quadratised, scene, settings, levels == "2" ? 2 : 3,
+                variant == "raw"           ? Quadratisation::raw
+                : variant == "constrained" ? Quadratisation::constrained
+                                           : Quadratisation::released);
+}
+
+template <const Descriptor* descriptor, int levels, Quadratisation variant>
+Made make_fixed(const Scene& scene, const Settings& settings) {
+    refuse_unknown_options(settings, {});
+    return make(*descriptor, scene, settings, levels, variant);
+}
+
+constexpr const char* raw_source = "Ducceschi et al. 2021 without the constraint on psi (known-bad control)";
+constexpr const char* constrained_source = "Ducceschi et al. 2021, with g signed by psi and psi driven to 0 out of contact";
+constexpr const char* released_source = "Ducceschi et al. 2021, psi released in full where it would pull";
+
+}  // namespace
+
+const Descriptor modal_quadratised = {"modal_quadratised", released_source, modal_features, Balance::exact, Clock::stepped, make_chosen};
+const Descriptor modal_quadratised_two_point_constrained = {
+    "modal_quadratised_two_point_constrained",
+    constrained_source,
+    modal_features,
+    Balance::exact,
+    Clock::stepped,
+    make_fixed<&modal_quadratised_two_point_constrained, 2, Quadratisation::constrained>};
+const Descriptor modal_quadratised_two_point_raw = {"modal_quadratised_two_point_raw",
+                                                    raw_source,
+                                                    modal_features,
+                                                    Balance::exact,
+                                                    Clock::stepped,
+                                                    make_fixed<&modal_quadratised_two_point_raw, 2, Quadratisation::raw>};
+const Descriptor modal_quadratised_three_point = {"modal_quadratised_three_point",
+                                                  released_source,
+                                                  modal_features,
+                                                  Balance::exact,
+                                                  Clock::stepped,
+                                                  make_fixed<&modal_quadratised_three_point, 3, Quadratisation::released>};
+const Descriptor modal_quadratised_three_point_constrained = {
+    "modal_quadratised_three_point_constrained",
+    constrained_source,
+    modal_features,
+    Balance::exact,
+    Clock::stepped,
+    make_fixed<&modal_quadratised_three_point_constrained, 3, Quadratisation::constrained>};
+const Descriptor modal_quadratised_three_point_raw = {"modal_quadratised_three_point_raw",
+                                                      raw_source,
+                                                      modal_features,
+                                                      Balance::exact,
+                                                      Clock::stepped,
+                                                      make_fixed<&modal_quadratised_three_point_raw, 3, Quadratisation::raw>};
+
+}  // namespace jvari

@@ -1,0 +1,86 @@
+// Source: van Walstijn et al. 2016, eqs 16-22 and 33.
+#include "schemes/modal/modal_string.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "scenes/excitation.hpp"
+#include "schemes/modal/modal_coefficients.hpp"
+
+namespace jvari {
+
+using std::numbers::pi;
+
+void refuse_above_nyquist(const Descriptor& d, const Modes& modes, double sample_rate) {
+    for (int i = 0; i < modes.count(); ++i) {
+        const double square = omega_squared_damped(modes.omega0[i], modes.sigma[i]);
+        if (square >= pi * pi * sample_rate * sample_rate)
+            throw Refusal(std::string(d.name) + ": mode " + std::to_string(i + 1) + " at " + std::to_string(std::sqrt(square) / (2 * pi)) +
+                          " Hz is not below half the sample rate of " + std::to_string(sample_rate) +
+                          " Hz, where it would alias; ask for fewer modes or a higher rate");
+    }
+}
+
+double modal_dot(const ModalArray& a, const ModalArray& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    refuse_missing(descriptor, scene);
+    const String& s = scene.strings.front();
+    ModalString m;
+    m.steps_per_row = steps_per_row(settings);
+    m.dt = 1 / settings.sample_rate;
+    const Modes modes = modes_of(s, modes_for(s, settings));
+    refuse_above_nyquist(descriptor, modes, settings.sample_rate);
+    m.count = modes.count();
+    m.size = (m.count + modal_lanes - 1) / modal_lanes * modal_lanes;
+    m.mass = modes.mass;
+    const auto padded = [&m](std::vector<double> v) {
+        v.resize(m.size);
+        return v;
+    };
+    for (int i = 0; i < m.count; ++i) {
+        const ModeStep step = exact_step(modes.omega0[i], modes.sigma[i], m.dt);
+        const double square = omega_squared_damped(modes.omega0[i], modes.sigma[i]);
+        m.num.push_back(step.num);
+        m.den.push_back(step.den);
+        m.loss.push_back(step.loss);
+        m.omega.push_back(square >= 0 ? std::sqrt(square) : -std::sqrt(-square));
+        m.sigma.push_back(modes.sigma[i]);
+    }
+    for (ModalArray* a : {&m.num, &m.den, &m.loss, &m.omega, &m.sigma}) *a = padded(std::move(*a));
+    m.y0 = padded(initial_displacement(modes, s));
+    if (!s.barriers.empty()) {
+        const auto& b = std::get<LumpedBarrier>(s.barriers.front());
+        const auto g = footprint_weights(modes, b.position, b.width);
+        m.true_compliance = static_compliance(modes, g);
+        m.g_b = padded(g);
+        m.barrier = {b.stiffness.k, b.exponent};
+        m.h_b = b.height;
+    }
+    if (s.thread) {
+        m.g_c = padded(footprint_weights(modes, s.thread->position, s.thread->width));
+        m.k_c = s.thread->stiffness;
+        m.r_c = s.thread->damping;
+        m.h_c = s.thread->height;
+    }
+    if (s.pluck) {
+        m.g_e = padded(footprint_weights(modes, s.pluck->position, s.pluck->width));
+        m.pluck_first = static_cast<long>(std::floor(s.pluck->start / m.dt));
+        const long last = static_cast<long>(std::ceil((s.pluck->start + s.pluck->duration) / m.dt));
+        for (long n = m.pluck_first; n <= last; ++n) m.pluck.push_back(force(*s.pluck, n * m.dt));
+    }
+    for (const Tap& tap : scene.taps) {
+        ModalTap t{tap.quantity, {}};
+        if (tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity)
+            t.weights = padded(displacement_weights(modes, tap.position));
+        if (tap.quantity == Quantity::nut_force) t.weights = padded(nut_force_weights(modes, s));
+        m.taps.push_back(std::move(t));
+    }
+    return m;
+}
+
+}  // namespace jvari

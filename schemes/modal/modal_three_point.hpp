@@ -1,0 +1,249 @@
+// The modal three-point recursion with one contact and one thread: Issanchou et al. 2016, eqs 14-21, in increments d^n = q^n - q^{n-1}:
+//
+//     d^{n+1} = C~ d^n - num q^n + sum_z e_z F_z^n,   q^{n+1} = q^n + d^{n+1},     e_z = gain g_z, gain = dt^2/m unless a scheme says else
+//
+// which is q^{n+1} = C q^n - C~ q^{n-1} + ... without its cancellation at high rates. The thread takes the mean of the two outer levels,
+//     F_c = k_c [h_c - (y_c^{n+1} + y_c^{n-1})/2] - r_c (y_c^{n+1} - y_c^{n-1})/(2 dt),
+// and is eliminated as in van Walstijn et al. 2016, eqs 45-47. How the contact force F_b follows is the Contact type's affair:
+//
+//     double first(eta, s0, theta)           F_b^0/2, where the mean increment of the first half step is s0 + theta F_b^0/2
+//     double next(eta, eta_old, r0, theta)   F_b^n from eta^n, eta^{n-1} and y_b^{n+1} - y_b^{n-1} = r0 + theta F_b^n
+//     void   settle(eta, eta_old)            the step is made: eta^{n+1}, eta^n
+//     bool   solved()                        no step so far was left unsolved
+//     double energy(eta, eta_old)            of the half step before, after `settle`;  energy_next(...) of the half step after, before it
+//
+// Start: the free motion that passes y0 at rest is also run back to t = -dt, and every force acts on the first half step with half its
+// weight. (Without the thread's part of that a start from a bent thread is wrong to first order.)
+// Rows: the energy of a row is the mean of its two half steps, contact forces and the ledger count row instants with half weight, so that
+// stored[n] - stored[n-1] = supplied[n] - dissipated[n] holds to rounding where the scheme has a balance. Row 0 has the first half step's.
+// The energy is eq 21 with the constants C1 = (1 + C~)/2, C2 = num/dt^2, C3 = loss/dt in a form that shows its sign,
+//     sum W (den d^2 + num s^2)/(8 dt^2), s = q^{n+1} + q^n; W is the modal mass unless a scheme says else.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal/modal_string.hpp"
+
+namespace jvari {
+
+template <class Contact>
+class ModalThreePoint : public Scheme {
+public:
+    // gain: dt^2/m of each mode as the scheme has it; inertia: W.
+    ModalThreePoint(ModalString string, const ModalArray& gain, ModalArray inertia, Contact contact)
+        : m_(std::move(string)), contact_(contact), start_(contact), q_(m_.size), d_(m_.size), d0_(m_.size), W_(std::move(inertia)) {
+        W_.resize(m_.size);
+        for (int i = 0; i < m_.count; ++i) {  // d^0 of the free motion at rest in y0: C~ d^0 = (q^1 - q^0) + num q^0
+            const double h = m_.omega[i] * m_.dt, over_omega = m_.omega[i] == 0 ? m_.dt : m_.sigma[i] / m_.omega[i];
+            const double R = std::exp(-m_.sigma[i] * m_.dt), E = std::expm1(-m_.sigma[i] * m_.dt);
+            const double half = m_.omega[i] >= 0 ? std::sin(h / 2) : std::sinh(-h / 2),
+                         whole = m_.omega[i] >= 0 ? std::sin(h) : std::sinh(h);
+            const double even = m_.omega[i] >= 0 ? -2 * half * half : 2 * half * half;  // cos h - 1
+            const double odd = m_.omega[i] == 0 ? m_.sigma[i] * m_.dt : over_omega * whole;
+            d0_[i] = (E + R * (even + odd) + m_.num[i]) / (1 - m_.loss[i]) * m_.y0[i];
+        }
+        e_b_ = scaled(m_.g_b, gain);
+        for (std::size_t i = 0; i < m_.g_b.size(); ++i)
+            if (m_.num[i] > 0) compliance_ += m_.g_b[i] * e_b_[i] / m_.num[i];  // d = 0
+        e_c_ = scaled(m_.g_c, gain);
+        e_e_ = scaled(m_.g_e, gain);
+        theta_cc_ = modal_dot(m_.g_c, e_c_);
+        theta_bc_ = modal_dot(m_.g_b, e_c_);
+        theta_bb_ = modal_dot(m_.g_b, e_b_);
+        theta_be_ = modal_dot(m_.g_b, e_e_);
+        theta_ce_ = modal_dot(m_.g_c, e_e_);
+        steady_ = couple(0.5 * m_.k_c + 0.5 * m_.r_c / m_.dt, m_.k_c);
+        first_ = couple(0.5 * m_.k_c, 0.5 * m_.k_c);
+        const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
+        unplucked_ = three_point_pass(barrier, thread, false);
+        plucked_ = three_point_pass(barrier, thread, true);
+        pass_.size = m_.size;
+        pass_.p = m_.loss.data();
+        pass_.r = m_.num.data();
+        pass_.g_b = m_.g_b.data();
+        pass_.g_c = m_.g_c.data();
+        pass_.e_b = e_b_.data();
+        pass_.e_c = e_c_.data();
+        pass_.e_e = e_e_.data();
+        pass_.x = q_.data();
+        pass_.v = d_.data();
+        ModalThreePoint::reset();
+    }
+
+    void reset() noexcept override {
+        q_ = m_.y0;
+        d_ = d0_;
+        step_ = 0;
+        contact_ = start_;
+        status_ = {};
+        impulse_b_ = impulse_c_ = supplied_ = dissipated_ = 0;
+        y_b_ = y_b_old_ = modal_dot(m_.g_b, q_);
+        y_c_ = y_c_old_ = modal_dot(m_.g_c, q_);
+        r_b_ = r_c_ = 0;  // in the first step: the free increments of the first half, see solve()
+        for (int i = 0; i < m_.size; ++i) {
+            const double d = free_increment(i);
+            if (!m_.g_b.empty()) r_b_ += m_.g_b[i] * d;
+            if (!m_.g_c.empty()) r_c_ += m_.g_c[i] * d;
+        }
+        contact_.begin(m_.h_b - y_b_);
+        solve();
+    }
+
+    Status advance(const Block& out) noexcept override {
+        if (status_.outcome != Outcome::ok) return status_;
+        for (int row = 0; row < out.rows; ++row) {
+            write(out, row);
+            const double weight = step_ == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
+            impulse_b_ = weight * F_b_;
+            impulse_c_ = weight * F_c_;
+            supplied_ = dissipated_ = 0;
+            if (out.energy && step_ > 0) ledger(0.5);
+            for (int k = 0; k < m_.steps_per_row; ++k) {
+                step();
+                solve();
+                if (k + 1 == m_.steps_per_row) break;
+                impulse_b_ += F_b_;
+                impulse_c_ += F_c_;
+                if (out.energy) ledger(1);
+            }
+            impulse_b_ += 0.5 * F_b_;
+            impulse_c_ += 0.5 * F_c_;
+            if (out.energy) ledger(0.5);
+            if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
+            if (!contact_.solved()) return status_ = {Outcome::not_converged, step_ - 1};
+        }
+        return {};
+    }
+
+    int dofs() const override { return 2 * m_.count + (m_.g_b.empty() ? 0 : Contact::dofs); }
+    std::vector<Fact> facts() const override {
+        if (m_.g_b.empty()) return {};
+        std::vector<Fact> f = contact_.facts();
+        f.push_back({"static_compliance", compliance_ / m_.true_compliance, ""});
+        return f;
+    }
+    std::vector<FreeMode> free_modes() const override {
+        std::vector<FreeMode> all;
+        for (int i = 0; i < m_.count; ++i) all.push_back(three_point_mode(m_.num[i], m_.loss[i], m_.dt));
+        return all;
+    }
+
+private:
+    struct Coupling {  // F_c = v_c - beta_c F_b, v_c = [k (h_c - y_c) - phi r_c]/(1 + phi theta_cc)   (45)-(47)
+        double phi, k, inverse, beta_c, theta;
+    };
+    Coupling couple(double phi, double k) const {
+        const double inverse = 1 / (1 + phi * theta_cc_), beta_c = phi * theta_bc_ * inverse;
+        return {phi, k, inverse, beta_c, theta_bb_ - beta_c * theta_bc_};
+    }
+    static ModalArray scaled(const ModalArray& g, const ModalArray& gain) {
+        ModalArray e = g;
+        for (std::size_t i = 0; i < std::min(e.size(), gain.size()); ++i) e[i] *= gain[i];
+        return e;
+    }
+    double free_increment(int i) const { return (1 - m_.loss[i]) * d_[i] - m_.num[i] * q_[i]; }
+    double next_increment(int i) const {
+        return free_increment(i) + (e_b_.empty() ? 0 : e_b_[i] * F_b_) + (e_c_.empty() ? 0 : e_c_[i] * F_c_) +
+               (e_e_.empty() ? 0 : e_e_[i] * F_e_);
+    }
+
+    // The forces of step n from the dots that the last pass left.
+    void solve() {
+        const bool at_start = step_ == 0;
+        const Coupling& c = at_start ? first_ : steady_;
+        F_e_ = (at_start ? 0.5 : 1) * m_.pluck_at(step_);
+        const double rb = r_b_ + theta_be_ * F_e_, rc = r_c_ + theta_ce_ * F_e_;
+        const double v_c = (c.k * (m_.h_c - y_c_old_) - c.phi * rc) * c.inverse;
+        F_b_ = 0;
+        F_c_ = v_c;
+        increment_b_ = rb + theta_bc_ * v_c;
+        if (!m_.g_b.empty()) {
+            F_b_ = at_start ? contact_.first(m_.h_b - y_b_, increment_b_, c.theta)
+                            : contact_.next(m_.h_b - y_b_, m_.h_b - y_b_old_, increment_b_, c.theta);
+            F_c_ -= c.beta_c * F_b_;
+            increment_b_ += c.theta * F_b_;
+        }
+        increment_c_ = rc + theta_bc_ * F_b_ + theta_cc_ * F_c_;
+    }
+
+    void step() {
+        pass_.F_b = F_b_;
+        pass_.F_c = F_c_;
+        pass_.F_e = F_e_;
+        (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
+        if (!m_.g_b.empty()) {
+            contact_.settle(m_.h_b - pass_.x_b, m_.h_b - y_b_);
+            y_b_old_ = y_b_;
+            y_b_ = pass_.x_b;
+            r_b_ = pass_.v_b;
+        }
+        y_c_old_ = y_c_;
+        y_c_ = pass_.x_c;
+        r_c_ = pass_.v_c;
+        ++step_;
+    }
+
+    // Work and losses of the centred step n >= 1: F_e (y_e^{n+1} - y_e^{n-1})/2, W loss (d^{n+1} + d^n)^2/(4 dt^2), thread.
+    void ledger(double weight) {
+        double loss = 0, work = 0;
+        for (int i = 0; i < m_.size; ++i) {
+            const double r = next_increment(i) + d_[i];
+            loss += W_[i] * m_.loss[i] * r * r;
+            if (F_e_ != 0) work += m_.g_e[i] * r;
+        }
+        const double r_c = increment_c_;
+        dissipated_ += weight * (loss / (4 * m_.dt * m_.dt) + m_.r_c * r_c * r_c / (4 * m_.dt));
+        supplied_ += weight * 0.5 * F_e_ * work;
+    }
+
+    double half_step_energy(double yc, double yc_other, double contact, bool after) const {
+        double sum = 0;
+        for (int i = 0; i < m_.size; ++i) {
+            const double d = after ? next_increment(i) : d_[i], s = after ? 2 * q_[i] + d : 2 * q_[i] - d;
+            sum += W_[i] * (m_.den[i] * d * d + m_.num[i] * s * s);
+        }
+        const double a = m_.h_c - yc, b = m_.h_c - yc_other;
+        return sum / (8 * m_.dt * m_.dt) + 0.25 * m_.k_c * (a * a + b * b) + contact;
+    }
+
+    double stored() const {
+        const bool at_start = step_ == 0, barrier = !m_.g_b.empty();
+        const double yb_next = (at_start ? y_b_ : y_b_old_) + increment_b_, yc_next = (at_start ? y_c_ : y_c_old_) + increment_c_;
+        const double after = half_step_energy(y_c_, yc_next, barrier ? contact_.energy_next(m_.h_b - yb_next, m_.h_b - y_b_) : 0, true);
+        if (at_start) return after;
+        return 0.5 * (after + half_step_energy(y_c_, y_c_old_, barrier ? contact_.energy(m_.h_b - y_b_, m_.h_b - y_b_old_) : 0, false));
+    }
+
+    void write(const Block& out, int row) const {
+        const double per_row = m_.steps_per_row;
+        const auto velocity = [this](const ModalArray& weights) {  // centred; at rest in row 0
+            double sum = 0;
+            if (step_ > 0)
+                for (int i = 0; i < m_.size; ++i) sum += weights[i] * (next_increment(i) + d_[i]);
+            return sum / (2 * m_.dt);
+        };
+        write_taps(out, row, m_.taps, q_, velocity, impulse_b_ / per_row, impulse_c_ / per_row);
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
+    }
+
+    ModalString m_;
+    Contact contact_, start_;
+    ModalArray q_, d_, d0_, W_, e_b_, e_c_, e_e_;
+    double compliance_ = 0;  // under a steady force at the bridge [m/N]
+    double theta_bb_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
+    Coupling steady_{}, first_{};
+    ModalPass pass_;
+    ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
+    long step_ = 0;
+    Status status_;
+    double y_b_ = 0, y_b_old_ = 0, y_c_ = 0, y_c_old_ = 0;  // at steps n and n - 1 [m]
+    double r_b_ = 0, r_c_ = 0;                              // force-free increments from n - 1 to n + 1 [m]
+    double F_b_ = 0, F_c_ = 0, F_e_ = 0;                    // of step n [N]
+    double increment_b_ = 0, increment_c_ = 0;              // y^{n+1} - y^{n-1} with the forces; in the first step y^1 - y^0 [m]
+    double impulse_b_ = 0, impulse_c_ = 0;                  // sums of F over the interval of a row [N]
+    double supplied_ = 0, dissipated_ = 0;                  // [J]
+};
+
+}  // namespace jvari

@@ -1,0 +1,227 @@
+// The modal two-point scheme: van Walstijn, Bridges & Mehes 2016, eqs 16-52 (the update in the form of modal_two_point_kernel.hpp).
+//
+// Exact modal frequencies and decay by the coefficients of eq 33; the thread eliminated by eqs 45-47; one barrier, whose force is the
+// two-point discrete gradient of eq 30. Starts from rest with q = 0 as in the paper: with losses that is not quite the true rest, a freely
+// decaying mode begins with a small phase offset (fact `start_phase_offset`); without losses free motion is exact to rounding.
+// `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
+// Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "scenes/excitation.hpp"
+#include "scenes/modes.hpp"
+#include "schemes/aligned.hpp"
+#include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal/modal_string.hpp"
+#include "schemes/modal/modal_two_point_kernel.hpp"
+
+namespace jvari {
+
+extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
+
+namespace {
+
+struct Coefficients {
+    double A, B;
+};
+using Law = Coefficients (*)(double omega0, double sigma, double dt);
+
+Coefficients exact(double omega0, double sigma, double dt) {  // (33)
+    const ModeStep m = exact_step(omega0, sigma, dt);
+    return {m.A(), m.B()};
+}
+Coefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i of (32)
+    return {0.25 * omega0 * omega0 * dt * dt, sigma * dt};
+}
+
+class ModalTwoPoint final : public Scheme {
+public:
+    ModalTwoPoint(const Descriptor& descriptor, const Scene& scene, const Settings& settings, Law law) {
+        refuse_missing(descriptor, scene);
+        refuse_unknown_options(settings, {});
+        const String& s = scene.strings.front();
+        m_.steps_per_row = steps_per_row(settings);
+        m_.dt = 1 / settings.sample_rate;
+        const Modes modes = modes_of(s, modes_for(s, settings));
+        refuse_above_nyquist(descriptor, modes, settings.sample_rate);
+        m_.modes = modes.count();
+        m_.size = (m_.modes + two_point_padding - 1) / two_point_padding * two_point_padding;
+
+        const double xi = m_.dt * m_.dt / (2 * modes.mass);
+        std::vector<double> A, B, c, loss, inverse_J, scale;  // scale = sqrt(J/xi)
+        for (int i = 0; i < m_.modes; ++i) {
+            const auto [Ai, Bi] = law(modes.omega0[i], modes.sigma[i], m_.dt);
+            const double J = 1 + Ai + Bi;
+            A.push_back(Ai);
+            B.push_back(Bi);
+            c.push_back(4 * Ai / J);
+            loss.push_back(2 * Bi / J);
+            inverse_J.push_back(1 / J);
+            scale.push_back(std::sqrt(J / xi));
+        }
+        m_.A = keep(A);
+        m_.c = keep(c);
+        m_.loss = keep(loss);
+        m_.inverse_J = keep(inverse_J);
+
+        y_ = AlignedVector(m_.size);
+        u_ = AlignedVector(m_.size);
+        m_.y = y_.data();
+        m_.u = u_.data();
+        std::vector<double> y0 = initial_displacement(modes, s), u0 = y0;
+        for (int i = 0; i < m_.modes; ++i) {
+            y0[i] *= scale[i];
+            u0[i] = -2 * A[i] / (1 + A[i] + B[i]) * y0[i];  // (42) with q = 0
+            free_.push_back(two_point_mode(A[i], B[i], m_.dt));
+            offset_ = std::max(offset_, start_phase_offset(modes.omega0[i], modes.sigma[i], A[i], B[i]));
+        }
+        y0_ = keep(y0);
+        u0_ = keep(u0);
+
+        const auto unscaled = [&scale](std::vector<double> w) {
+            for (std::size_t i = 0; i < w.size(); ++i) w[i] /= scale[i];
+            return w;
+        };
+        if (!s.barriers.empty()) {
+            const auto& b = std::get<LumpedBarrier>(s.barriers.front());
+            const auto g = footprint_weights(modes, b.position, b.width);
+            double own = 0;
+            for (int i = 0; i < m_.modes; ++i) own += 0.5 * xi * g[i] * g[i] / A[i];  // (42) with s = 0
+            compliance_ = own / static_compliance(modes, g);
+            m_.g_b = keep(unscaled(g));
+            m_.barrier = {b.stiffness.k, b.exponent};
+            m_.h_b = b.height;
+            m_.theta = two_point_dot(m_.g_b, m_.g_b, m_.size);
+        }
+        if (s.thread) {
+            m_.g_c = keep(unscaled(footprint_weights(modes, s.thread->position, s.thread->width)));
+            m_.k_c = s.thread->stiffness;
+            m_.r_c = s.thread->damping;
+            m_.h_c = s.thread->height;
+            m_.theta_cc = two_point_dot(m_.g_c, m_.g_c, m_.size);
+            m_.phi_c = m_.k_c / 2 + m_.r_c / m_.dt;
+            m_.inverse_c = 1 / (1 + m_.phi_c * m_.theta_cc);
+            if (m_.g_b) {
+                m_.theta_bc = two_point_dot(m_.g_b, m_.g_c, m_.size);
+                m_.beta_c = m_.phi_c * m_.theta_bc * m_.inverse_c;  // (47)
+                m_.theta -= m_.beta_c * m_.theta_bc;                // theta of (48)
+            }
+        }
+        if (s.pluck) {
+            m_.g_e = keep(unscaled(footprint_weights(modes, s.pluck->position, s.pluck->width)));
+            if (m_.g_b) m_.theta_be = two_point_dot(m_.g_b, m_.g_e, m_.size);
+            if (m_.g_c) m_.theta_ce = two_point_dot(m_.g_c, m_.g_e, m_.size);
+            m_.pluck_first = static_cast<long>(std::floor(s.pluck->start / m_.dt));
+            m_.pluck_steps = static_cast<long>(std::ceil((s.pluck->start + s.pluck->duration) / m_.dt)) - m_.pluck_first;
+            for (long n = m_.pluck_first; n < m_.pluck_first + m_.pluck_steps; ++n)
+                pluck_.push_back(0.5 * (force(*s.pluck, n * m_.dt) + force(*s.pluck, (n + 1) * m_.dt)));
+            m_.pluck = pluck_.data();
+        }
+        for (const Tap& tap : scene.taps) {
+            using From = TwoPointTap::From;
+            switch (tap.quantity) {
+                case Quantity::displacement:
+                    taps_.push_back({From::modes, keep(unscaled(displacement_weights(modes, tap.position)))});
+                    break;
+                case Quantity::nut_force: taps_.push_back({From::modes, keep(unscaled(nut_force_weights(modes, s)))}); break;
+                case Quantity::velocity: {  // p/m = 2q/dt, q = J u/2 + A y
+                    std::vector<double> on_y = unscaled(displacement_weights(modes, tap.position)), on_u = on_y;
+                    for (int i = 0; i < m_.modes; ++i) {
+                        on_u[i] /= m_.dt * inverse_J[i];
+                        on_y[i] *= 2 * A[i] / m_.dt;
+                    }
+                    taps_.push_back({From::modes_and_increment, keep(on_y), keep(on_u)});
+                    break;
+                }
+                case Quantity::bridge_force: taps_.push_back({From::bridge}); break;
+                case Quantity::thread_force: taps_.push_back({From::thread}); break;
+                case Quantity::driving_force: taps_.push_back({From::driving}); break;
+            }
+        }
+        m_.taps = taps_.data();
+        const ContactKind kind = !m_.g_b ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
+        advance_ = two_point_advance(kind, s.thread.has_value());
+        ModalTwoPoint::reset();
+    }
+
+    void reset() noexcept override {
+        std::copy_n(y0_, m_.size, m_.y);
+        std::copy_n(u0_, m_.size, m_.u);
+        m_.step = 0;
+        m_.y_b = m_.g_b ? two_point_dot(m_.g_b, m_.y, m_.size) : 0;
+        m_.u_b = m_.g_b ? two_point_dot(m_.g_b, m_.u, m_.size) : 0;
+        m_.y_c = m_.g_c ? two_point_dot(m_.g_c, m_.y, m_.size) : 0;
+        m_.u_c = m_.g_c ? two_point_dot(m_.g_c, m_.u, m_.size) : 0;
+        m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.least_force = m_.depth = m_.iterations = m_.iterations_most = 0;
+        m_.status = {};
+    }
+    Status advance(const Block& out) noexcept override { return advance_(m_, out); }
+    int dofs() const override { return 2 * m_.modes; }
+    std::vector<FreeMode> free_modes() const override { return free_; }
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> f = {{"start_phase_offset", offset_, "rad"}};
+        if (m_.g_b) {
+            f.push_back({"smallest_contact_force", m_.least_force, "N"});
+            f.push_back({"deepest_penetration", m_.depth, "m"});
+            f.push_back({"static_compliance", compliance_, ""});
+        }
+        if (m_.g_b && m_.barrier.alpha != 1) {
+            f.push_back({"contact_iterations_mean", m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0, ""});
+            f.push_back({"contact_iterations_most", m_.iterations_most, ""});
+        }
+        return f;
+    }
+
+private:
+    // Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y = tanh(s dt/2) on the discrete mode
+    // z = exp(s dt), where the true motion has s dt/2.
+    static double start_phase_offset(double omega0, double sigma, double A, double B) {
+        if (omega0 <= sigma) return 0;
+        const double J = 1 + A + B, real = (1 - A) / J, square = (1 + A - B) / J - real * real;  // z of (35)
+        if (square <= 0) return 0;
+        const std::complex<double> z(real, std::sqrt(square)), t = (z - 1.0) / (z + 1.0), s = std::log(z);
+        return std::abs(std::atan2(t.real(), t.imag()) - std::atan2(s.real(), s.imag()));
+    }
+
+    const double* keep(const std::vector<double>& v) {  // padded with zeros, for the life of the scheme
+        kept_.emplace_back(m_.size);
+        std::copy(v.begin(), v.end(), kept_.back().data());
+        return kept_.back().data();
+    }
+
+    TwoPoint m_;
+    TwoPointAdvance advance_ = nullptr;
+    double offset_ = 0;
+    double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
+    std::vector<FreeMode> free_;
+    AlignedVector y_, u_;
+    std::vector<AlignedVector> kept_;
+    const double *y0_ = nullptr, *u0_ = nullptr;
+    std::vector<double> pluck_;
+    std::vector<TwoPointTap> taps_;
+};
+
+}  // namespace
+
+const Descriptor modal_two_point = {"modal_two_point",
+                                    "van Walstijn et al. 2016, eqs 16-52",
+                                    modal_features,
+                                    Balance::exact,
+                                    Clock::stepped,
+                                    [](const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {
+                                        return std::make_unique<ModalTwoPoint>(modal_two_point, scene, settings, exact);
+                                    }};
+
+const Descriptor modal_two_point_trapezoidal = {"modal_two_point_trapezoidal",
+                                                "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
+                                                modal_features,
+                                                Balance::exact,
+                                                Clock::stepped,
+                                                [](const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {
+                                                    return std::make_unique<ModalTwoPoint>(modal_two_point_trapezoidal, scene, settings,
+                                                                                           trapezoidal);
+                                                }};
+
+}  // namespace jvari

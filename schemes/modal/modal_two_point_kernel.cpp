@@ -1,0 +1,221 @@
+// The fused step of the modal two-point scheme (van Walstijn et al. 2016, eqs 41-48), compiled once per instruction set by Highway.
+// Presence of contact, thread and pluck is a template argument: an absent part costs nothing.
+#include "schemes/modal/modal_two_point_kernel.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "schemes/modal/modal_two_point_kernel.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace jvari {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, 8>;
+using V = hn::Vec<D>;
+
+HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x, int size) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    V even = hn::Zero(d), odd = hn::Zero(d);
+    for (int i = 0; i < size; i += 2 * N) {
+        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
+        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, x + i + N), odd);
+    }
+    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
+}
+
+// One pass: the update and the next dots.
+template <bool barrier, bool thread, bool pluck>
+HWY_INLINE void pass(TwoPoint& m, double F_b, double F_c, double F_e) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
+    double *HWY_RESTRICT y = m.y, *HWY_RESTRICT u = m.u;
+    const double *HWY_RESTRICT c = m.c, *HWY_RESTRICT loss = m.loss;
+    const double *HWY_RESTRICT gb = m.g_b, *HWY_RESTRICT gc = m.g_c, *HWY_RESTRICT ge = m.g_e;
+    V yb[2], yc[2], ub[2], uc[2];
+    for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
+    for (int i = 0; i < m.size; i += 2 * N) {
+        for (int k = 0; k < 2; ++k) {
+            const int j = i + k * N;
+            const V y0 = hn::Load(d, y + j), u0 = hn::Load(d, u + j);
+            V forced = hn::Zero(d), g_b{}, g_c{};
+            if constexpr (pluck) forced = hn::Mul(hn::Load(d, ge + j), fe);
+            if constexpr (thread) {
+                g_c = hn::Load(d, gc + j);
+                forced = hn::MulAdd(g_c, fc, forced);
+            }
+            if constexpr (barrier) {
+                g_b = hn::Load(d, gb + j);
+                forced = hn::MulAdd(g_b, fb, forced);
+            }
+            const V s = hn::Add(u0, forced);  // (41)
+            const V y1 = hn::Add(y0, s);      // (40)
+            const V u1 = hn::NegMulAdd(hn::Load(d, c + j), y1, hn::NegMulAdd(hn::Load(d, loss + j), s, hn::Add(s, forced)));
+            hn::Store(u1, d, u + j);
+            hn::Store(y1, d, y + j);
+            if constexpr (barrier) {
+                yb[k] = hn::MulAdd(g_b, y1, yb[k]);
+                ub[k] = hn::MulAdd(g_b, u1, ub[k]);
+            }
+            if constexpr (thread) {
+                yc[k] = hn::MulAdd(g_c, y1, yc[k]);
+                uc[k] = hn::MulAdd(g_c, u1, uc[k]);
+            }
+        }
+    }
+    const auto sum = [d](const V(&v)[2]) { return hn::GetLane(hn::SumOfLanes(d, hn::Add(v[0], v[1]))); };
+    if constexpr (barrier) {
+        m.y_b = sum(yb);
+        m.u_b = sum(ub);
+    }
+    if constexpr (thread) {
+        m.y_c = sum(yc);
+        m.u_c = sum(uc);
+    }
+}
+
+// Supplied and dissipated energy of the step that is about to be made (51, 52), in the scaled modes.
+template <bool barrier, bool thread, bool pluck>
+HWY_INLINE void ledger(TwoPoint& m, double F_b, double F_c, double F_e, double s_c) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    V lost = hn::Zero(d), given = hn::Zero(d);
+    for (int j = 0; j < m.size; j += N) {
+        V s = hn::Load(d, m.u + j);
+        if constexpr (pluck) s = hn::MulAdd(hn::Load(d, m.g_e + j), hn::Set(d, F_e), s);
+        if constexpr (thread) s = hn::MulAdd(hn::Load(d, m.g_c + j), hn::Set(d, F_c), s);
+        if constexpr (barrier) s = hn::MulAdd(hn::Load(d, m.g_b + j), hn::Set(d, F_b), s);
+        lost = hn::MulAdd(hn::Load(d, m.loss + j), hn::Mul(s, s), lost);
+        if constexpr (pluck) given = hn::MulAdd(hn::Load(d, m.g_e + j), s, given);
+    }
+    m.dissipated += 0.5 * hn::GetLane(hn::SumOfLanes(d, lost));  // B/J = loss/2
+    if constexpr (thread) m.dissipated += m.r_c / m.dt * s_c * s_c;
+    if constexpr (pluck) m.supplied += F_e * hn::GetLane(hn::SumOfLanes(d, given));
+}
+
+template <ContactKind kind, bool thread, bool pluck, bool probe>
+HWY_INLINE void step(TwoPoint& m) {
+    constexpr bool barrier = kind != ContactKind::none;
+    double F_b = 0, F_c = 0, F_e = 0, u_b = m.u_b, u_c = m.u_c, v_c = 0;
+    if constexpr (pluck) {
+        F_e = m.pluck[m.step - m.pluck_first];
+        if constexpr (barrier) u_b += m.theta_be * F_e;
+        if constexpr (thread) u_c += m.theta_ce * F_e;
+    }
+    if constexpr (thread) v_c = (m.k_c * (m.h_c - m.y_c) - m.phi_c * u_c) * m.inverse_c;  // (47)
+    if constexpr (barrier) {
+        const double eta = m.h_b - m.y_b, b = thread ? -u_b - m.theta_bc * v_c : -u_b;  // (48)
+        ContactSolution x;
+        if constexpr (kind == ContactKind::linear) x = solve_linear_contact(m.barrier.k, eta, b, m.theta);
+        else x = solve_power_contact(m.barrier, eta, b, m.theta);
+        F_b = x.force;
+        m.least_force = F_b < m.least_force ? F_b : m.least_force;
+        m.depth = eta > m.depth ? eta : m.depth;
+        m.impulse_b += F_b;
+        if constexpr (kind == ContactKind::power) {
+            m.iterations += x.iterations;
+            m.iterations_most = x.iterations > m.iterations_most ? x.iterations : m.iterations_most;
+            if (!x.converged && m.status.outcome == Outcome::ok) m.status = {Outcome::not_converged, m.step};
+        }
+    }
+    if constexpr (thread) {
+        F_c = barrier ? v_c - m.beta_c * F_b : v_c;  // (46)
+        m.impulse_c += F_c;
+    }
+    if constexpr (probe) ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, u_c + m.theta_bc * F_b + m.theta_cc * F_c);  // s_c by (44)
+    pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
+    ++m.step;
+}
+
+template <ContactKind kind, bool thread, bool probe>
+HWY_INLINE void steps(TwoPoint& m, long count) {
+    while (count > 0) {
+        const long into = m.step - m.pluck_first;  // the pluck acts for pluck_steps from pluck_first
+        const bool plucking = into >= 0 && into < m.pluck_steps;
+        const long until_change = plucking ? m.pluck_steps - into : into < 0 && m.pluck_steps > 0 ? -into : count;
+        const long n = until_change < count ? until_change : count;
+        if (plucking)
+            for (long i = 0; i < n; ++i) step<kind, thread, true, probe>(m);
+        else
+            for (long i = 0; i < n; ++i) step<kind, thread, false, probe>(m);
+        count -= n;
+    }
+}
+
+// Stored energy (49): sum (q^2 + A y^2)/xi with q = J u/2 + A y, in the scaled modes.
+template <ContactKind kind, bool thread>
+double stored(const TwoPoint& m) {
+    double H = 0;
+    for (int i = 0; i < m.modes; ++i) {
+        const double q = 0.5 * m.u[i] / m.inverse_J[i] + m.A[i] * m.y[i];
+        H += (q * q + m.A[i] * m.y[i] * m.y[i]) * m.inverse_J[i];
+    }
+    if constexpr (kind != ContactKind::none) H += m.barrier.potential(m.h_b - m.y_b);
+    if constexpr (thread) H += 0.5 * m.k_c * (m.h_c - m.y_c) * (m.h_c - m.y_c);
+    return H;
+}
+
+HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
+    const double steps = m.steps_per_row;
+    switch (tap.from) {
+        case TwoPointTap::From::modes: return dot(tap.on_y, m.y, m.size);
+        case TwoPointTap::From::modes_and_increment: return dot(tap.on_y, m.y, m.size) + dot(tap.on_u, m.u, m.size);
+        case TwoPointTap::From::bridge: return m.impulse_b / steps;
+        case TwoPointTap::From::thread: return m.impulse_c / steps;
+        case TwoPointTap::From::driving: return -(m.impulse_b + m.impulse_c) / steps;
+    }
+    return 0;
+}
+
+template <ContactKind kind, bool thread>
+Status advance(TwoPoint& m, const Block& out) {
+    for (int row = 0; row < out.rows && m.status.outcome == Outcome::ok; ++row) {
+        for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(m, m.taps[k]);
+        m.impulse_b = m.impulse_c = 0;
+        if (out.energy) {
+            out.energy[row] = stored<kind, thread>(m);
+            out.energy[out.stride + row] = m.supplied;
+            out.energy[2 * out.stride + row] = m.dissipated;
+            m.supplied = m.dissipated = 0;
+            steps<kind, thread, true>(m, m.steps_per_row);
+        } else {
+            steps<kind, thread, false>(m, m.steps_per_row);
+        }
+    }
+    return m.status;
+}
+
+TwoPointAdvance choose(ContactKind kind, bool thread) {
+    switch (kind) {
+        case ContactKind::none: return thread ? advance<ContactKind::none, true> : advance<ContactKind::none, false>;
+        case ContactKind::linear: return thread ? advance<ContactKind::linear, true> : advance<ContactKind::linear, false>;
+        case ContactKind::power: return thread ? advance<ContactKind::power, true> : advance<ContactKind::power, false>;
+    }
+    return nullptr;
+}
+
+double plain_dot(const double* w, const double* x, int size) {
+    return dot(w, x, size);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace jvari
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace jvari {
+HWY_EXPORT(choose);
+HWY_EXPORT(plain_dot);
+
+TwoPointAdvance two_point_advance(ContactKind kind, bool thread) {
+    return HWY_DYNAMIC_DISPATCH(choose)(kind, thread);
+}
+double two_point_dot(const double* w, const double* x, int size) {
+    return HWY_DYNAMIC_DISPATCH(plain_dot)(w, x, size);
+}
+}  // namespace jvari
+#endif

@@ -1,0 +1,133 @@
+#include "schemes/sitar/sitar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/barrier.hpp"
+#include "scenes/modes.hpp"
+
+namespace jvari {
+
+using std::numbers::pi;
+
+std::string one_of(const Settings& settings, const char* name, std::initializer_list<const char*> values) {
+    const std::string value = option(settings, name, *values.begin());
+    std::string known;
+    for (const char* v : values) {
+        if (value == v) return value;
+        known += (known.empty() ? "" : ", ") + std::string(v);
+    }
+    throw Refusal("option " + std::string(name) + ": found \"" + value + "\", expected one of " + known);
+}
+
+SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Settings& settings) {
+    validate(scene);
+    refuse_missing(scheme, scene);
+    const String& string = scene.strings.front();
+    SitarString s;
+    s.length = string.length;
+    s.tension = string.tension;
+    s.dt = 1 / settings.sample_rate;
+    const Modes first = modes_of(string, 1);
+    s.f0 = std::sqrt(string.tension / string.linear_density) / (2 * string.length);
+    s.sigma = first.sigma.front();
+    s.step_loss = std::exp(-s.sigma * s.dt);
+    if (const auto* mode = string.initial ? std::get_if<ModeInitial>(&*string.initial) : nullptr; mode && mode->number * s.f0 * s.dt >= 0.5)
+        throw Refusal("the initial mode " + std::to_string(mode->number) + " lies above half the sample rate");
+    if (s.sigma > 0) s.facts.push_back({"start_phase_error", std::atan(s.sigma / first.omega0.front()), "rad"});
+    if (string.bending_stiffness != 0) {
+        const std::string stiffness = option(settings, "stiffness", "refuse");
+        if (stiffness == "refuse")
+            throw Refusal(std::string(scheme.name) + " carries one wave speed, and scene " + scene.name +
+                          " has bending stiffness: it runs where the option stiffness says what becomes of it");
+        if (stiffness == "ignore") s.facts.push_back({"ignored_bending_stiffness", string.bending_stiffness, "N m^2"});
+        else s.f0 = first.omega0.front() / (2 * pi);
+    }
+    return s;
+}
+
+std::vector<FreeMode> SitarString::free_modes() const {
+    std::vector<FreeMode> all;
+    for (int n = 1; n < cells; ++n) all.push_back({pi * n / (cells * dt), sigma});
+    return all;
+}
+
+void set_integer_length(SitarString& s) {
+    s.cells = static_cast<int>(std::lround(0.5 / (s.dt * s.f0)));  // (4)
+    if (s.cells < 3) throw Refusal("the string has fewer than 3 samples from end to end: raise the sample rate");
+    s.dx = s.length / s.cells;
+    s.facts.push_back({"period_error_cents", 1200 * std::log2(0.5 / (s.dt * s.cells) / s.f0), "cents"});
+}
+
+void lay_bridge(SitarString& s, const String& string, double plucked) {
+    if (string.barriers.empty()) return;
+    const auto& barrier = std::get<ProfileBarrier>(string.barriers.front());
+    if (barrier.from != 0)
+        throw Refusal("the bridge rule sets the wave that leaves the bridge end: the profile has to start at x = 0, not at " +
+                      std::to_string(barrier.from) + " m");
+    const int nodes = static_cast<int>(std::floor(barrier.to / s.dx * (1 + 1e-12)));
+    if (nodes > s.cells - 2) throw Refusal("the bridge leaves no free string before the peg");
+    if (nodes < 1) throw Refusal("the bridge is shorter than one cell of " + std::to_string(s.dx) + " m: raise the sample rate");
+    std::vector<double> x;
+    for (int m = 1; m <= nodes; ++m) x.push_back(m * s.dx);
+    s.profile = heights(barrier.curve, x);  // (10), (11)
+    for (int m = 0; m < nodes; ++m)
+        if (plucked * initial_shape(string, x[m]) < s.profile[m]) throw Refusal("the initial shape lies below the bridge");
+    s.facts.push_back({"rigid_barrier", 1, ""});  // stiffness and exponent of the contact law play no part
+    s.facts.push_back({"bridge_nodes", static_cast<double>(nodes), ""});
+    s.facts.push_back({"bridge_length_error", nodes * s.dx - barrier.to, "m"});
+}
+
+namespace {
+// How much a Hann window of full width s rounds |u|/2 off, h = (1 + cos(2 pi u/s))/s: its second integral less |u|/2. 0 beyond the window.
+double rounding(double u, double s) {
+    if (std::abs(u) >= 0.5 * s) return 0;
+    return u * u / (2 * s) - s / (4 * pi * pi) * std::cos(2 * pi * u / s) + s / 8 - s / (4 * pi * pi) - 0.5 * std::abs(u);
+}
+
+struct ShapeAt {
+    double L, x;  // 0 <= x <= L
+    double operator()(const ModeInitial& m) const { return m.amplitude * std::sin(m.number * pi * x / L); }
+    double operator()(const TriangleInitial& t) const {
+        const double x0 = t.position, kink = t.amplitude * L / (x0 * (L - x0));
+        const double sharp = t.amplitude * (x < x0 ? x / x0 : (L - x) / (L - x0));
+        const double image = rounding(x + x0, t.smoothing) + rounding(2 * L - x - x0, t.smoothing);  // of opposite sign beyond each end
+        return sharp - kink * (rounding(x - x0, t.smoothing) - image);
+    }
+};
+}  // namespace
+
+double initial_shape(const String& string, double x) {
+    if (!string.initial) return 0;
+    const double L = string.length, z = x - 2 * L * std::floor(x / (2 * L));
+    return z <= L ? std::visit(ShapeAt{L, z}, *string.initial) : -std::visit(ShapeAt{L, 2 * L - z}, *string.initial);
+}
+
+std::vector<SitarTap> sitar_taps(const Scene& scene, SitarString& s) {
+    std::vector<SitarTap> taps;
+    int between = 0;
+    for (const Tap& tap : scene.taps) {
+        SitarTap t{tap.quantity};
+        const double at = tap.position / s.dx;
+        t.node = std::min(static_cast<int>(std::floor(at * (1 + 1e-12))), s.cells - 1);
+        t.weight = std::max(0.0, at - t.node);
+        if (t.weight < 1e-9 * s.cells) t.weight = 0;
+        const bool on_string = tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
+        const int last = tap.quantity == Quantity::velocity && s.cells * s.dx < s.length * (1 - 1e-12) ? s.cells - 1 : s.cells;
+        if (on_string && t.node + t.weight > last + 1e-9)
+            throw Refusal("tap " + tap.name + " lies in the part of the string that the filter at the peg stands for");
+        if (on_string && t.weight != 0 && t.weight != 1) ++between;
+        taps.push_back(t);
+    }
+    if (between > 0) s.facts.push_back({"taps_between_nodes", static_cast<double>(between), ""});  // read by linear interpolation
+    return taps;
+}
+
+void BridgeLedger::report(std::vector<Fact>& facts) const {
+    facts.push_back({"bridge_energy_added", added, "J"});
+    facts.push_back({"bridge_energy_taken", taken, "J"});
+    facts.push_back({"smallest_contact_force", smallest_force, "N"});
+}
+
+}  // namespace jvari

@@ -1,0 +1,170 @@
+// Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar", eqs 6-12: the wave equation with dx = c
+// dt, y(n+1, m) = y(n, m+1) + y(n, m-1) - y(n-1, m)  (9), rigid ends, a bridge below which no node may pass.
+//
+// Loss: every wave decays by step_loss per step, so (9) becomes y+ = loss (y_{m+1} + y_{m-1}) - loss^2 y-: the same string as
+// sitar_waveguide's, sample by sample, where there is no bridge. Under the bridge they differ: here a node is put back on the profile, an
+// impulse upwards that leaves to both sides and never pulls; there the returning wave alone is set.
+//
+// Left out: any stiffness of the contact, a fractional length, the second polarisation (the paper's FDM has one).
+#include <algorithm>
+#include <cmath>
+
+#include "schemes/sitar/sitar.hpp"
+
+namespace jvari {
+
+extern const Descriptor sitar_fdm;
+
+namespace {
+
+struct Grid {
+    SitarString string;
+    std::vector<SitarTap> taps;
+    int steps_per_row = 1;
+    String scene_string;
+};
+
+class SitarFdm final : public Scheme {
+public:
+    explicit SitarFdm(Grid g) : g_(std::move(g)), s_(g_.string), now_(s_.cells + 1), before_(s_.cells + 1) { reset(); }
+    void reset() noexcept override;
+    Status advance(const Block& out) noexcept override;
+    int dofs() const override { return static_cast<int>(now_.size() + before_.size()); }
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> facts = s_.facts;
+        if (!s_.profile.empty()) ledger_.report(facts);
+        return facts;
+    }
+    std::vector<FreeMode> free_modes() const override { return s_.free_modes(); }
+
+private:
+    double read(const SitarTap&) const;
+    double velocity(int m) const;
+    double slopes() const;
+    void step() noexcept;
+    void meet_bridge() noexcept;
+
+    Grid g_;
+    const SitarString& s_;
+    std::vector<double> now_, before_;  // y at the nodes [m]
+    double slopes_ = 0;                 // slopes() as it should be
+    double slopes_dissipated_ = 0;      // since the last row [m^2]
+    long steps_ = 0;
+    BridgeLedger ledger_;
+};
+
+void SitarFdm::reset() noexcept {
+    steps_ = 0;
+    ledger_ = {};
+    slopes_dissipated_ = 0;
+    for (int m = 0; m <= s_.cells; ++m) now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(g_.scene_string, m * s_.dx);
+    before_.front() = before_.back() = 0;
+    for (int m = 1; m < s_.cells; ++m) before_[m] = 0.5 / s_.step_loss * (now_[m - 1] + now_[m + 1]);  // y_r = y_l = y/2
+    slopes_ = slopes();
+}
+
+void SitarFdm::step() noexcept {
+    const double loss = s_.step_loss, loss2 = loss * loss;
+    double* __restrict next = before_.data();
+    const double* __restrict y = now_.data();
+    for (int m = 1; m < s_.cells; ++m) next[m] = loss * (y[m + 1] + y[m - 1]) - loss2 * next[m];  // (9)
+    now_.swap(before_);
+    slopes_dissipated_ += (1 - loss2) * slopes_;
+    slopes_ *= loss2;
+    ++steps_;
+}
+
+// A node below the profile is put back on it: impulse Z d at that node. Nodes do not see one another.
+void SitarFdm::meet_bridge() noexcept {
+    const double loss = s_.step_loss;
+    double moved = 0, change = 0;
+    for (int m = 1; m <= static_cast<int>(s_.profile.size()); ++m) {
+        const double d = s_.profile[m - 1] - now_[m];
+        if (d <= 0) continue;
+        change += 2 * d * (now_[m] - loss * before_[m + 1] + now_[m] - loss * before_[m - 1] + d);
+        now_[m] = s_.profile[m - 1];
+        moved += d;
+    }
+    slopes_ += change;
+    ledger_.exchange(s_.wave_energy(change));
+    ledger_.impulse += s_.impedance() * moved;
+    ledger_.smallest_force = std::min(ledger_.smallest_force, s_.impedance() * moved / s_.dt);
+}
+
+// Differences of the two travelling waves over two cells, squared: y(n+1, m) - loss y(n, m+1) is one of y_r, with m and m + 1 exchanged one
+// of y_l. With loss = 1 it is the energy that the leapfrog conserves, kinetic plus the product of slopes now and before.
+double SitarFdm::slopes() const {
+    double sum = 0;
+    for (int m = 0; m < s_.cells; ++m) {
+        const double r = now_[m] - s_.step_loss * before_[m + 1], l = now_[m + 1] - s_.step_loss * before_[m];
+        sum += r * r + l * l;
+    }
+    return sum;
+}
+
+double SitarFdm::velocity(int m) const {
+    if (m == 0 || m == s_.cells) return 0;
+    return 0.5 / s_.dt * (now_[m + 1] + now_[m - 1] - 2 * s_.step_loss * before_[m]) - s_.sigma * now_[m];
+}
+
+double SitarFdm::read(const SitarTap& t) const {
+    switch (t.quantity) {
+        case Quantity::displacement: return t.weight == 0 ? now_[t.node] : now_[t.node] + t.weight * (now_[t.node + 1] - now_[t.node]);
+        case Quantity::velocity: {
+            const double v = velocity(t.node);
+            return t.weight == 0 ? v : v + t.weight * (velocity(t.node + 1) - v);
+        }
+        case Quantity::nut_force: return s_.tension / s_.dx * now_[s_.cells - 1];  // -T y' at the peg
+        case Quantity::bridge_force: return ledger_.impulse / (s_.dt * g_.steps_per_row);
+        case Quantity::driving_force: return -ledger_.impulse / (s_.dt * g_.steps_per_row);
+        case Quantity::thread_force: return 0;
+    }
+    return 0;
+}
+
+Status SitarFdm::advance(const Block& out) noexcept {
+    const bool bridge = !s_.profile.empty();
+    for (int row = 0; row < out.rows; ++row) {
+        double finite = 0;
+        for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(g_.taps[k]);
+        if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
+        if (out.energy) {
+            out.energy[row] = s_.wave_energy(slopes());
+            out.energy[out.stride + row] = 0;
+            out.energy[2 * out.stride + row] = s_.wave_energy(slopes_dissipated_) + ledger_.dissipated;
+        }
+        slopes_dissipated_ = 0;
+        ledger_.next_row();
+        for (int k = 0; k < g_.steps_per_row; ++k) {
+            step();
+            if (bridge) meet_bridge();
+        }
+    }
+    return {};
+}
+
+std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
+    refuse_unknown_options(settings, {"stiffness"});
+    one_of(settings, "stiffness", {"refuse", "ignore"});
+    Grid g;
+    g.steps_per_row = steps_per_row(settings);
+    g.string = sitar_string(sitar_fdm, scene, settings);
+    g.scene_string = scene.strings.front();
+    set_integer_length(g.string);
+    lay_bridge(g.string, g.scene_string, 1);
+    g.taps = sitar_taps(scene, g.string);
+    return std::make_unique<SitarFdm>(std::move(g));
+}
+}  // namespace
+
+const Descriptor sitar_fdm = {
+    "sitar_fdm",
+    "Deshmukh & Rayavarapu, eqs 6-12",
+    Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+        Features(Feature::initial_shape),
+    Balance::to_tolerance,
+    Clock::stepped,
+    make,
+};
+
+}  // namespace jvari

@@ -1,0 +1,301 @@
+// Full-modal spatial Newton: exact three-point recursion per mode, conservative contact forces on the nodes x_i = iL/N of a grid with as
+// many interior nodes as modes. Source: Issanchou et al. 2016, eqs 13-16, 20-21, 24-28.
+//
+// Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights; the thread's force is the average of the
+// outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ - u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al.
+// 2016, eqs 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two polarisations, several strings.
+//
+// Order: free motion is exact. Forced motion is second order without losses and first order with them: eq 14 puts dt^2/m F on a mode where
+// a damped one wants e^{-sigma dt} of it (a factor per mode would couple the nodes, so the paper's form is kept).
+//
+// Instants. Step n centres on t = n dt and makes level n+1 of levels n and n-1; its force F^n stands for the interval n-1/2 .. n+1/2.
+// Row n is written when F^n is known: displacement is level n; velocity is that of the free motion through levels n-1, n, n+1 corrected for
+// F^n for the modes that tell it and a centred difference for the rest (three_point.hpp); a contact force is the trapezoidal mean of F over
+// the interval. Stored energy is H^{n+1/2}, which F^n reaches; supplied and dissipated sum the steps after the former row up to n. Row 0:
+// H^{1/2}. Start: exact free motion and half of F^0 (spatial_forces.hpp).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/modes.hpp"
+#include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal/three_point.hpp"
+#include "schemes/spatial/spatial_forces.hpp"
+#include "schemes/spatial/spatial_forms.hpp"
+#include "schemes/spatial/spatial_ports.hpp"
+
+namespace jvari {
+
+extern const Descriptor modal_spatial_newton;
+
+namespace {
+
+struct TapReading {
+    Quantity quantity;
+    AlignedVector displacement, increment, kept;  // weights on the form's levels
+    std::vector<double> force, earlier_force;     // velocity: weights of F^n and F^{n-1}
+};
+
+double inner(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t j = 0; j < a.size(); ++j) sum += a[j] * b[j];
+    return sum;
+}
+
+// What one scene and setting come to before a form is chosen.
+struct Problem {
+    Scene scene;
+    const String& string() const { return scene.strings.front(); }
+    double dt = 0;
+    int steps_per_row = 1;
+    Modes modes;
+    std::vector<double> initial;  // modal displacement at t = 0 [m]
+    ThreePoint three_point;
+    SpatialPorts ports;
+    LinearUpdate update;
+};
+
+template <class Form>
+class SpatialNewton final : public Scheme {
+public:
+    explicit SpatialNewton(Problem p) : p_(std::move(p)), form_(p_.update), forces_(p_.string(), p_.ports.points, p_.update, p_.dt) {
+        for (const Tap& tap : p_.scene.taps) readings_.push_back(reading_of(tap));
+        earlier_force_.assign(p_.update.ports.size(), 0.0);
+        for (auto* v : {&modal_now_, &modal_last_, &modal_coming_}) v->assign(p_.modes.count(), 0.0);
+        reset();
+    }
+
+    void reset() noexcept override {
+        modal_now_ = p_.initial;
+        for (int j = 0; j < p_.modes.count(); ++j) modal_coming_[j] = p_.three_point.start[j] * modal_now_[j];
+        form_.start(modal_now_.data(), modal_coming_.data());
+        form_.read(forces_.free.data());
+        for (int z = 0; z < p_.update.reads; ++z) forces_.now[z] = inner(p_.update.ports[z].weights, modal_now_);
+        step_ = 0;
+        bridge_impulse_ = thread_impulse_ = supplied_ = dissipated_ = 0;
+        forces_.begin();
+        bridge_half_ = 0.5 * forces_.bridge();
+        thread_half_ = 0.5 * forces_.thread();
+    }
+
+    Status advance(const Block& out) noexcept override {
+        for (int row = 0; row < out.rows; ++row) {
+            write(out, row);
+            for (int s = 0; s < p_.steps_per_row; ++s) {
+                if (differenced_ && s + 1 == p_.steps_per_row) {
+                    form_.levels.keep();
+                    std::copy(forces_.force.begin(), forces_.force.end(), earlier_force_.begin());
+                    for (double& f : earlier_force_) f *= share();
+                }
+                const Outcome outcome = step(out.energy != nullptr);
+                if (outcome != Outcome::ok) return {outcome, step_};
+            }
+        }
+        return {};
+    }
+
+    int dofs() const override { return 2 * p_.update.modes(); }
+
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> facts = {{"interior_nodes", double(p_.update.modes()), ""},
+                                   {"modes_above_nyquist", double(p_.three_point.above_nyquist), ""}};
+        forces_.add_facts(facts);
+        if (p_.string().barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(p_.string().barriers.front())) {
+            const auto& g = p_.update.ports.front().weights;
+            double own = 0;
+            for (int j = 0; j < p_.modes.count(); ++j) own += p_.update.gain * g[j] * g[j] / p_.update.kappa[j];
+            facts.push_back({"static_compliance", own / static_compliance(p_.modes, g), ""});
+        }
+        return facts;
+    }
+
+    std::vector<FreeMode> free_modes() const override {
+        std::vector<FreeMode> all;
+        for (int j = 0; j < p_.modes.count(); ++j) all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
+        return all;
+    }
+
+private:
+    double share() const { return step_ == 0 ? 0.5 : 1; }  // of its force that a step applies: the first half step only
+
+    Outcome step(bool probed) noexcept {
+        if (share() != 1)
+            for (double& f : forces_.force) f *= 0.5;
+        form_.advance(forces_.force.data(), forces_.free.data());
+        forces_.shift();
+        ++step_;
+        const Outcome outcome = forces_.solve(step_);
+        bridge_impulse_ += forces_.bridge();
+        thread_impulse_ += forces_.thread();
+        if (probed) account();
+        return outcome;
+    }
+
+    // ---- Energy, in the modal constants of three_point.hpp
+
+    void fill_coming() noexcept {  // y^{n+1} - y^n with the force of step n
+        form_.to_modal(form_.levels.increment, modal_coming_.data());
+        for (std::size_t z = 0; z < p_.update.ports.size(); ++z) {
+            if (forces_.force[z] == 0) continue;
+            const double push = p_.update.gain * share() * forces_.force[z];
+            for (int j = 0; j < p_.modes.count(); ++j) modal_coming_[j] += push * p_.update.ports[z].weights[j];
+        }
+    }
+
+    void account() noexcept {  // adds what step n supplied and dissipated
+        modal_last_.swap(modal_coming_);
+        fill_coming();
+        const double dt = p_.dt;
+        double lost = 0;
+        for (int j = 0; j < p_.modes.count(); ++j) {
+            const double r = modal_coming_[j] + modal_last_[j];
+            lost += p_.three_point.loss[j] * r * r;
+        }
+        dissipated_ += p_.modes.mass * lost / (4 * dt * dt);  // (20)
+        if (const int e = forces_.pluck_port(); e >= 0 && forces_.force[e] != 0) {
+            const auto& g = p_.update.ports[e].weights;
+            double r = 0;
+            for (int j = 0; j < p_.modes.count(); ++j) r += g[j] * (modal_coming_[j] + modal_last_[j]);
+            supplied_ += 0.5 * forces_.force[e] * r;
+        }
+        dissipated_ += forces_.dissipated();
+    }
+
+    double stored() noexcept {  // H^{n+1/2}  (21)
+        form_.to_modal(form_.levels.displacement, modal_now_.data());
+        fill_coming();
+        const double per_dt = 1 / (p_.dt * p_.dt);
+        double H = 0;
+        for (int j = 0; j < p_.modes.count(); ++j) {
+            const double y = modal_now_[j], d = modal_coming_[j];
+            H += 0.5 * (1 + p_.update.Ct[j]) * d * d + p_.update.kappa[j] * y * (y + d);
+        }
+        return 0.5 * p_.modes.mass * per_dt * H + forces_.stored();
+    }
+
+    // ---- Rows
+
+    TapReading reading_of(const Tap& tap) {
+        TapReading r{tap.quantity, {}, {}, {}, {}, {}};
+        if (tap.quantity == Quantity::nut_force) r.displacement = form_.reading(nut_force_weights(p_.modes, p_.string()));
+        if (tap.quantity == Quantity::displacement) r.displacement = form_.reading(displacement_weights(p_.modes, tap.position));
+        if (tap.quantity != Quantity::velocity) return r;
+        const auto w = displacement_weights(p_.modes, tap.position);
+        const int n = p_.modes.count();
+        std::vector<double> y(n), d(n), kept(n), now(n);
+        for (int j = 0; j < n; ++j) {
+            const double G = p_.three_point.velocity[j];
+            y[j] = G > 0 ? w[j] * (G * (p_.three_point.kappa[j] + p_.three_point.loss[j]) - p_.modes.sigma[j]) : 0;
+            d[j] = G > 0 ? 2 * G * w[j] : 0.5 * w[j] / p_.dt;
+            now[j] = p_.update.gain * (G > 0 ? G * w[j] : 0.5 * w[j] / p_.dt);
+            kept[j] = G > 0 ? 0 : 0.5 * w[j] / p_.dt;
+            differenced_ = differenced_ || G == 0;
+        }
+        if (differenced_) form_.levels.listen();
+        r.displacement = form_.reading(y);
+        r.increment = form_.reading(d);
+        r.kept = form_.reading(kept);
+        for (const Port& port : p_.update.ports) {
+            r.force.push_back(inner(now, port.weights));
+            r.earlier_force.push_back(p_.update.gain * inner(kept, port.weights));
+        }
+        return r;
+    }
+
+    double value(const TapReading& r, double bridge, double thread) const {
+        switch (r.quantity) {
+            case Quantity::bridge_force: return bridge;
+            case Quantity::thread_force: return thread;
+            case Quantity::driving_force: return -(bridge + thread);
+            case Quantity::displacement:
+            case Quantity::nut_force: return dot(r.displacement, form_.levels.displacement);
+            case Quantity::velocity: break;
+        }
+        if (step_ == 0) return 0;
+        double v = dot(r.displacement, form_.levels.displacement) + dot(r.increment, form_.levels.increment);
+        if (differenced_) v += dot(r.kept, form_.levels.kept);
+        for (std::size_t z = 0; z < r.force.size(); ++z) v += r.force[z] * forces_.force[z] + r.earlier_force[z] * earlier_force_[z];
+        return v;
+    }
+
+    void write(const Block& out, int row) noexcept {
+        const double per_row = 1.0 / p_.steps_per_row;
+        double bridge = 0, thread = 0;
+        if (step_ > 0) {  // trapezoidal mean since the former row
+            const double bridge_end = 0.5 * forces_.bridge(), thread_end = 0.5 * forces_.thread();
+            bridge = (bridge_half_ + bridge_impulse_ - bridge_end) * per_row;
+            thread = (thread_half_ + thread_impulse_ - thread_end) * per_row;
+            bridge_half_ = bridge_end;
+            thread_half_ = thread_end;
+        }
+        bridge_impulse_ = thread_impulse_ = 0;
+        for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(readings_[k], bridge, thread);
+        if (!out.energy) return;
+        out.energy[row] = stored();
+        out.energy[out.stride + row] = supplied_;
+        out.energy[2 * out.stride + row] = dissipated_;
+        supplied_ = dissipated_ = 0;
+    }
+
+    Problem p_;
+    Form form_;
+    SpatialForces forces_;
+    std::vector<TapReading> readings_;
+    bool differenced_ = false;  // a velocity tap has modes near or above Nyquist
+
+    long step_ = 0;
+    std::vector<double> earlier_force_;                                                   // F^{n-1} of each port [N], for velocity taps
+    double bridge_impulse_ = 0, thread_impulse_ = 0, bridge_half_ = 0, thread_half_ = 0;  // [N], sums over steps
+    double supplied_ = 0, dissipated_ = 0;                                                // since the former row [J]
+    std::vector<double> modal_now_, modal_last_, modal_coming_;                           // y^n, y^n - y^{n-1}, y^{n+1} - y^n
+};
+
+// Multiply-adds a step. A transform of 2N points costs about 2N times the sum of N's prime factors: a large prime in N is expensive.
+std::string cheapest_form(const LinearUpdate& u) {
+    double factors = 1;
+    for (int n = u.intervals, f = 2; n > 1; ++f)
+        for (; n % f == 0; n /= f) factors += f;
+    const double n = u.modes(), restricted = n * (3.0 + u.reads), sine = n * 3 + 4 * n * factors;
+    return restricted <= sine ? "restricted" : "dst";  // dense, 2 n^2, is never below restricted: reads <= n
+}
+
+std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
+    validate(scene);
+    refuse_missing(modal_spatial_newton, scene);
+    refuse_unknown_options(settings, {"form"});
+    if (scene.strings.empty()) throw Refusal("modal_spatial_newton: scene " + scene.name + " has no string");
+    if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
+    Problem p;
+    p.scene = scene;
+    p.dt = 1 / settings.sample_rate;
+    p.steps_per_row = steps_per_row(settings);
+    const int intervals = intervals_for(p.string(), settings);
+    if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
+    p.modes = modes_of(p.string(), intervals - 1);
+    p.initial = initial_displacement(p.modes, p.string());
+    p.ports = spatial_ports(p.string(), p.modes, intervals, scene.name);
+    const bool linear = p.ports.points.empty() && !p.string().thread;
+    p.three_point = three_point(p.modes, p.dt, (linear ? 0.95 : 0.25) * std::numbers::pi);
+    p.update = {intervals, p.three_point.Ct, p.three_point.kappa, p.three_point.gain, p.ports.ports, 0};
+    p.update.reads = static_cast<int>(p.ports.points.size()) + (p.string().thread ? 1 : 0);
+
+    std::string form = option(settings, "form", "auto");
+    if (form == "auto") form = cheapest_form(p.update);
+    if (form == "dense") return std::make_unique<SpatialNewton<DenseForm>>(std::move(p));
+    if (form == "restricted") return std::make_unique<SpatialNewton<RestrictedForm>>(std::move(p));
+    if (form == "dst") return std::make_unique<SpatialNewton<SineForm>>(std::move(p));
+    throw Refusal("option form: found \"" + form + "\", expected auto, dense, restricted or dst");
+}
+
+constexpr Features represented = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                                 Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
+                                 Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+                                 Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) |
+                                 Features(Feature::initial_shape) | Features(Feature::pluck);
+
+}  // namespace
+
+const Descriptor modal_spatial_newton = {
+    "modal_spatial_newton", "Issanchou et al. 2016, eqs 13-16, 20-21, 24-28", represented, Balance::exact, Clock::stepped, make};
+
+}  // namespace jvari

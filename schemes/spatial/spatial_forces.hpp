@@ -1,0 +1,65 @@
+// The forces of modal_spatial_newton: what barrier, thread and pluck do to the string in a step, given the levels at the reads.
+//
+// Step n knows level n-1, n and the force-free level n+1 of every read (contact points first, then the thread), and finds the forces of all
+// ports and the true level n+1. Energies are those of these parts alone; the string's are modal.
+#pragma once
+
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "schemes/scheme.hpp"
+#include "schemes/spatial/spatial_forms.hpp"
+#include "schemes/spatial/spatial_ports.hpp"
+
+namespace jvari {
+
+class SpatialForces {
+public:
+    SpatialForces(const String&, const std::vector<ContactPoint>&, const LinearUpdate&, double dt);
+
+    // t = 0 at rest: `now` and the motion without force `free` are filled. From rest both neighbours of level 0 carry half of F^0 and the
+    // contact force is that at level 1: the equations of a step with u- = u+ and half the compliance.
+    void begin() noexcept;
+    void shift() noexcept;           // level n+1 becomes n; then `free` is filled, then
+    Outcome solve(long n) noexcept;  // force, coming
+
+    double bridge() const;  // [N]
+    double thread() const;
+    double stored() const;      // (V^n + V^{n+1})/2 and the thread's likewise [J]
+    double dissipated() const;  // by contact loss and thread in this step [J]
+    int pluck_port() const { return plucks_.empty() ? -1 : plucks_.front().port; }
+    void add_facts(std::vector<Fact>&) const;
+
+    std::vector<double> older, now, free, coming;  // levels n-1, n, n+1 without the forces of step n, n+1; of each read [m]
+    std::vector<double> force;                     // of each port [N]
+
+private:
+    struct Contact {
+        ContactLaw law;
+        double height;  // [m]
+        double theta;   // increment of the point per force on it [m/N], the thread's yielding included
+        double drag;    // contact_loss/(2 dt) [1/m]: the loss force is drag V'(eta) r
+    };
+    struct Coil {  // the thread: u_c+ = free + theta F_c + cross F_b
+        Thread law;
+        int port;
+        double theta, cross;  // [m/N]; cross to the contact point, 0 without one
+        double yield;         // B = k_c/2 + r_c/(2 dt) [N/m]
+        double recoil;        // -dF_c/dF_b
+    };
+    struct Finger {  // the pluck
+        Pluck law;
+        int port;
+        std::vector<double> reach;  // increment of each read per force [m/N]
+    };
+    struct Effort {
+        double solves = 0, iterations = 0, most = 0, residual = 0, smallest_force = 0, deepest = 0;
+    };
+    std::vector<Contact> contacts_;
+    std::vector<Coil> threads_;  // one or none, as plucks_
+    std::vector<Finger> plucks_;
+    double dt_, own_theta_ = 0;  // own: of the contact point, without a yielding thread
+    Effort effort_;
+};
+
+}  // namespace jvari

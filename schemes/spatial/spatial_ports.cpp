@@ -1,0 +1,88 @@
+// Source: Issanchou et al. 2016, section 3.2 (a force density at a node); van Walstijn et al. 2016, eq 20 (weights of a footprint).
+#include "schemes/spatial/spatial_ports.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/barrier.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr double near_node = 1e-9;  // of an interval
+
+int node_at(double position, double length, int intervals) {  // 0: between nodes
+    const double i = position / length * intervals, node = std::round(i);
+    return std::abs(i - node) <= near_node * intervals && node >= 1 && node < intervals ? static_cast<int>(node) : 0;
+}
+
+struct PointsOf {
+    const String& s;
+    const Modes& modes;
+    int intervals;
+    const std::string& scene;
+    SpatialPorts& out;
+
+    void add(ContactPoint point, int node, std::vector<double> weights) const {
+        for (const Port& port : out.ports)
+            if (node != 0 && port.node == node)
+                throw Refusal("modal_spatial_newton: two barriers of scene " + scene + " act on node " + std::to_string(node) +
+                              "; it solves one contact per node");
+        out.points.push_back(point);
+        out.ports.push_back({std::move(weights), node});
+    }
+    void operator()(const LumpedBarrier& b) const {
+        const ContactPoint point{{b.stiffness.k, b.exponent}, b.height, b.contact_loss};
+        const int node = b.width == 0 ? node_at(b.position, s.length, intervals) : 0;
+        add(point, node, node != 0 ? node_weights(intervals, node) : footprint_weights(modes, b.position, b.width));
+    }
+    void operator()(const ProfileBarrier& b) const {
+        const double dx = s.length / intervals;
+        const int first = std::max(1, static_cast<int>(std::ceil(b.from / dx - near_node * intervals)));
+        const int last = std::min(intervals - 1, static_cast<int>(std::floor(b.to / dx + near_node * intervals)));
+        if (first > last)
+            throw Refusal("modal_spatial_newton: no node of " + std::to_string(intervals - 1) + " lies on the profile barrier of scene " +
+                          scene + "; ask for more modes");
+        std::vector<double> x;
+        for (int i = first; i <= last; ++i) x.push_back(std::clamp(i * dx, b.from, b.to));
+        const auto g = heights(b.curve, x);
+        for (int i = first; i <= last; ++i)
+            add({{b.stiffness.K * dx, b.exponent}, g[i - first], b.contact_loss}, i, node_weights(intervals, i));
+    }
+};
+}  // namespace
+
+int intervals_for(const String& s, const Settings& settings) {
+    if (settings.modes > 0) return settings.modes + 1;
+    const int least = std::max(1, modes_for(s, settings)) + 1;
+    int intervals = least;
+    for (const Barrier& barrier : s.barriers)
+        if (const auto* profile = std::get_if<ProfileBarrier>(&barrier))
+            intervals = std::max(intervals, static_cast<int>(std::ceil(8 * s.length / (profile->to - profile->from))));
+    const auto on_nodes = [&](int n) {
+        return std::all_of(s.barriers.begin(), s.barriers.end(), [&](const Barrier& barrier) {
+            const auto* b = std::get_if<LumpedBarrier>(&barrier);
+            return !b || b->width != 0 || node_at(b->position, s.length, n) != 0;
+        });
+    };
+    for (int n = intervals; n <= 4 * intervals; ++n)
+        if (on_nodes(n)) return n;
+    return intervals;
+}
+
+SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, const std::string& scene) {
+    SpatialPorts out;
+    for (const Barrier& barrier : s.barriers) std::visit(PointsOf{s, modes, intervals, scene, out}, barrier);
+    const bool all_nodes = std::all_of(out.ports.begin(), out.ports.end(), [](const Port& p) { return p.node != 0; });
+    if (out.points.size() > 1 && !all_nodes)
+        throw Refusal("modal_spatial_newton solves several contacts only where each is a node of the grid; in scene " + scene +
+                      " a barrier with a footprint or between nodes is coupled to another contact");
+    if (out.points.size() > 1 && s.thread)
+        throw Refusal("modal_spatial_newton couples a thread to one contact point; scene " + scene + " has " +
+                      std::to_string(out.points.size()) + " with " + std::to_string(intervals - 1) + " nodes");
+    if (s.thread) out.ports.push_back({footprint_weights(modes, s.thread->position, s.thread->width), 0});
+    if (s.pluck) out.ports.push_back({footprint_weights(modes, s.pluck->position, s.pluck->width), 0});
+    return out;
+}
+
+}  // namespace jvari
