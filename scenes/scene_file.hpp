@@ -18,9 +18,9 @@ struct SceneFileError : std::runtime_error {
 };
 
 // A file, or a scene of the library by its name ("tanpura_c3"). An override is "key.path=value", applied before reading: arrays by index
-// ("string.0.barrier.0.stiffness=1e9"), the value in TOML syntax or a bare word; it sets keys, also absent ones, and removes nothing. One that
-// chooses another law or shape ("string.0.damping.law=none") leaves the file's keys of the former one unread.
-// The scene returned has passed validate(). Throws SceneFileError.
+// ("string.0.barrier.0.stiffness=1e9"), the value in TOML syntax or a bare word; it sets keys, also absent ones, and removes nothing. One
+// that chooses another law or shape ("string.0.damping.law=none") leaves the file's keys of the former one unread. The scene returned has
+// passed validate(). Throws SceneFileError.
 Scene read_scene(const std::string& file_or_library_name, const std::vector<std::string>& overrides = {});
 
 // The same from a text; `file_name` is what messages call it, and tables are looked for beside it.

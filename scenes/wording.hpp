@@ -8,7 +8,7 @@
 namespace jvari {
 
 std::string number_text(double);                             // the shortest decimal that reads back as the same double
-std::string quote(std::string_view);                        // a TOML basic string: quotes, backslashes and control characters escaped
+std::string quote(std::string_view);                         // a TOML basic string: quotes, backslashes and control characters escaped
 std::string found_text(std::string_view);                    // quoted, and cut where it is longer than a line of a message should be
 std::string list_of(const std::vector<std::string>& words);  // "a", "b", "c"
 

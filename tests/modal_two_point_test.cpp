@@ -92,7 +92,8 @@ TEST(ModalTwoPoint, MovesEachFreeModeExactlyAtAnyRate) {
                 worst = std::max(worst, std::abs(r.trace.column(0)[n] - amplitude * std::cos(omega * t)));
                 // q is the momentum by the trapezoidal rule: its amplitude is (2/dt) tan(omega dt/2), not omega
                 const double warped = 2 * rate * std::tan(omega / (2 * rate));
-                worst_velocity = std::max(worst_velocity, std::abs(r.trace.column(1)[n] + amplitude * warped * std::sin(omega * t)) / warped);
+                worst_velocity =
+                    std::max(worst_velocity, std::abs(r.trace.column(1)[n] + amplitude * warped * std::sin(omega * t)) / warped);
             }
             EXPECT_LT(worst / std::abs(amplitude), 1e-10) << "mode " << number << " at " << rate;
             EXPECT_LT(worst_velocity / std::abs(amplitude), 1e-10) << "mode " << number << " at " << rate;
@@ -102,7 +103,9 @@ TEST(ModalTwoPoint, MovesEachFreeModeExactlyAtAnyRate) {
 
 TEST(ModalTwoPoint, ReportsThePhaseOffsetOfAStartFromRest) {
     Scene scene = c3_free();
-    const auto offset = [&](int modes) { return fact(scheme("modal_two_point").make(scene, {44100, 44100, modes, {}})->facts(), "start_phase_offset"); };
+    const auto offset = [&](int modes) {
+        return fact(scheme("modal_two_point").make(scene, {44100, 44100, modes, {}})->facts(), "start_phase_offset");
+    };
     EXPECT_NEAR(offset(1), 4e-8, 0.5e-8);  // an independent program: 4e-8 rad for mode 1
 
     // And it is what the trace shows: y(t) = A cos(omega t + phi) exp(-sigma t)/cos(phi), phi from two samples of one mode.
@@ -150,7 +153,7 @@ TEST(ModalTwoPointTrapezoidal, WarpsFrequenciesByTheArctangent) {
 TEST(ModalTwoPoint, TheFusedFormIsThePlainForm) {
     for (Scene scene : {c3_release(), c3_pluck()}) {
         for (const int modes : {1, 5, 16, 17, 133}) {  // around the padding
-            scene.duration = 0.02;  // with few modes the motion is soon sensitive
+            scene.duration = 0.02;                     // with few modes the motion is soon sensitive
             const Settings settings{44100, 44100, modes, {}};
             PlainTwoPoint<double> plain(scene, settings);
             const auto a = run(scheme("modal_two_point"), scene, settings), b = run(plain, scene, settings);

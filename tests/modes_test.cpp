@@ -13,7 +13,9 @@
 namespace jvari {
 namespace {
 
-String c3() { return c3_free().strings.front(); }
+String c3() {
+    return c3_free().strings.front();
+}
 
 TEST(Modes, TheC3StringHas133ModesBelow20kHz) {
     const String s = c3();

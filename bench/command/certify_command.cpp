@@ -10,6 +10,7 @@
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/records.hpp"
 #include "bench/trust/certificate_file.hpp"
 #include "bench/trust/certificate_library.hpp"
 

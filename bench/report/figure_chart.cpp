@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/report/spectrogram_chart.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/suite/row_facet.hpp"
 

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "bench/store/records.hpp"
+
 namespace jvari {
 
 namespace fs = std::filesystem;
