@@ -1,6 +1,6 @@
 #!/bin/sh
 # The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp and scenes; bench is a staircase of rooms above them; tests see all.
-# No scheme includes another, and each library is seen by one folder (or file) alone. usage: layering.sh [TREE]
+# No scheme includes another, and each library is seen where CONTRIBUTING.md says and nowhere else. usage: layering.sh [TREE]
 cd "${1:-$(dirname "$0")/..}" || exit 2
 status=0
 forbid() {  # forbid REASON PATTERN PATHS...: no line of PATHS matches PATTERN
@@ -29,12 +29,22 @@ for room in command report suite map compare trust store; do  # each room of ben
 done
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
 forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
-forbid "TOML belongs to scenes (and suites)" '#include <toml' $(files schemes reference analysis)
-forbid "FFTW belongs to analysis and the sine transform" '#include <fftw' $(files scenes reference bench) $(files schemes | grep -v sine_transform)
-forbid "SUNDIALS belongs to reference/sundials" '#include <(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' \
-    $(files scenes schemes analysis bench) $(files reference | grep -v 'reference/sundials')
-forbid "JSON, HDF5, sndfile and CLI11 belong to bench" '#include <(nlohmann|hdf5|sndfile|CLI)' $(files scenes schemes reference analysis)
-forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|cvode|sundials)' \
+# Libraries, as the table of CONTRIBUTING.md says. The benchmarks of bench/kernels and the tests compare with any of them.
+product=$(files scenes schemes reference analysis bench | grep -v '^bench/kernels/')
+only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin with PLACES alone include PATTERN
+    forbid "$1 belongs to $3" "#include <$2" $(echo "$product" | grep -vE "^($3)")
+}
+only "toml++" 'toml' 'scenes/document'
+only GSL 'gsl/' 'scenes/|schemes/|reference/|analysis/'
+only Eigen 'Eigen/' 'schemes/|analysis/'
+only Highway 'hwy/' 'schemes/'
+only FFTW 'fftw' 'analysis/spectrum|schemes/spatial/sine_transform'
+only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'
+only CLI11 'CLI/' 'bench/command/'
+only JSON 'nlohmann/' 'bench/'
+only fmt 'fmt/' 'bench/'
+only "libsndfile and HDF5" '(sndfile|hdf5)' 'bench/store/'
+forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp')
 forbid "-ffast-math is forbidden" 'ffast-math' CMakeLists.txt tests/CMakeLists.txt CMakePresets.json
 exit $status
