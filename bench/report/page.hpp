@@ -1,7 +1,7 @@
 // The report's page: one file, no network. Sections of charts with menus, pictures, sounds and tables; what it was measured with at the
 // foot.
 //
-// A section is made by one page_*.cpp of the files that lie in a folder; the page is put together here and shown by bench/page/*.js.
+// A section is made by one page_*.cpp of the files that lie in a folder; the page is put together here and shown by bench/report/page/*.js.
 #pragma once
 
 #include <string>
