@@ -1,4 +1,4 @@
-// The energy ledger of a run: stored[n] - stored[n-1] = supplied[n] - dissipated[n] (design of the seam; van Walstijn et al. 2016, eqs
+// The energy ledger of a run: stored[n] - stored[n-1] = supplied[n] - dissipated[n] (schemes/scheme.hpp; van Walstijn et al. 2016, eqs
 // 49-52).
 //
 // All columns [J], one row per tap interval; supplied and dissipated are sums over the interval that ends at the row.

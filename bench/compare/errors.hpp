@@ -1,4 +1,4 @@
-// The errors of one cell: every measure of design rule 4 on every tap, and which of them stand in the headline.
+// The errors of one cell: every measure on every tap, and which of them stand in the headline.
 #pragma once
 
 #include <string>

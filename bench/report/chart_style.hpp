@@ -1,4 +1,4 @@
-// What all charts share: colours, shapes and dashes that stay apart for the colour-blind, and templates (bench/page/*.json) filled in.
+// What all charts share: colours, shapes and dashes that stay apart for the colour-blind, and templates (page/*.json) filled in.
 #pragma once
 
 #include <string>

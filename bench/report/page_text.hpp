@@ -1,4 +1,4 @@
-// The files of bench/page, which the build puts into the program: the page's frame, style and scripts, and its charts as Vega-Lite.
+// The files of page/, which the build puts into the program: the page's frame, style and scripts, and its charts as Vega-Lite.
 #pragma once
 
 #include <span>
