@@ -1,0 +1,40 @@
+#!/bin/sh
+# The README's first table is what results/work-precision holds: each row's error and cost are those of its scheme at its rate, rounded, the
+# error is within what is wanted, and no unflagged run within it is surely cheaper (upper quartile below the row's lower one).
+# usage: answer.sh [TREE]
+cd "${1:-$(dirname "$0")/..}" || exit 2
+results=results/work-precision
+awk -F '[|,]' '
+function trim(text) { gsub(/^ +| +$/, "", text); return text }
+function rounds(actual, printed, scale, digits) {  # is `printed` what `actual` rounds to?
+    digits = index(printed, ".") ? length(printed) - index(printed, ".") : 0
+    return actual * scale - printed <= 0.5001 * 10^-digits && printed - actual * scale <= 0.5001 * 10^-digits
+}
+FNR == 1 { ++file; if (file < 3) { delete at; for (i = 1; i <= NF; ++i) at[$i] = i } }
+file == 1 && FNR > 1 { low[$1] = $at["cost_lower"]; high[$1] = $at["cost_upper"]; cost[$1] = $at["cost_s_per_s"] }
+file == 2 && FNR > 1 && $at["status"] == "ok" && $at["flags"] == "" {
+    id[$at["scheme"], $at["rate"] / 1000] = $1
+    error[$1, "%"] = 100 * $at["error_l2_50ms"]
+    error[$1, "dB"] = $at["third_octave_db"]
+}
+file == 3 && /^!\[/ { exit }
+file == 3 && /^\|.* ms \|$/ {
+    wanted = trim($2)
+    if (match(wanted, /within [0-9.]+ (%|dB)/)) split(substr(wanted, RSTART, RLENGTH), goal, " ")
+    n = split($0, cell, "|")
+    match(cell[3], /`[^`]*`/)
+    split(trim(cell[4]), rate, " "); split(trim(cell[5]), printed, " "); split(trim(cell[6]), ms, " ")
+    run = id[substr(cell[3], RSTART + 1, RLENGTH - 2), rate[1] + 0]
+    unit = printed[2]
+    if (run == "" || unit != goal[3] || !rounds(error[run, unit], printed[1], 1) || !rounds(cost[run], ms[1], 1000) ||
+        error[run, unit] + 0 > goal[2] + 0) wrong = wrong "\n" $0
+    for (other in cost)
+        if ((other, unit) in error && error[other, unit] + 0 <= goal[2] + 0 && high[other] < low[run]) { cheaper = cheaper "\n" $0; break }
+    ++rows
+}
+END {
+    if (wrong) print "rows of README.md that " results " does not hold:" wrong
+    if (cheaper) print "rows of README.md beside which " results " has a cheaper run:" cheaper
+    if (!rows) print "README.md has no first table"
+    exit !rows || wrong != "" || cheaper != ""
+}' results="$results" "$results/cost.csv" "$results/errors.csv" README.md >&2
