@@ -1,7 +1,6 @@
 #include "reference/certificate.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "reference/oversampled.hpp"
 #include "reference/references.hpp"
@@ -20,19 +19,8 @@ struct Job {
     bool oversampled;
 };
 
-// Settings of the reference's own accuracy; {} is what it does unasked.
-std::vector<Options> accuracies(const Descriptor& reference, const Scene& scene) {
-    const std::string_view name = reference.name;
-    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
-    if (name == "exact_contact") return {{}, {{"window", "0.5"}}};
-    if (name == "sundials") return {{{"rtol", smooth ? "1e-12" : "1e-13"}}, {}};
-    return {{}};
-}
-
-// An integrator of another kind, for the reference that nothing else can confirm.
-std::vector<Options> other_methods(const Descriptor& reference) {
-    if (std::string_view(reference.name) == "sundials") return {{{"method", "adams"}, {"rtol", "1e-12"}}};
-    return {};
+Confirmation confirmation_of(const Descriptor& reference, const Scene& scene) {
+    return reference.confirmation ? reference.confirmation(scene) : Confirmation{};
 }
 
 std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
@@ -41,9 +29,9 @@ std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
         if ((needed_by(scene) - r.represents).empty()) able.push_back(&r);
     std::vector<Job> jobs;
     for (const Descriptor* r : able)
-        for (const Options& o : accuracies(*r, scene)) jobs.push_back({r, o, false});
+        for (const Options& o : confirmation_of(*r, scene).accuracies) jobs.push_back({r, o, false});
     if (able.size() == 1)
-        for (const Options& o : other_methods(*able.front())) jobs.push_back({able.front(), o, false});
+        for (const Options& o : confirmation_of(*able.front(), scene).other_methods) jobs.push_back({able.front(), o, false});
     if (jobs.empty() || settings.oversampled_rate > 0)
         if (const Descriptor* scheme = stand_in(scene)) jobs.push_back({scheme, {}, true});
     if (jobs.empty())

@@ -340,18 +340,19 @@ double ExactContact::stored() const noexcept {
 }
 
 std::vector<Fact> ExactContact::facts() const {
-    return {{"events", extremes_.events, ""},
-            {"contact_points", double(springs_.contacts), ""},
-            {"windows", extremes_.windows, ""},
-            {"smallest_contact_force", extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0, "N"},
-            {"deepest_penetration", extremes_.deepest, "m"},
-            {"detection_tolerance", extremes_.tolerance, "m"}};
+    return {{facts::events, extremes_.events},
+            {facts::contact_points, double(springs_.contacts)},
+            {facts::windows, extremes_.windows},
+            {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
+            {facts::deepest_penetration, extremes_.deepest},
+            {facts::detection_tolerance, extremes_.tolerance}};
 }
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_missing(exact_contact, scene);
-    refuse_unknown_options(settings, {"window", "nodes"});
-    const double window = number_option(settings, "window", 1);
+constexpr Option window_option{"window", "1", "factor above 0, 1 at most, on the time between two looks for an event"};
+constexpr Option options[] = {window_option, nodes_option};
+
+std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
+    const double window = number_option(settings, window_option);
     if (!(window > 0 && window <= 1)) throw Refusal("option window: expected a factor above 0 and no larger than 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
@@ -361,14 +362,20 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-const Descriptor exact_contact = {"exact_contact",
-                                  "piecewise linear system of van Walstijn et al. 2016, eqs 1-22, exact between events",
-                                  Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                                      Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                                      Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::thread) |
-                                      Features(Feature::initial_shape) | Features(Feature::pluck),
-                                  Balance::to_tolerance,
-                                  Clock::continuous,
-                                  make};
+const Descriptor exact_contact = {.name = "exact_contact",
+                                  .source = "piecewise linear system of van Walstijn et al. 2016, eqs 1-22, exact between events",
+                                  .represents = Feature::bending_stiffness | Feature::damping |
+                                                Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
+                                                Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
+                                                Features(Feature::several_barriers) | Features(Feature::thread) |
+                                                Features(Feature::initial_shape) | Features(Feature::pluck),
+                                  .balance = Balance::to_tolerance,
+                                  .clock = Clock::continuous,
+                                  .make = made,
+                                  .options = options,
+                                  .approximates = points_for_a_profile,
+                                  .confirmation = [](const Scene&) {
+                                      return Confirmation{{{}, {{window_option.name, "0.5"}}}, {}};
+                                  }};
 
 }  // namespace jvari

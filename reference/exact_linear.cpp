@@ -188,9 +188,7 @@ double ExactLinear::stored() const noexcept {
     return 0.5 * modes_.mass * sum;
 }
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_missing(exact_linear, scene);
-    refuse_unknown_options(settings, {});
+std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.at(0);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
@@ -198,12 +196,13 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-const Descriptor exact_linear = {"exact_linear",
-                                 "closed form of van Walstijn et al. 2016, eqs 16-21",
-                                 Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                                     Features(Feature::measured_modes) | Features(Feature::initial_shape) | Features(Feature::pluck),
-                                 Balance::to_tolerance,
-                                 Clock::continuous,
-                                 make};
+const Descriptor exact_linear = {.name = "exact_linear",
+                                 .source = "closed form of van Walstijn et al. 2016, eqs 16-21",
+                                 .represents = Feature::bending_stiffness | Feature::damping |
+                                               Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
+                                               Features(Feature::initial_shape) | Features(Feature::pluck),
+                                 .balance = Balance::to_tolerance,
+                                 .clock = Clock::continuous,
+                                 .make = made};
 
 }  // namespace jvari

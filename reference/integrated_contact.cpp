@@ -211,57 +211,54 @@ double IntegratedContact::stored() const noexcept {
 
 std::vector<Fact> IntegratedContact::facts() const {
     const auto effort = integrator_.effort();
-    std::vector<Fact> facts = {{"events", events_, ""},
-                               {"contact_points", double(equations_.contacts), ""},
-                               {"integrator_steps", effort.steps, ""},
-                               {"slope_evaluations", effort.slopes, ""},
-                               {"linear_solves", effort.solves, ""},
-                               {"integrator_tolerance", choice_.integrator.tolerance, ""},
-                               {"smallest_contact_force", effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force, "N"},
-                               {"deepest_penetration", effort.deepest, "m"}};
-    if (choice_.exact_flight) facts.push_back({"detection_tolerance", flight_.tolerance(), "m"});
+    std::vector<Fact> facts = {{facts::events, events_},
+                               {facts::contact_points, double(equations_.contacts)},
+                               {facts::integrator_steps, effort.steps},
+                               {facts::slope_evaluations, effort.slopes},
+                               {facts::linear_solves, effort.solves},
+                               {facts::integrator_tolerance, choice_.integrator.tolerance},
+                               {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
+                               {facts::deepest_penetration, effort.deepest}};
+    if (choice_.exact_flight) facts.push_back({facts::detection_tolerance, flight_.tolerance()});
     return facts;
 }
 
-template <class T>
-T chosen(const Settings& settings, const char* name, const char* fallback, std::initializer_list<std::pair<const char*, T>> values) {
-    const std::string text = option(settings, name, fallback);
-    std::string known;
-    for (const auto& [word, value] : values) {
-        if (text == word) return value;
-        known += (known.empty() ? "" : ", ") + std::string(word);
-    }
-    throw Refusal("option " + std::string(name) + ": found \"" + text + "\", expected one of " + known);
-}
+constexpr Option method_option{
+    "method", "erk", "integrator: multistep (bdf, adams) or Runge-Kutta, explicit or implicit", {"bdf", "adams", "erk", "esdirk"}};
+constexpr Option order_option{"order", "", "order of the method, whole; absent: its highest, or 6 for erk with an exponent other than 1"};
+constexpr Option rtol_option{"rtol", "", "relative tolerance below 1; absent: 1e-10, or 1e-12 with an exponent other than 1"};
+constexpr Option floor_option{"floor", "", "absolute tolerance over the relative one; absent: 1e-2, or 1e-3 with an exponent other than 1"};
+constexpr Option linear_solver_option{"linear_solver", "woodbury", "solver of an implicit method's linear systems", {"woodbury", "dense"}};
+constexpr Option flight_option{"flight", "exact", "motion between contacts: exact, or integrated like the rest", {"exact", "integrate"}};
+constexpr Option first_step_option{"first_step", "", "first step in time constants; absent: 0.1, or 1e-3 with an exponent other than 1"};
+constexpr Option longest_step_option{"longest_step", "", "longest step in time constants; absent: 3, or 1 with flight=integrate"};
+constexpr Option options[] = {method_option, order_option,      rtol_option,         floor_option, linear_solver_option,
+                              flight_option, first_step_option, longest_step_option, nodes_option};
 
-double above_zero(const Settings& settings, const char* name, double fallback) {
-    const double value = number_option(settings, name, fallback);
-    if (!(value > 0)) throw Refusal("option " + std::string(name) + ": expected a number above 0");
+double above_zero(const Settings& settings, const Option& o, double fallback) {
+    const double value = number_option(settings, o, fallback);
+    if (!(value > 0)) throw Refusal("option " + std::string(o.name) + ": expected a number above 0");
     return value;
 }
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_missing(sundials, scene);
-    refuse_unknown_options(settings,
-                           {"method", "order", "rtol", "floor", "linear_solver", "flight", "first_step", "longest_step", "nodes"});
+std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
     Choice choice;
     Integrator::Settings& i = choice.integrator;
-    i.method = chosen<Method>(settings, "method", "erk",
-                              {{"bdf", Method::bdf}, {"adams", Method::adams}, {"erk", Method::erk}, {"esdirk", Method::esdirk}});
-    i.solver =
-        chosen<LinearSolver>(settings, "linear_solver", "woodbury", {{"woodbury", LinearSolver::woodbury}, {"dense", LinearSolver::dense}});
-    choice.exact_flight = chosen<bool>(settings, "flight", "exact", {{"exact", true}, {"integrate", false}});
+    const std::string method = choice_option(settings, method_option);
+    i.method = method == "bdf" ? Method::bdf : method == "adams" ? Method::adams : method == "erk" ? Method::erk : Method::esdirk;
+    i.solver = choice_option(settings, linear_solver_option) == "dense" ? LinearSolver::dense : LinearSolver::woodbury;
+    choice.exact_flight = choice_option(settings, flight_option) == "exact";
     // A force like eta^alpha is smooth on the surface for alpha = 1 alone. Elsewhere a lower order errs as it estimates, from a small step
     // on.
     const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
-    i.tolerance = above_zero(settings, "rtol", smooth ? 1e-10 : 1e-12);
+    i.tolerance = above_zero(settings, rtol_option, smooth ? 1e-10 : 1e-12);
     if (i.tolerance >= 1) throw Refusal("option rtol: expected a tolerance between 0 and 1");
-    i.floor = above_zero(settings, "floor", smooth ? 1e-2 : 1e-3);
-    choice.first_step = above_zero(settings, "first_step", smooth ? 0.1 : 1e-3);
-    choice.longest_step = above_zero(settings, "longest_step", choice.exact_flight ? 3 : 1);
+    i.floor = above_zero(settings, floor_option, smooth ? 1e-2 : 1e-3);
+    choice.first_step = above_zero(settings, first_step_option, smooth ? 0.1 : 1e-3);
+    choice.longest_step = above_zero(settings, longest_step_option, choice.exact_flight ? 3 : 1);
     const int lowest = i.method == Method::bdf || i.method == Method::adams ? 1 : 3;
     const int highest = i.method == Method::erk ? 8 : i.method == Method::adams ? 12 : 5;
-    const double order = number_option(settings, "order", i.method == Method::erk && !smooth ? 6 : highest);
+    const double order = number_option(settings, order_option, i.method == Method::erk && !smooth ? 6 : highest);
     if (order != std::floor(order) || order < lowest || order > highest)
         throw Refusal("option order: expected a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
     i.order = static_cast<int>(order);
@@ -271,17 +268,26 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     const String s = with_points(scene.strings.at(0), modes, profile_points(settings));
     return std::make_unique<IntegratedContact>(s, scene, modes_of(s, modes), settings.tap_rate, choice);
 }
+
+// An integrator of another kind is there for scenes that nothing else can confirm.
+Confirmation confirmation(const Scene& scene) {
+    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
+    return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}}, {{{method_option.name, "adams"}, {rtol_option.name, "1e-12"}}}};
+}
 }  // namespace
 
-const Descriptor sundials = {"sundials",
-                             "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
-                             Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                                 Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                                 Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                                 Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) |
-                                 Features(Feature::initial_shape) | Features(Feature::pluck),
-                             Balance::to_tolerance,
-                             Clock::continuous,
-                             make};
+const Descriptor sundials = {.name = "sundials",
+                             .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
+                             .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                                           Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
+                                           Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+                                           Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                                           Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck),
+                             .balance = Balance::to_tolerance,
+                             .clock = Clock::continuous,
+                             .make = made,
+                             .options = options,
+                             .approximates = points_for_a_profile,
+                             .confirmation = confirmation};
 
 }  // namespace jvari

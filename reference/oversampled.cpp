@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include "schemes/registry.hpp"
 
@@ -45,9 +44,7 @@ const Descriptor* stand_in(const Scene& scene) {
     int best = 0;
     for (const Descriptor& d : schemes()) {
         if (!(needed_by(scene) - d.represents).empty()) continue;
-        const std::string_view name = d.name;
-        const int authority = name == "modal_spatial_newton" ? 3 : name == "modal_two_point" ? 2 : 1;
-        if (authority > best) best = authority, chosen = &d;
+        if (d.stand_in_rank > best) best = d.stand_in_rank, chosen = &d;
     }
     return chosen;
 }

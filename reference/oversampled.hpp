@@ -33,8 +33,7 @@ struct Oversampled {
 // A run that fails ends the series: `run` is that run, with its status, and `estimates` is empty.
 Oversampled oversampled(const Descriptor&, const Scene&, const Settings&, int multiple, const RunOptions& = {});
 
-// The scheme that stands in where no reference represents the scene: the spatial Newton, else the two-point, else the first that does; or
-// nullptr.
+// The scheme that stands in where no reference represents the scene: of those that do, the first of the highest rank; or nullptr.
 const Descriptor* stand_in(const Scene&);
 
 }  // namespace jvari

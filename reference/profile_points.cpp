@@ -25,8 +25,8 @@ std::vector<double> positions(const ProfileBarrier& b, double spacing, bool grid
 }  // namespace
 
 ProfilePoints profile_points(const Settings& settings) {
-    if (option(settings, "nodes", "") == "grid") return {0};
-    const double count = number_option(settings, "nodes", default_points);
+    if (option(settings, nodes_option) == "grid") return {0};
+    const double count = number_option(settings, nodes_option);
     if (count != std::floor(count) || count < 1 || count > most_points)
         throw Refusal("option nodes: expected grid, or a whole number from 1 to " + std::to_string(most_points));
     return {static_cast<int>(count)};

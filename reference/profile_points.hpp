@@ -17,8 +17,9 @@ struct ProfilePoints {
 
 constexpr int most_points = 256;  // per string: the references' tables grow with its square
 
-// Option `nodes`: "grid" or a number of points per profile; default_points without it.
-constexpr int default_points = 32;
+inline constexpr Option nodes_option{"nodes", "32",
+                                     "points that stand for a profile: a whole number up to 256, or grid for the nodes of as many modes"};
+inline constexpr Approximation points_for_a_profile[] = {{Feature::profile_barrier, facts::contact_points}};
 ProfilePoints profile_points(const Settings&);
 
 // The string with its profiles replaced. Throws Refusal where they come to no point, or to more than most_points.

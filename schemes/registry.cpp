@@ -2,46 +2,45 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+
 namespace jvari {
 
-extern const Descriptor modal_two_point, modal_two_point_trapezoidal, modal_spatial_newton;
-extern const Descriptor modal_quadratised, modal_quadratised_two_point_constrained, modal_quadratised_two_point_raw,
-    modal_quadratised_three_point, modal_quadratised_three_point_constrained, modal_quadratised_three_point_raw;
-extern const Descriptor modal_explicit_penalty, modal_impulse_invariant;
-extern const Descriptor sitar_waveguide, sitar_fdm;
-extern const Descriptor finite_difference_explicit, finite_difference_theta, finite_difference_hamiltonian;
+#define JVARI_SCHEME(name) extern const Descriptor name;
+#include "schemes/schemes.def"
+#undef JVARI_SCHEME
 
 std::span<const Descriptor> schemes() {
+#define JVARI_SCHEME(name) name,
     static const Descriptor table[] = {
-        modal_two_point,
-        modal_two_point_trapezoidal,
-        modal_spatial_newton,
-        modal_quadratised,
-        modal_quadratised_two_point_constrained,
-        modal_quadratised_two_point_raw,
-        modal_quadratised_three_point,
-        modal_quadratised_three_point_constrained,
-        modal_quadratised_three_point_raw,
-        modal_explicit_penalty,
-        modal_impulse_invariant,
-        sitar_waveguide,
-        sitar_fdm,
-        finite_difference_explicit,
-        finite_difference_theta,
-        finite_difference_hamiltonian,
+#include "schemes/schemes.def"
     };
+#undef JVARI_SCHEME
     return table;
 }
 
-std::span<const Descriptor> load_plugin(const std::string& path) {
+namespace {
+std::vector<LoadedPlugin>& kept_plugins() {
+    static std::vector<LoadedPlugin> all;
+    return all;
+}
+}  // namespace
+
+std::span<const LoadedPlugin> loaded_plugins() {
+    return kept_plugins();
+}
+
+const Plugin& load_plugin(const std::string& path) {
     void* library = dlopen(path.find('/') == std::string::npos ? ("./" + path).c_str() : path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) throw std::runtime_error("cannot load plugin " + path + ": " + dlerror());
     const auto* plugin = static_cast<const Plugin*>(dlsym(library, "jvari_plugin"));
     if (!plugin) throw std::runtime_error("plugin " + path + " does not export jvari_plugin");
     if (plugin->abi != plugin_abi)
-        throw std::runtime_error("plugin " + path + " has interface version " + std::to_string(plugin->abi) + ", this program has " +
-                                 std::to_string(plugin_abi));
-    return {plugin->schemes, static_cast<std::size_t>(plugin->count)};
+        throw std::runtime_error("plugin " + path + " has interface " + std::to_string(plugin->abi) + ", this program has " +
+                                 std::to_string(plugin_abi) + ": compile it with the headers and the compiler of this program");
+    auto& all = kept_plugins();
+    if (std::none_of(all.begin(), all.end(), [plugin](const LoadedPlugin& l) { return l.plugin == plugin; })) all.push_back({path, plugin});
+    return *plugin;
 }
 
 }  // namespace jvari

@@ -3,13 +3,19 @@
 
 #include <span>
 
-#include "schemes/scheme.hpp"
+#include "schemes/plugin.hpp"
 
 namespace jvari {
 
 std::span<const Descriptor> schemes();  // in-tree schemes
 
-// Loads a shared object and returns its schemes; they stay loaded until the process ends. Throws std::runtime_error with the reason.
-std::span<const Descriptor> load_plugin(const std::string& path);
+// Loads a shared object; its schemes stay loaded until the process ends. Throws std::runtime_error with the reason.
+const Plugin& load_plugin(const std::string& path);
+
+struct LoadedPlugin {
+    std::string path;
+    const Plugin* plugin;
+};
+std::span<const LoadedPlugin> loaded_plugins();  // in the order in which they came; to be asked between loads
 
 }  // namespace jvari

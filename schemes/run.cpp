@@ -81,7 +81,7 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
 }
 
 Run run(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const RunOptions& options) {
-    const auto scheme = descriptor.make(scene, settings);
+    const auto scheme = make_scheme(descriptor, scene, settings);
     Run result = run(*scheme, scene, settings, options);
     if (descriptor.clock == Clock::continuous) result.steps = 0;
     return result;

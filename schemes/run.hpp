@@ -28,6 +28,9 @@ struct Run {
 // (seen where the energy is probed; a value that is not finite is always seen).
 constexpr double energy_budget = 10;
 
+// True energy, as a part of what there was, that a scheme without a promised balance may gain and still count as sound.
+constexpr double gain_allowed_unpromised = 1e-2;
+
 // rows = round(duration x tap_rate) + 1. Denormals are flushed to zero while stepping. Throws Refusal or BadScene before the first step;
 // a run that fails on the way ends with its status and the rows that are valid.
 Run run(const Descriptor&, const Scene&, const Settings&, const RunOptions& = {});

@@ -18,10 +18,52 @@ const char* name_of(Outcome outcome) {
     return "?";
 }
 
+std::span<const char* const> Option::words() const {
+    std::size_t count = 0;
+    while (count < std::size(choices) && choices[count]) ++count;
+    return {choices, count};
+}
+
+namespace {
 void refuse_missing(const Descriptor& scheme, const Scene& scene) {
     const Features missing = needed_by(scene) - scheme.represents;
     if (!missing.empty())
         throw Refusal(std::string(scheme.name) + " cannot represent scene " + scene.name + ": it has no " + names_of(missing));
+}
+
+template <class Items, class Word>
+std::string listed(const Items& items, Word word) {
+    std::string text;
+    for (const auto& item : items) text += (text.empty() ? "" : ", ") + std::string(word(item));
+    return text;
+}
+
+void refuse_undeclared(const Descriptor& scheme, const Settings& settings) {
+    for (const auto& [name, value] : settings.options) {
+        if (declares(scheme, name)) continue;
+        const std::string known = listed(scheme.options, [](const Option& o) { return o.name; });
+        throw UnknownOption("unknown option " + name + "; this scheme has " + (known.empty() ? "none" : known));
+    }
+    for (const Option& o : scheme.options)
+        if (!o.words().empty()) choice_option(settings, o);
+}
+}  // namespace
+
+bool declares(const Descriptor& scheme, const std::string& name) {
+    return std::any_of(scheme.options.begin(), scheme.options.end(), [&name](const Option& o) { return name == o.name; });
+}
+
+Features approximated(const Descriptor& scheme) {
+    Features all;
+    for (const Approximation& a : scheme.approximates) all = all | a.feature;
+    return all;
+}
+
+std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    validate(scene);
+    refuse_missing(descriptor, scene);
+    refuse_undeclared(descriptor, settings);
+    return descriptor.make(descriptor, scene, settings);
 }
 
 int steps_per_row(const Settings& s) {
@@ -37,29 +79,32 @@ int modes_for(const String& string, const Settings& s) {
     return modes_below(string, s.sample_rate > 0 ? std::min(20e3, 0.5 * s.sample_rate) : 20e3);
 }
 
-void refuse_unknown_options(const Settings& s, std::initializer_list<const char*> names) {
-    for (const auto& [name, value] : s.options) {
-        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-        std::string known;
-        for (const char* n : names) known += (known.empty() ? "" : ", ") + std::string(n);
-        throw UnknownOption("unknown option " + name + "; this scheme has " + (known.empty() ? "none" : known));
-    }
-}
-
-std::string option(const Settings& s, const char* name, const char* fallback) {
+std::string option(const Settings& s, const Option& o) {
     for (const auto& [key, value] : s.options)
-        if (key == name) return value;
-    return fallback;
+        if (key == o.name) return value;
+    return o.fallback;
 }
 
-double number_option(const Settings& s, const char* name, double fallback) {
-    const std::string text = option(s, name, "");
-    if (text.empty()) return fallback;
+std::string choice_option(const Settings& s, const Option& o) {
+    const std::string text = option(s, o);
+    const auto words = o.words();
+    if (std::find(words.begin(), words.end(), text) == words.end())
+        throw Refusal("option " + std::string(o.name) + ": found \"" + text + "\", expected one of " +
+                      listed(words, [](const char* word) { return word; }));
+    return text;
+}
+
+double number_option(const Settings& s, const Option& o) {
+    const std::string text = option(s, o);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        throw Refusal("option " + std::string(name) + ": found \"" + text + "\", expected a number");
+        throw Refusal("option " + std::string(o.name) + ": found \"" + text + "\", expected a number");
     return value;
+}
+
+double number_option(const Settings& s, const Option& o, double fallback) {
+    return option(s, o).empty() ? fallback : number_option(s, o);
 }
 
 }  // namespace jvari

@@ -1,16 +1,18 @@
 // The seam: everything a scheme has to offer, and all that the rest of the program knows of one.
 //
 // A scheme is made once for a scene and a setting (the only place that allocates or throws), then steps block by block into a
-// window of the caller's trace. Out-of-tree schemes come as shared objects with one exported symbol, `jvari_plugin`.
+// window of the caller's trace. Out-of-tree schemes come as shared objects: plugin.hpp.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "scenes/scene.hpp"
+#include "schemes/facts.hpp"
 
 namespace jvari {
 
@@ -32,7 +34,9 @@ struct Status {
 
 // One number a scheme reports about its run: what it approximated, how hard it worked, what contact did.
 struct Fact {
-    std::string name;  // "smallest_contact_force"
+    Fact(const FactName& known, double v) : name(known.name), value(v), unit(known.unit) {}
+    Fact(std::string n, double v, std::string u) : name(std::move(n)), value(v), unit(std::move(u)) {}  // a plugin's own
+    std::string name;
     double value;
     std::string unit;  // "N"
 };
@@ -72,9 +76,38 @@ struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// An option that the scheme does not have: a caller with several schemes may give it to the others.
+// An option that the scheme does not declare.
 struct UnknownOption : Refusal {
     using Refusal::Refusal;
+};
+
+// What a scheme can be told beside its settings. Its value is a word where there are choices, else what the meaning says.
+struct Option {
+    const char* name;
+    const char* fallback;         // as it would be written; "": depends on scene and settings as `meaning` tells
+    const char* meaning;          // with the unit
+    const char* choices[6] = {};  // the words that it takes; none: a number or another text
+    std::span<const char* const> words() const;
+};
+
+// A feature that a scheme takes and changes, at any rate and with any number of modes. Where a scene needs the feature the scheme reports
+// the fact, which says how; of several facts for one feature at least one.
+struct Approximation {
+    Feature feature;
+    FactName fact;
+};
+
+// A boundary of soundness that is known: positive on the sound side, 0 on it, NaN where it has nothing to say of the scene.
+struct Limit {
+    const char* name = nullptr;  // as maps call it, "grid_limit"
+    double (*margin)(const Scene&, const Settings&) = nullptr;
+};
+
+// How a reference confirms itself in a certificate: options to run it with.
+using OptionValues = std::vector<std::pair<std::string, std::string>>;
+struct Confirmation {
+    std::vector<OptionValues> accuracies = {{}};   // of its own accuracy; {} is what it does unasked
+    std::vector<OptionValues> other_methods = {};  // another method, for a scene that no other reference represents
 };
 
 enum class Balance { exact, to_tolerance, none };  // what the energy columns promise
@@ -82,30 +115,36 @@ enum class Clock { stepped, continuous };          // continuous: a reference th
 
 struct Descriptor {
     const char* name;
-    const char* source;  // "van Walstijn et al. 2016, eqs 38-49"
-    Features represents;
+    const char* source;   // "van Walstijn et al. 2016, eqs 38-49"
+    Features represents;  // what it takes, those that it approximates among them
     Balance balance;
     Clock clock;
-    std::unique_ptr<Scheme> (*make)(const Scene&, const Settings&);  // throws Refusal or BadScene
+    std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&, const Settings&);  // throws Refusal or BadScene; by make_scheme alone
+    std::span<const Option> options = {};
+    std::span<const Approximation> approximates = {};
+    const char* note = "";  // what the features cannot express, one sentence for the capability table
+    Limit limit = {};
+    int stand_in_rank = 1;                                 // of those able the highest stands in where there is no reference
+    Confirmation (*confirmation)(const Scene&) = nullptr;  // of a reference
 };
 
-constexpr unsigned plugin_abi = 2;
-struct Plugin {
-    unsigned abi;  // plugin_abi
-    const Descriptor* schemes;
-    int count;
-};
-// A plugin exports:  extern "C" const jvari::Plugin jvari_plugin = {jvari::plugin_abi, schemes, 1};
+Features approximated(const Descriptor&);
 
-// ---- Checks that every `make` begins with.
+// The only way to make a scheme: refuses a scene that cannot be, features that the scheme does not represent, options that it does not
+// declare and words that an option does not take, then calls `make`.
+std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
 
-void refuse_missing(const Descriptor&, const Scene&);  // Refusal naming what `represents` lacks
-int steps_per_row(const Settings&);                    // sample_rate/tap_rate; Refusal unless a whole number >= 1
-int modes_for(const String&, const Settings&);         // settings.modes, or every mode below min(20 kHz, sample_rate/2)
+// ---- Checks and values for `make`.
 
-// The value of an option, or `fallback`; option_names lists what the scheme knows. Refusal for an unknown name.
-void refuse_unknown_options(const Settings&, std::initializer_list<const char*> option_names);
-std::string option(const Settings&, const char* name, const char* fallback);
-double number_option(const Settings&, const char* name, double fallback);
+int steps_per_row(const Settings&);             // sample_rate/tap_rate; Refusal unless a whole number >= 1
+int modes_for(const String&, const Settings&);  // settings.modes, or every mode below min(20 kHz, sample_rate/2)
+
+bool declares(const Descriptor&, const std::string& option_name);
+
+// The value of a declared option, or its fallback. A choice is one of its words: choice_option(settings, levels) == "3".
+std::string option(const Settings&, const Option&);
+std::string choice_option(const Settings&, const Option&);
+double number_option(const Settings&, const Option&);
+double number_option(const Settings&, const Option&, double fallback);  // where it depends on scene and settings
 
 }  // namespace jvari

@@ -349,7 +349,7 @@ TEST(ExactContact, WithoutLossesTheEnergyStaysAndWithThemTheLedgerCloses) {
 
 TEST(ExactContact, BlocksProbeAndResetLeaveEveryBitAsItWas) {
     const Scene scene = few_modes();
-    const auto scheme = exact_contact.make(scene, settings(9));
+    const auto scheme = make_scheme(exact_contact, scene, settings(9));
     EXPECT_EQ(scheme->dofs(), 18);
     const jvari::Run once = run(*scheme, scene, settings(9));
     for (int block : {1, 7, 100000}) {
@@ -393,13 +393,13 @@ TEST(ExactContact, RefusesOtherLawsAndSettings) {
     scene.name = "other";
     scene.strings[0].barriers = {LumpedBarrier{0.1, 0, 0, {1e5}, 1.3, 0.2}};
     try {
-        exact_contact.make(scene, settings(5));
+        make_scheme(exact_contact, scene, settings(5));
         FAIL() << "made";
     } catch (const Refusal& refusal) {
         EXPECT_STREQ(refusal.what(), "exact_contact cannot represent scene other: it has no contact exponent other than 1, contact loss");
     }
-    EXPECT_THROW(exact_contact.make(c3(), settings(5, "0")), Refusal);
-    EXPECT_THROW(exact_contact.make(c3(), settings(5, "2")), Refusal);
+    EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "0")), Refusal);
+    EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "2")), Refusal);
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ TEST(ExactLinear, BlocksProbeAndResetLeaveEveryBitAsItWas) {
     Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});
     scene.strings[0].pluck = pluck(30);
     scene.duration = 0.01;
-    const auto scheme = exact_linear.make(scene, settings(20));
+    const auto scheme = make_scheme(exact_linear, scene, settings(20));
     EXPECT_EQ(scheme->dofs(), 40);
     const jvari::Run once = run(*scheme, scene, settings(20));
     for (int block : {1, 7, 100000}) {
@@ -159,7 +159,7 @@ TEST(ExactLinear, RefusesWhatTouchesTheString) {
     scene.strings[0].thread = Thread{5e-3, 1e-3, 1e5, 1, 0};
     scene.strings[0].barriers = {LumpedBarrier{}};
     try {
-        exact_linear.make(scene, settings(5));
+        make_scheme(exact_linear, scene, settings(5));
         FAIL() << "made";
     } catch (const Refusal& refusal) {
         EXPECT_STREQ(refusal.what(), "exact_linear cannot represent scene free: it has no lumped barrier, thread");

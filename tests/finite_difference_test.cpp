@@ -666,7 +666,7 @@ TEST(GridScheme, TracesDependNeitherOnTheBlockNorOnTheEnergyProbe) {
         odd.energy = true;
         const auto a = run(scheme(name), scene, settings), b = run(scheme(name), scene, settings, odd);
         EXPECT_EQ(a.trace.tap, b.trace.tap) << name;
-        const auto made = scheme(name).make(scene, settings);
+        const auto made = make_scheme(scheme(name), scene, settings);
         for (int again = 0; again < 2; ++again)
             EXPECT_EQ(run(*made, scene, settings).trace.tap, a.trace.tap) << name;  // reset() is complete
         const auto both = run(scheme(name), two, settings);

@@ -43,7 +43,7 @@ LumpedBarrier& barrier(Scene& s) {
     return std::get<LumpedBarrier>(s.strings.front().barriers.front());
 }
 double limit(const Scene& scene, double rate, int modes) {
-    return fact(scheme("modal_explicit_penalty").make(scene, {rate, rate, modes, {}})->facts(), "stable_stiffness_limit");
+    return fact(make_scheme(scheme("modal_explicit_penalty"), scene, {rate, rate, modes, {}})->facts(), "stable_stiffness_limit");
 }
 const Settings probe_settings(double rate, int modes) {
     return {rate, 44100, modes, {}};

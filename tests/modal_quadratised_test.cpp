@@ -299,7 +299,7 @@ TEST(Quadratised, BlocksAndTheProbeDoNotChangeTheTrace) {
         one.energy = true;
         const auto a = run(scheme(name), scene, settings), b = run(scheme(name), scene, settings, one);
         EXPECT_EQ(a.trace.tap, b.trace.tap) << name;
-        const auto again = scheme(name).make(scene, settings);
+        const auto again = make_scheme(scheme(name), scene, settings);
         run(*again, scene, settings);
         EXPECT_EQ(run(*again, scene, settings).trace.tap, a.trace.tap) << name;  // reset() is complete
     }
@@ -315,8 +315,8 @@ TEST(Quadratised, OptionsChooseTheVariantAndNonsenseIsRefused) {
     for (const auto& [name, options] : same)
         EXPECT_EQ(run(scheme(name), scene, {44100, 44100, 40, {}}).trace.tap,
                   run(scheme("modal_quadratised"), scene, {44100, 44100, 40, options}).trace.tap);
-    EXPECT_EQ(scheme("modal_quadratised").make(scene, {44100, 44100, 40, {}})->dofs(), 81);  // and psi
-    EXPECT_EQ(scheme("modal_quadratised_three_point").make(scene, {44100, 44100, 40, {}})->dofs(), 81);
+    EXPECT_EQ(make_scheme(scheme("modal_quadratised"), scene, {44100, 44100, 40, {}})->dofs(), 81);  // and psi
+    EXPECT_EQ(make_scheme(scheme("modal_quadratised_three_point"), scene, {44100, 44100, 40, {}})->dofs(), 81);
     EXPECT_THROW(run(scheme("modal_quadratised"), scene, {44100, 44100, 40, {{"levels", "4"}}}), Refusal);
     EXPECT_THROW(run(scheme("modal_quadratised_two_point_raw"), scene, {44100, 44100, 40, {{"levels", "3"}}}), Refusal);
     EXPECT_THROW(run(scheme("modal_quadratised"), scene, {44100, 44100, 200, {}}), Refusal);  // modes that would alias

@@ -413,7 +413,7 @@ TEST(ModalSpatialNewton, APointBarrierBetweenNodesActsThroughItsModes) {  // and
 void refuses(const Scene& scene, int modes, const std::string& why, double tap_rate = 44100, const char* option = "form",
              const char* value = "auto") {
     try {
-        modal_spatial_newton.make(scene, {44100, tap_rate, modes, {{option, value}}});
+        make_scheme(modal_spatial_newton, scene, {44100, tap_rate, modes, {{option, value}}});
         ADD_FAILURE() << "made in spite of: " << why;
     } catch (const Refusal& r) {
         EXPECT_NE(std::string(r.what()).find(why), std::string::npos) << r.what();

@@ -104,7 +104,7 @@ TEST(ModalTwoPoint, MovesEachFreeModeExactlyAtAnyRate) {
 TEST(ModalTwoPoint, ReportsThePhaseOffsetOfAStartFromRest) {
     Scene scene = c3_free();
     const auto offset = [&](int modes) {
-        return fact(scheme("modal_two_point").make(scene, {44100, 44100, modes, {}})->facts(), "start_phase_offset");
+        return fact(make_scheme(scheme("modal_two_point"), scene, {44100, 44100, modes, {}})->facts(), "start_phase_offset");
     };
     EXPECT_NEAR(offset(1), 4e-8, 0.5e-8);  // an independent program: 4e-8 rad for mode 1
 
@@ -183,13 +183,13 @@ TEST(ModalTwoPoint, AnExponentJustAbove1IsTheLinearContact) {
 
 TEST(ModalTwoPoint, RefusesModesThatWouldAlias) {
     try {
-        scheme("modal_two_point").make(c3_free(), {22050, 22050, 133, {}});
+        make_scheme(scheme("modal_two_point"), c3_free(), {22050, 22050, 133, {}});
         FAIL();
     } catch (const Refusal& refusal) {
         EXPECT_NE(std::string(refusal.what()).find("not below half the sample rate"), std::string::npos) << refusal.what();
     }
-    EXPECT_THROW(scheme("modal_two_point").make(c3_free(), {44100, 48000, 10, {}}), Refusal);
-    EXPECT_THROW(scheme("modal_two_point").make(c3_free(), {44100, 44100, 10, {{"form", "dense"}}}), Refusal);
+    EXPECT_THROW(make_scheme(scheme("modal_two_point"), c3_free(), {44100, 48000, 10, {}}), Refusal);
+    EXPECT_THROW(make_scheme(scheme("modal_two_point"), c3_free(), {44100, 44100, 10, {{"form", "dense"}}}), Refusal);
 }
 
 }  // namespace

@@ -3,15 +3,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "schemes/scheme.hpp"
+#include "schemes/plugin.hpp"
 
 namespace {
 using namespace jvari;
-extern const Descriptor table[1];
+constexpr Option fail_at_option{"fail_at", "1e9", "when the run diverges [s]"};
+constexpr Option options[] = {fail_at_option};
 
 class Stumbling final : public Scheme {
 public:
-    Stumbling(const Settings& s, int per_row) : settings_(s), per_row_(per_row), fail_at_(number_option(s, "fail_at", 1e9)) {}
+    Stumbling(const Settings& s, int per_row) : settings_(s), per_row_(per_row), fail_at_(number_option(s, fail_at_option)) {}
     void reset() noexcept override { row_ = 0; }
     Status advance(const Block& out) noexcept override {
         for (int n = 0; n < out.rows; ++n, ++row_) {
@@ -24,7 +25,7 @@ public:
         return {};
     }
     int dofs() const override { return 1; }
-    std::vector<Fact> facts() const override { return {{"smallest_contact_force", -0.5, "N"}, {"stumbles", 1, ""}}; }
+    std::vector<Fact> facts() const override { return {{facts::smallest_contact_force, -0.5}, {"stumbles", 1, ""}}; }
 
 private:
     Settings settings_;
@@ -33,17 +34,15 @@ private:
     long row_ = 0;
 };
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_missing(table[0], scene);
-    refuse_unknown_options(settings, {"fail_at"});
+std::unique_ptr<Scheme> made(const Descriptor&, const Scene&, const Settings& settings) {
     if (settings.sample_rate > 150e3) throw Refusal("stumbling has no rates above 150 kHz, only walks");
     return std::make_unique<Stumbling>(settings, steps_per_row(settings));
 }
 
-const Descriptor table[1] = {{"stumbling", "none: made for a test",
-                              Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                                  Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::lumped_barrier),
-                              Balance::exact, Clock::stepped, make}};
+constexpr Descriptor table[] = {{"stumbling", "none: made for a test",
+                                 Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                                     Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::lumped_barrier),
+                                 Balance::exact, Clock::stepped, made, options}};
 }  // namespace
 
-extern "C" const Plugin jvari_plugin = {plugin_abi, table, 1};
+JVARI_PLUGIN(table)

@@ -97,9 +97,9 @@ const Descriptor& original() {
     static const Catalogue catalogue;
     return catalogue.find("modal_two_point");
 }
-std::unique_ptr<Scheme> counted(const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> counted(const Descriptor&, const Scene& scene, const Settings& settings) {
     ++makes;
-    return original().make(scene, settings);
+    return make_scheme(original(), scene, settings);
 }
 
 class Slow : public Scheme {  // 2 ms of work for each block
@@ -124,11 +124,11 @@ struct Workshop {  // the schemes of the program, and three for the tests
         counting.name = "counting";
         counting.make = counted;
         slow.name = "slow";
-        slow.make = [](const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return std::make_unique<Slow>(); };
+        slow.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return std::make_unique<Slow>(); };
         unwilling.name = "unwilling";
-        unwilling.make = [](const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw Refusal("it is not willing"); };
+        unwilling.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw Refusal("it is not willing"); };
         stumbling.name = "throwing";
-        stumbling.make = [](const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw std::runtime_error("out of luck"); };
+        stumbling.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw std::runtime_error("out of luck"); };
         for (const Descriptor* d : {&counting, &slow, &unwilling, &stumbling}) catalogue.schemes.push_back(d);
     }
 };

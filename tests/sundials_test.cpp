@@ -280,7 +280,7 @@ TEST(Integrated, AllocatesNothingAndRepeatsItselfByAnyMethod) {
     const int taps = static_cast<int>(scene.taps.size());
     for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"method", "esdirk"}},
                              Options{{"method", "bdf"}, {"linear_solver", "dense"}}, Options{{"flight", "integrate"}}}) {
-        const auto scheme = sundials.make(scene, {0, 44100, 10, o});
+        const auto scheme = make_scheme(sundials, scene, {0, 44100, 10, o});
         std::vector<double> first(128 * taps), again(first), energy(3 * 128);
         const Allocations allocations;
         EXPECT_EQ(scheme->advance({128, taps, 128, first.data(), nullptr}).outcome, Outcome::ok);

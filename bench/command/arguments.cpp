@@ -100,11 +100,12 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
 
     ListRequest list;
     auto* list_verb = app.add_subcommand("list", "what exists, and which scheme represents which scene");
-    list_verb->add_option("what", list.what, "schemes, scenes, references, taps or suites; absent: all, and the matrix")
-        ->check(CLI::IsMember({"schemes", "scenes", "references", "taps", "suites"}))
+    list_verb->add_option("what", list.what, "schemes, scenes, references, options, facts, taps or suites; absent: all, and the matrix")
+        ->check(CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites"}))
         ->type_name("WHAT")
         ->option_text("");
-    list_verb->add_flag("--markdown", list.markdown, "with `schemes`: the capability table of the README");
+    list_verb->add_flag("--markdown", list.markdown,
+                        "with `schemes`: the capability table of the README; with `options` or `facts`: their table");
     list_verb->footer("Example: jvari list schemes --markdown");
     add_common(*list_verb, list);
 
@@ -230,7 +231,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     run.options = scheme_options(run_options);
     compare.options = scheme_options(compare_options);
     if (!run.wav_format.empty() && run.out.empty()) throw UsageError("--wav-format: there is no --out FILE.wav");
-    if (list.markdown && list.what != "schemes") throw UsageError("--markdown goes with `jvari list schemes`");
+    if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts")
+        throw UsageError("--markdown goes with `jvari list schemes`, `jvari list options` or `jvari list facts`");
 
     if (list_verb->parsed()) return list;
     if (run_verb->parsed()) return run;

@@ -57,6 +57,7 @@ std::string certificate_text(const Comparison& c) {
 int compare_command(const CompareCall& r) {
     const Console console(r.json, r.quiet);
     const Catalogue catalogue(r.plugins);
+    note_slow_plugins(console);
     if (!r.out.empty()) make_folder(r.out);
     const Comparison c = compare(r, catalogue, console);
     const Table cells = cells_of(c);

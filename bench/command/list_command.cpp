@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/commands.hpp"
+#include "bench/command/list_seam.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/console.hpp"
 #include "bench/suite/suite_file.hpp"
@@ -24,25 +25,10 @@ struct Shelf {  // what is listed
 constexpr Quantity quantities[] = {Quantity::displacement, Quantity::velocity,     Quantity::nut_force,
                                    Quantity::bridge_force, Quantity::thread_force, Quantity::driving_force};
 
-const char* name_of(Balance b) {
-    return b == Balance::exact ? "exact" : b == Balance::to_tolerance ? "to tolerance" : "none";
-}
-
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
     for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
     return text;
-}
-
-Json json_of(const std::vector<const Descriptor*>& list) {
-    Json all = Json::array();
-    for (const Descriptor* d : list)
-        all.push_back({{"name", d->name},
-                       {"source", d->source},
-                       {"represents", names_in(d->represents)},
-                       {"balance", name_of(d->balance)},
-                       {"clock", d->clock == Clock::continuous ? "continuous" : "stepped"}});
-    return all;
 }
 
 Json scenes_json(const Shelf& shelf) {
@@ -77,16 +63,6 @@ Json taps_json() {
     Json all = Json::array();
     for (Quantity q : quantities) all.push_back({{"name", name_of(q)}, {"unit", unit_of(q)}});
     return all;
-}
-
-std::string descriptors_text(const char* title, const std::vector<const Descriptor*>& list) {
-    std::size_t width = 0;
-    for (const Descriptor* d : list) width = std::max(width, std::string(d->name).size());
-    std::string text = fmt::format("{}\n", title);
-    for (const Descriptor* d : list)
-        text += fmt::format("  {:<{}}  {}\n  {:<{}}  energy balance {}{}; represents {}\n", d->name, width, d->source, "", width,
-                            name_of(d->balance), d->clock == Clock::continuous ? "; continuous time" : "", joined(names_in(d->represents)));
-    return text + (list.empty() ? "  none\n" : "");
 }
 
 std::string scenes_text(const Shelf& shelf) {
@@ -145,21 +121,6 @@ std::string suites_text() {
             suite.contains("error") ? "cannot be read: " + suite.at("error").get<std::string>() : suite.at("source").get<std::string>());
     return text + (all.empty() ? "  none\n" : "");
 }
-
-std::string markdown(const Catalogue& catalogue) {  // the table of the README: schemes down, features across
-    std::string head = "| scheme |", rule = "|---|", body;
-    for (int i = 0; i < feature_count; ++i) {
-        head += fmt::format(" {} |", jvari::name_of(static_cast<Feature>(1u << i)));
-        rule += ":-:|";
-    }
-    for (const auto* list : {&catalogue.schemes, &catalogue.references})
-        for (const Descriptor* d : *list) {
-            body += fmt::format("| `{}` |", d->name);
-            for (int i = 0; i < feature_count; ++i) body += d->represents.has(static_cast<Feature>(1u << i)) ? " ● |" : "  |";
-            body += fmt::format(" {} | {} |\n", name_of(d->balance), d->source);
-        }
-    return head + " energy balance | source |\n" + rule + "---|---|\n" + body;
-}
 }  // namespace
 
 int list_command(const ListRequest& r) {
@@ -173,8 +134,13 @@ int list_command(const ListRequest& r) {
                 shelf.unreadable.emplace_back(name, e.what());
             }
     if (r.markdown) {
-        console.print(markdown(shelf.catalogue));
-        console.print_json(Json{{"markdown", markdown(shelf.catalogue)}}.dump(2));
+        std::vector<const Descriptor*> all = shelf.catalogue.schemes;
+        all.insert(all.end(), shelf.catalogue.references.begin(), shelf.catalogue.references.end());
+        const std::string table = r.what == "options" ? list_options(shelf.catalogue).markdown
+                                  : r.what == "facts" ? list_facts().markdown
+                                                      : list_descriptors("", all).markdown;
+        console.print(table);
+        console.print_json(Json{{"markdown", table}}.dump(2));
         return done;
     }
     Json json = Json::object();
@@ -184,8 +150,11 @@ int list_command(const ListRequest& r) {
         json[what] = j;
         text += (text.empty() ? "" : "\n") + t;
     };
-    part("schemes", json_of(shelf.catalogue.schemes), descriptors_text("schemes", shelf.catalogue.schemes));
-    part("references", json_of(shelf.catalogue.references), descriptors_text("references", shelf.catalogue.references));
+    const auto listing = [&](const char* what, const Listing& l) { part(what, Json::parse(l.json), l.text); };
+    listing("schemes", list_descriptors("schemes", shelf.catalogue.schemes));
+    listing("references", list_descriptors("references", shelf.catalogue.references));
+    listing("options", list_options(shelf.catalogue));
+    listing("facts", list_facts());
     part("scenes", scenes_json(shelf), scenes_text(shelf));
     part("taps", taps_json(), taps_text());
     if (asked("suites")) part("suites", suites_json(), suites_text());

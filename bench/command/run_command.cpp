@@ -93,6 +93,7 @@ TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene,
 int run_command(const RunRequest& r) {
     const Console console(r.json, r.quiet);
     const Catalogue catalogue(r.plugins);
+    note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
     const Scene scene = load_scene(r.scene, r.set, r.duration);
     const Settings settings = settings_for(r, d);

@@ -107,6 +107,7 @@ int suite_command(const SuiteRequest& r) {
     if (r.resume && r.out.empty()) throw UsageError("--resume: there is no --out DIR to resume from");
     const Suite suite = read_suite(r.suite);
     const Catalogue catalogue(r.plugins);
+    note_slow_plugins(console);
     const SuitePlan plan = plan_of(suite, catalogue, r.plugins);
     const fs::path folder = r.out;
     std::optional<WhenInterrupted> last_word;

@@ -15,7 +15,7 @@ Catalogue::Catalogue(const std::vector<std::string>& plugins) {
     for (const std::string& path : plugins) {
         std::span<const Descriptor> brought;
         try {
-            brought = load_plugin(path);
+            brought = load_plugin(path).schemes();
         } catch (const std::runtime_error& e) {
             throw UsageError(e.what());
         }
@@ -40,6 +40,12 @@ const Descriptor& Catalogue::find(const std::string& name) const {
 
 bool Catalogue::is_reference(const Descriptor& d) const {
     return std::find(references.begin(), references.end(), &d) != references.end();
+}
+
+void note_slow_plugins(const Console& console) {
+    for (const LoadedPlugin& l : loaded_plugins())
+        if (!l.plugin->optimised)
+            console.note("warning: plugin " + l.path + " is compiled without optimisation: its times say nothing of its schemes");
 }
 
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration) {

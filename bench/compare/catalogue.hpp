@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/store/console.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -17,6 +18,9 @@ struct Catalogue {
     const Descriptor& find(const std::string& name) const;  // a scheme or a reference; UsageError suggests the nearest name
     bool is_reference(const Descriptor&) const;
 };
+
+// Warns of plugins that were compiled without optimisation.
+void note_slow_plugins(const Console&);
 
 // A file or a library name, with overrides "key.path=value"; throws SceneFileError, BadScene or UsageError.
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration);

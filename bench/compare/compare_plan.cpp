@@ -38,23 +38,12 @@ int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
     return fewest;
 }
 
-// The short form goes to the schemes that know the name: one that does not says so by UnknownOption.
-std::vector<std::pair<std::string, std::string>> options_for(const CompareRequest& r, const Descriptor& d, const Scene& scene,
-                                                             const Settings& settings, std::vector<bool>& used) {
-    std::vector<std::pair<std::string, std::string>> options;
+// The short form goes to the schemes that declare the name.
+OptionValues options_for(const CompareRequest& r, const Descriptor& d, std::vector<bool>& used) {
+    OptionValues options;
     for (std::size_t k = 0; k < r.options.size(); ++k) {
         const SchemeOption& o = r.options[k];
-        if (!o.scheme.empty() && o.scheme != d.name) continue;
-        if (o.scheme.empty()) {
-            Settings probe = settings;
-            probe.options = {{o.name, o.value}};
-            try {
-                d.make(scene, probe);
-            } catch (const UnknownOption&) {
-                continue;
-            } catch (const std::runtime_error&) {  // known, and refused for what it says: the cell will tell
-            }
-        }
+        if (o.scheme.empty() ? !declares(d, o.name) : o.scheme != d.name) continue;
         used[k] = true;
         options.emplace_back(o.name, o.value);
     }
@@ -124,7 +113,7 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
     plan.references = references_for(r, catalogue, scene, settings, *schemes.front(), used);
     for (const Descriptor* d : schemes) {
         Cell cell{d, settings, false, {}, {}, {}, {}};
-        cell.settings.options = options_for(r, *d, scene, settings, used);
+        cell.settings.options = options_for(r, *d, used);
         if (d->clock == Clock::continuous) {  // no rate to vary
             cell.settings.sample_rate = 0;
             plan.cells.push_back(cell);

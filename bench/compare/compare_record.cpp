@@ -76,10 +76,10 @@ std::string flags_of(const Summary& s) {
     const auto flag = [&flags](bool raised, const char* name) {
         if (raised) flags += (flags.empty() ? "" : " ") + std::string(name);
     };
-    flag(s.smallest_contact_force < -1e-9, "adhesion");                     // the contact pulls, [N]
-    flag(fact(s.facts, "psi_out_of_contact") > 1e-9, "psi_gap");            // quadratised: energy stored where there is no contact
-    flag(s.energy_residual_accumulated > 1e-6, "energy");                   // the ledger does not close
-    flag(fact(s.facts, "modes_above_nyquist") > 0, "modes_above_nyquist");  // they alias
+    flag(s.smallest_contact_force < -1e-9, "adhesion");                          // the contact pulls, [N]
+    flag(fact(s.facts, facts::psi_out_of_contact) > 1e-9, facts::psi_gap.name);  // quadratised: energy stored where there is no contact
+    flag(s.energy_residual_accumulated > 1e-6, "energy");                        // the ledger does not close
+    flag(fact(s.facts, facts::modes_above_nyquist) > 0, facts::modes_above_nyquist.name);  // they alias
     return flags;
 }
 
@@ -210,8 +210,8 @@ Table cost_only(const Table& cells) {
 std::string manifest_of(const Comparison& c, const CompareRequest& r) {
     Json facts = Json::object(), floor = Json::object(), taps = Json::array(), schemes = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
-    facts["smallest_contact_force"] = c.reference_summary.smallest_contact_force;
-    facts["deepest_penetration"] = c.reference_summary.deepest_penetration;
+    facts[facts::smallest_contact_force.name] = c.reference_summary.smallest_contact_force;
+    facts[facts::deepest_penetration.name] = c.reference_summary.deepest_penetration;
     for (std::size_t k = 0; k < measures().size(); ++k) floor[measures()[k].column] = c.floor[c.headline.tap(measures()[k])][k];
     for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap) {
         taps.push_back({{"name", c.scene.taps[tap].name}, {"quantity", name_of(c.scene.taps[tap].quantity)}});

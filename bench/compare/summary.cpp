@@ -11,9 +11,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 int modes_used(const Scene& scene, const Settings& settings, const std::vector<Fact>& facts) {
-    for (const char* name : {"modes", "nodes", "interior_nodes"})
-        if (const double n = fact(facts, name); n == n) return static_cast<int>(n);
-    if (const double n = fact(facts, "grid_intervals"); n == n) return static_cast<int>(n) - 1;
+    if (const double n = fact(facts, facts::interior_nodes); n == n) return static_cast<int>(n);
+    if (const double n = fact(facts, facts::grid_intervals); n == n) return static_cast<int>(n) - 1;
     return scene.strings.empty() ? 0 : modes_for(scene.strings.front(), settings);
 }
 }  // namespace
@@ -44,10 +43,10 @@ Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& sett
     const bool silent = d.balance == Balance::none && !(balance.largest_stored > 0);
     s.energy_residual_per_step = silent ? nan : balance.step;
     s.energy_residual_accumulated = silent ? nan : balance.accumulated;
-    s.smallest_contact_force = fact(run.facts, "smallest_contact_force");
-    s.deepest_penetration = fact(run.facts, "deepest_penetration");
+    s.smallest_contact_force = fact(run.facts, facts::smallest_contact_force);
+    s.deepest_penetration = fact(run.facts, facts::deepest_penetration);
     for (const Fact& f : run.facts)
-        if (f.name != "smallest_contact_force" && f.name != "deepest_penetration") s.facts.push_back(f);
+        if (f.name != facts::smallest_contact_force.name && f.name != facts::deepest_penetration.name) s.facts.push_back(f);
     return s;
 }
 

@@ -26,5 +26,8 @@ Summary summary_of(const Descriptor&, const Scene&, const Settings&, const Run&)
 
 // The value of a fact, NaN where the scheme does not report it.
 double fact(const std::vector<Fact>&, const std::string& name);
+inline double fact(const std::vector<Fact>& all, const FactName& known) {
+    return fact(all, known.name);
+}
 
 }  // namespace jvari

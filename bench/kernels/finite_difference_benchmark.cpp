@@ -132,7 +132,7 @@ void scheme(benchmark::State& state, const char* name) {
         const std::vector<double> y(r.trace.column(0).begin(), r.trace.column(0).end());
         const int steps = 4096;
         settings.tap_rate = settings.sample_rate / steps;  // one row
-        const auto s = d.make(scene, settings);
+        const auto s = make_scheme(d, scene, settings);
         double cell;
         const Block one{1, 1, 1, &cell, nullptr};
         const FlushDenormals flush;

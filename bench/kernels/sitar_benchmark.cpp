@@ -21,7 +21,7 @@ void step(benchmark::State& state, const char* name, int bridge_nodes, bool two_
     if (bridge_nodes > 0) string.barriers = {bridge(LineCurve{-0.008}, (bridge_nodes + 0.5) * string.length / cells)};
     if (two_planes) string.polarisation = Polarisation{0.05, 0};
     scene.taps = {tap(Quantity::nut_force)};
-    const auto scheme = scheme_named(name).make(scene, {44100.0 * steps_per_row, 44100, 0, {}});
+    const auto scheme = make_scheme(scheme_named(name), scene, {44100.0 * steps_per_row, 44100, 0, {}});
     double taps[rows];
     const FlushDenormals flush;
     const int blocks = 20 * 2 * cells / steps + 1;

@@ -215,7 +215,7 @@ void fused(benchmark::State& state, bool parabola) {
     const Settings settings{rate, tap_rate, M, {{"form", "restricted"}}};
     const Run r = run(modal_spatial_newton, scene, settings);
     scene.duration = 20e-3 - 0.5 / tap_rate;
-    const auto scheme = modal_spatial_newton.make(scene, settings);
+    const auto scheme = make_scheme(modal_spatial_newton, scene, settings);
     long steps = 0;
     for (auto _ : state) steps = run(*scheme, scene, settings).steps;
     report(state, steps, error({r.trace.column(0).begin(), r.trace.column(0).end()}, parabola));

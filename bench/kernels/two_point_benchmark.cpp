@@ -25,7 +25,7 @@ Scene three_taps() {
 }
 
 std::unique_ptr<Scheme> fused(const Scene& scene, const Settings& s) {
-    return schemes()[0].make(scene, s);
+    return make_scheme(schemes()[0], scene, s);
 }
 template <class Real>
 std::unique_ptr<Scheme> plain(const Scene& scene, const Settings& s) {

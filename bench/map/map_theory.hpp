@@ -1,13 +1,12 @@
-// Boundaries that are known, for maps to be compared with.
+// Boundaries that are known, for maps to be compared with: those that schemes state as their limit (Descriptor::limit), and
 //
-//   grid_limit      finite_difference_explicit, finite_difference_theta: the spacing of the grid is the limit's (finite_difference.hpp)
-//   penalty_limit   modal_explicit_penalty: the highest root of the string in contact passes z = -1. Without losses and thread
-//                       k = m/(dt^2 sum_i g_i^2/(4 cos^2(omega_i dt/2))),
-//                   4 m/(dt^2 sum g^2) where all modes are far below half the rate. It is the limit of lasting contact.
 //   nyquist         the highest mode's frequency is half the rate
-//   equal_shares    modal_impulse_invariant without losses, started in one mode: the gain of true energy that is there once the obstacle
-//   has
-//                   given every mode the same share of the energy that the scheme conserves (modal_controls.cpp) is what verdict.hpp allows
+//
+// Of the schemes in the program:
+//   grid_limit      the spacing of the grid is the least that is stable (finite_difference.hpp)
+//   penalty_limit   the highest root of the string in lasting contact passes z = -1 (modal_controls.cpp)
+//   equal_shares    without losses, started in one mode: the gain of true energy that is there once the obstacle has given every mode the
+//                   same share of the energy that the scheme conserves is what verdict.hpp allows (modal_controls.cpp)
 #pragma once
 
 #include <string>

@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "schemes/grid/finite_difference.hpp"
+
 namespace jvari {
 
 namespace {
@@ -71,7 +73,7 @@ bool has_modes(const Trial& t) {
     const auto dofs = [&t](int modes) {
         Settings s = t.settings;
         s.modes = modes;
-        return t.scheme->make(t.scene, s)->dofs();
+        return make_scheme(*t.scheme, t.scene, s)->dofs();
     };
     try {
         return dofs(5) != dofs(6);
@@ -99,7 +101,7 @@ bool shorten(Trial& t, const Fails& fails) {
         try_out(modes, 1, [](Trial& x, long k) { x.settings.modes = static_cast<int>(k); });
     }
     for (std::size_t i = 0; i < t.settings.options.size(); ++i)
-        if (t.settings.options[i].first == "grid") {
+        if (t.settings.options[i].first == grid_option.name) {
             long intervals = std::atol(t.settings.options[i].second.c_str());
             try_out(intervals, 5, [i](Trial& x, long k) { x.settings.options[i].second = std::to_string(k); });
         }

@@ -28,10 +28,9 @@ enum class Verdict { sound, inaccurate, adhesive, energy_gaining, not_converged,
 std::span<const Verdict> verdicts();
 const char* name_of(Verdict);
 
-constexpr double gain_allowed = 1e-6;             // of E, where a balance is promised
-constexpr double gain_allowed_unpromised = 1e-2;  // where none is
-constexpr double pull_allowed = 1e-6;             // of the largest contact force
-constexpr double error_allowed = 0.1;             // relative L2
+constexpr double gain_allowed = 1e-6;  // of E, where a balance is promised; gain_allowed_unpromised where none is
+constexpr double pull_allowed = 1e-6;  // of the largest contact force
+constexpr double error_allowed = 0.1;  // relative L2
 
 struct Figures {              // NaN where a run has no such figure
     Status status;            // of the run

@@ -10,6 +10,7 @@
 #include "bench/commit.hpp"  // written at build time by commit.cmake
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
+#include "schemes/registry.hpp"
 
 namespace jvari {
 
@@ -41,10 +42,13 @@ std::string program_identity(const std::vector<std::string>& plugins) {
 
 std::string made_by() {
     const Machine& m = machine();
-    return nlohmann::ordered_json{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit}, {"compiler", m.compiler},
-                                  {"flags", m.flags},   {"build", m.build},     {"cpu", m.cpu},       {"cores", m.cores},
-                                  {"system", m.system}, {"date", now_utc()}}
-        .dump();
+    nlohmann::ordered_json made{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit}, {"compiler", m.compiler},
+                                {"flags", m.flags},   {"build", m.build},     {"cpu", m.cpu},       {"cores", m.cores},
+                                {"system", m.system}, {"date", now_utc()}};
+    for (const LoadedPlugin& l : loaded_plugins())
+        made["plugins"].push_back(
+            {{"file", l.path}, {"hash", hash_of(read_whole(l.path))}, {"compiler", l.plugin->compiler}, {"flags", l.plugin->flags}});
+    return made.dump();
 }
 
 std::string now_utc() {

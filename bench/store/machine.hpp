@@ -17,7 +17,8 @@ const Machine& machine();
 // JSON: version, commit, build type, plugins by their contents.
 std::string program_identity(const std::vector<std::string>& plugins);
 
-std::string made_by();  // all of it and the date as a JSON object: what a manifest begins with
+// All of it, the date and the plugins loaded (file, hash, compiler, flags) as a JSON object: what a manifest begins with.
+std::string made_by();
 std::string now_utc();  // "2016-05-04T12:00:00Z"
 
 }  // namespace jvari

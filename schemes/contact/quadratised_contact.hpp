@@ -83,11 +83,11 @@ struct QuadratisedFacts {
     }
     std::vector<Fact> list() const {
         const double scale = largest > 0 ? largest : 1;
-        return {{"smallest_contact_force", least_force, "N"},
-                {"deepest_penetration", depth, "m"},
-                {"psi_gap", gap / scale, ""},               // largest |psi - sqrt(2V)| over the largest sqrt(2V)
-                {"psi_out_of_contact", stuck / scale, ""},  // the same where the string is clear of the barrier
-                {"energy_gap", energy_gap, "J"}};           // largest difference of the energy with psi and the true one
+        return {{facts::smallest_contact_force, least_force},
+                {facts::deepest_penetration, depth},
+                {facts::psi_gap, gap / scale},
+                {facts::psi_out_of_contact, stuck / scale},
+                {facts::energy_gap, energy_gap}};
     }
 };
 

@@ -16,11 +16,6 @@ namespace jvari {
 
 using std::numbers::pi;
 
-const Features grid_features = Features(Feature::several_strings) | Feature::bending_stiffness | Feature::damping |
-                               Feature::frequency_dependent_damping | Feature::lumped_barrier | Feature::profile_barrier |
-                               Feature::several_barriers | Feature::power_law_contact | Feature::thread | Feature::initial_shape |
-                               Feature::pluck;
-
 // ---- Weights on nodes.
 
 namespace {
@@ -218,9 +213,14 @@ Grid grid_of(const Descriptor& d, const String& s, double intervals) {
     return {static_cast<int>(intervals), s.length / intervals};
 }
 
+double spacing_margin(const String& s, const Settings& settings, double limit) {
+    const double intervals = number_option(settings, grid_option, 0);
+    return intervals > 0 ? s.length / intervals / limit - 1 : std::numeric_limits<double>::quiet_NaN();
+}
+
 Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, double limit) {
     const double finest = s.length / limit, most = std::floor(finest * (1 + 1e-12));
-    const double over = number_option(settings, "over_limit", 0), asked = number_option(settings, "grid", 0);
+    const double over = number_option(settings, over_limit_option, 0), asked = number_option(settings, grid_option, 0);
     if (over != 0 && !(over > 1)) throw Refusal("option over_limit: found " + std::to_string(over) + ", expected a factor above 1");
     if (asked > std::max(most, over * finest))
         throw Refusal(std::string(d.name) + ": " + std::to_string(std::lround(asked)) + " intervals are over the stability limit, " +

@@ -70,8 +70,12 @@ GridMode midpoint_mode(const String&, const LossFit&, const Grid&, double dt, in
 // ---- The grid a scheme takes: option `grid`, or the finest that the limit allows, or `over_limit` times finer than the limit on purpose;
 // with both, `grid`, which may then be up to `over_limit` times finer than the limit.
 // Settings::modes asks for modes, which a grid does not have; the grid comes from the rate, and fact `grid_intervals` reports it.
+inline constexpr Option grid_option{"grid", "", "intervals of the grid, a whole number from 5 on; absent: the finest that is stable"};
+inline constexpr Option over_limit_option{"over_limit", "",
+                                          "factor above 1: lets the grid be finer than is stable by as much; absent: it may not be"};
 Grid grid_for(const Descriptor&, const String&, const Settings&, double spacing_limit);
-Grid grid_of(const Descriptor&, const String&, double intervals);  // Refusal unless a whole number, 5 or more
+double spacing_margin(const String&, const Settings&, double spacing_limit);  // dx over the limit, less 1; NaN without option `grid`
+Grid grid_of(const Descriptor&, const String&, double intervals);             // Refusal unless a whole number, 5 or more
 
 // ---- A string of the scene on its grid.
 
@@ -102,7 +106,12 @@ GridMode midpoint_mode(const GridString&, double dt, int mode);
 
 GridString on_grid(const Scene&, int string, const Grid&, const LossFit&);
 
-extern const Features grid_features;  // what every scheme on a grid represents
+// What every scheme on a grid represents.
+constexpr Features grid_features = Features(Feature::several_strings) | Feature::bending_stiffness | Feature::damping |
+                                   Feature::frequency_dependent_damping | Feature::lumped_barrier | Feature::profile_barrier |
+                                   Feature::several_barriers | Feature::power_law_contact | Feature::thread | Feature::initial_shape |
+                                   Feature::pluck;
+inline constexpr Approximation grid_approximates[] = {{Feature::frequency_dependent_damping, facts::loss_fit_misfit}};
 
 // ---- The symmetric band matrix a0 I + a2 D2 + a4 D4 over the interior nodes, factored L D L'.
 

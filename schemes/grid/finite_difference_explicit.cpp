@@ -12,8 +12,6 @@
 
 namespace jvari {
 
-extern const Descriptor finite_difference_explicit;
-
 namespace {
 struct ExplicitUpdate {
     FivePoint pass;
@@ -26,9 +24,9 @@ struct ExplicitUpdate {
     }
 };
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_missing(finite_difference_explicit, scene);
-    refuse_unknown_options(settings, {"grid", "over_limit"});
+constexpr Option options[] = {grid_option, over_limit_option};
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate;
     std::vector<ThreePointString<ExplicitUpdate>> strings;
@@ -37,15 +35,27 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
         const LossFit loss = fit_losses(s);
         const double limit = explicit_spacing_limit(s, loss, dt), m = loss.sigma1 * dt, m4 = -loss.sigma2 * dt,
                      divisor = 1 + loss.sigma0 * dt;
-        const GridString g = on_grid(scene, static_cast<int>(i), grid_for(finite_difference_explicit, s, settings, limit), loss);
+        const GridString g = on_grid(scene, static_cast<int>(i), grid_for(descriptor, s, settings, limit), loss);
         strings.emplace_back(g, dt, rows, m, m4, ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
-                             std::vector<Fact>{{"spacing_over_limit", g.grid.dx / limit, ""}});
+                             std::vector<Fact>{{facts::spacing_over_limit, g.grid.dx / limit}});
     }
     return std::make_unique<GridScheme<ThreePointString<ExplicitUpdate>>>(std::move(strings));
 }
+
+double grid_margin(const Scene& scene, const Settings& settings) {
+    const String& s = scene.strings.front();
+    return spacing_margin(s, settings, explicit_spacing_limit(s, fit_losses(s), 1 / settings.sample_rate));
+}
 }  // namespace
 
-const Descriptor finite_difference_explicit = {
-    "finite_difference_explicit", "Bilbao, Torin & Chatziioannou 2015", grid_features, Balance::exact, Clock::stepped, make};
+extern const Descriptor finite_difference_explicit = {.name = "finite_difference_explicit",
+                                                      .source = "Bilbao, Torin & Chatziioannou 2015",
+                                                      .represents = grid_features,
+                                                      .balance = Balance::exact,
+                                                      .clock = Clock::stepped,
+                                                      .make = made,
+                                                      .options = options,
+                                                      .approximates = grid_approximates,
+                                                      .limit = {"grid_limit", grid_margin}};
 
 }  // namespace jvari

@@ -18,8 +18,6 @@
 
 namespace jvari {
 
-extern const Descriptor finite_difference_hamiltonian;
-
 namespace {
 class MidpointString {
 public:
@@ -164,23 +162,31 @@ private:
     Status failed_;
 };
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_missing(finite_difference_hamiltonian, scene);
-    refuse_unknown_options(settings, {"grid"});
+constexpr Option intervals_option{"grid", "",
+                                  "intervals of the grid, a whole number from 5 on; absent: those of the explicit scheme without loss"};
+constexpr Option options[] = {intervals_option};
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate;
     std::vector<MidpointString> strings;
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
         const String& s = scene.strings[i];
         const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
-        const Grid grid = grid_of(finite_difference_hamiltonian, s, number_option(settings, "grid", own));
+        const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
         strings.emplace_back(on_grid(scene, static_cast<int>(i), grid, fit_losses(s)), dt, rows);
     }
     return std::make_unique<GridScheme<MidpointString>>(std::move(strings));
 }
 }  // namespace
 
-const Descriptor finite_difference_hamiltonian = {
-    "finite_difference_hamiltonian", "Chatziioannou & van Walstijn 2015", grid_features, Balance::exact, Clock::stepped, make};
+extern const Descriptor finite_difference_hamiltonian = {.name = "finite_difference_hamiltonian",
+                                                         .source = "Chatziioannou & van Walstijn 2015",
+                                                         .represents = grid_features,
+                                                         .balance = Balance::exact,
+                                                         .clock = Clock::stepped,
+                                                         .make = made,
+                                                         .options = options,
+                                                         .approximates = grid_approximates};
 
 }  // namespace jvari

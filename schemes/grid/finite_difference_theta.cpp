@@ -13,8 +13,6 @@
 
 namespace jvari {
 
-extern const Descriptor finite_difference_theta;
-
 namespace {
 struct ThetaUpdate {
     FivePoint pass;
@@ -27,29 +25,46 @@ struct ThetaUpdate {
     Stencil response(const Stencil& s) const { return factor.solve(s); }
 };
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_missing(finite_difference_theta, scene);
-    refuse_unknown_options(settings, {"grid", "over_limit", "theta"});
+constexpr Option theta_option{"theta", "", "theta of the scheme, above 0.5; absent: 5/6 + c^2 dt^2/(6 dx^2)"};
+constexpr Option options[] = {grid_option, over_limit_option, theta_option};
+
+double spacing_limit(const String& s, double dt, double theta) {  // theta 0: the tuned one
+    return theta != 0 ? theta_spacing_limit(s, dt, theta) : theta_spacing_limit(s, dt);
+}
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
-    const double dt = 1 / settings.sample_rate, asked = number_option(settings, "theta", 0);
+    const double dt = 1 / settings.sample_rate, asked = number_option(settings, theta_option, 0);
     if (asked != 0 && !(asked > 0.5)) throw Refusal("option theta: found " + std::to_string(asked) + ", expected more than 0.5");
     std::vector<ThreePointString<ThetaUpdate>> strings;
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
         const String& s = scene.strings[i];
-        const double limit = asked != 0 ? theta_spacing_limit(s, dt, asked) : theta_spacing_limit(s, dt);
-        const Grid grid = grid_for(finite_difference_theta, s, settings, limit);
+        const double limit = spacing_limit(s, dt, asked);
+        const Grid grid = grid_for(descriptor, s, settings, limit);
         const GridString g = on_grid(scene, static_cast<int>(i), grid, fit_losses(s));
         const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
         ThetaUpdate update{FivePoint(g, dt, m, 0, 1),
                            BandedFactor(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt)};
         strings.emplace_back(g, dt, rows, m, 0.0, std::move(update),
-                             std::vector<Fact>{{"spacing_over_limit", grid.dx / limit, ""}, {"theta", theta, ""}});
+                             std::vector<Fact>{{facts::spacing_over_limit, grid.dx / limit}, {facts::theta, theta}});
     }
     return std::make_unique<GridScheme<ThreePointString<ThetaUpdate>>>(std::move(strings));
 }
+
+double grid_margin(const Scene& scene, const Settings& settings) {
+    const String& s = scene.strings.front();
+    return spacing_margin(s, settings, spacing_limit(s, 1 / settings.sample_rate, number_option(settings, theta_option, 0)));
+}
 }  // namespace
 
-const Descriptor finite_difference_theta = {
-    "finite_difference_theta", "Bilbao 2009, chapter 7", grid_features, Balance::exact, Clock::stepped, make};
+extern const Descriptor finite_difference_theta = {.name = "finite_difference_theta",
+                                                   .source = "Bilbao 2009, chapter 7",
+                                                   .represents = grid_features,
+                                                   .balance = Balance::exact,
+                                                   .clock = Clock::stepped,
+                                                   .make = made,
+                                                   .options = options,
+                                                   .approximates = grid_approximates,
+                                                   .limit = {"grid_limit", grid_margin}};
 
 }  // namespace jvari

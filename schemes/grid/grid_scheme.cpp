@@ -3,21 +3,21 @@
 namespace jvari {
 
 std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) {
-    std::vector<Fact> f = {{"grid_intervals", static_cast<double>(g.grid.intervals), ""},
-                           {"loss_fit_sigma0", g.loss.sigma0, "1/s"},
-                           {"loss_fit_sigma1", g.loss.sigma1, "m^2/s"},
-                           {"loss_fit_sigma2", g.loss.sigma2, "m^4/s"},
-                           {"loss_fit_misfit", g.loss.misfit, ""}};
-    if (g.narrowest > 0) f.push_back({"narrowest_contact", g.narrowest, "cells"});
+    std::vector<Fact> f = {{facts::grid_intervals, static_cast<double>(g.grid.intervals)},
+                           {facts::loss_fit_sigma0, g.loss.sigma0},
+                           {facts::loss_fit_sigma1, g.loss.sigma1},
+                           {facts::loss_fit_sigma2, g.loss.sigma2},
+                           {facts::loss_fit_misfit, g.loss.misfit}};
+    if (g.narrowest > 0) f.push_back({facts::narrowest_contact, g.narrowest});
     if (obstacle.contacts() > 0) {
         const ObstacleStep::Tally& t = obstacle.tally();
-        f.push_back({"smallest_contact_force", t.smallest_force, "N"});
-        f.push_back({"deepest_penetration", t.deepest, "m"});
-        f.push_back({"contact_points", static_cast<double>(obstacle.contacts()), ""});
-        f.push_back({"contact_iterations_mean", t.solves > 0 ? t.iterations / static_cast<double>(t.solves) : 0, ""});
-        f.push_back({"contact_iterations_most", static_cast<double>(t.most_iterations), ""});
-        f.push_back({"contact_residual", t.residual, ""});
-        if (g.compliance > 0) f.push_back({"static_compliance", g.compliance, ""});
+        f.push_back({facts::smallest_contact_force, t.smallest_force});
+        f.push_back({facts::deepest_penetration, t.deepest});
+        f.push_back({facts::contact_points, static_cast<double>(obstacle.contacts())});
+        f.push_back({facts::contact_iterations_mean, t.solves > 0 ? t.iterations / static_cast<double>(t.solves) : 0});
+        f.push_back({facts::contact_iterations_most, static_cast<double>(t.most_iterations)});
+        f.push_back({facts::contact_residual, t.residual});
+        if (g.compliance > 0) f.push_back({facts::static_compliance, g.compliance});
     }
     return f;
 }

@@ -20,12 +20,12 @@
 //
 // Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
 #include <cmath>
+#include <limits>
 
 #include "schemes/modal/modal_three_point.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari {
-
-extern const Descriptor modal_explicit_penalty, modal_impulse_invariant;
 
 namespace {
 
@@ -42,7 +42,7 @@ struct TrueEnergyContact {  // what both have in common
     }
     double energy(double eta, double eta_old) const { return 0.5 * (law.potential(eta) + law.potential(eta_old)); }
     double energy_next(double eta, double eta_old) const { return energy(eta, eta_old); }
-    std::vector<Fact> facts() const { return {{"smallest_contact_force", least_force, "N"}, {"deepest_penetration", depth, "m"}}; }
+    std::vector<Fact> facts() const { return {{facts::smallest_contact_force, least_force}, {facts::deepest_penetration, depth}}; }
 };
 
 struct ExplicitContact : TrueEnergyContact {
@@ -51,7 +51,7 @@ struct ExplicitContact : TrueEnergyContact {
     double next(double eta, double, double, double) { return force = law.force(eta); }
     std::vector<Fact> facts() const {
         auto f = TrueEnergyContact::facts();
-        f.push_back({"stable_stiffness_limit", limit, "N/m"});
+        f.push_back({facts::stable_stiffness_limit, limit});
         return f;
     }
 };
@@ -70,7 +70,7 @@ struct GradientContact : TrueEnergyContact {  // Issanchou et al. 2016, eq 16
     double next(double, double eta_old, double r0, double theta) { return take(solve_contact(law, eta_old, -r0, theta), 1); }
     std::vector<Fact> facts() const {
         auto f = TrueEnergyContact::facts();
-        f.push_back({"contact_iterations_mean", steps > 0 ? static_cast<double>(iterations) / static_cast<double>(steps) : 0, ""});
+        f.push_back({facts::contact_iterations_mean, steps > 0 ? static_cast<double>(iterations) / static_cast<double>(steps) : 0});
         return f;
     }
 };
@@ -87,9 +87,10 @@ double stiffness_limit(const ModalString& m) {
     return m.mass / (m.dt * m.dt * (bb - kappa_c * bc * bc / (1 + kappa_c * cc)));
 }
 
-std::unique_ptr<Scheme> make_explicit(const Scene& scene, const Settings& settings) {
-    refuse_unknown_options(settings, {});
-    ModalString string = modal_string(modal_explicit_penalty, scene, settings);
+using Made = std::unique_ptr<Scheme>;
+
+Made made_explicit(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    ModalString string = modal_string(descriptor, scene, settings);
     ExplicitContact contact;
     contact.law = string.barrier;
     contact.limit = stiffness_limit(string);
@@ -97,11 +98,13 @@ std::unique_ptr<Scheme> make_explicit(const Scene& scene, const Settings& settin
     return std::make_unique<ModalThreePoint<ExplicitContact>>(std::move(string), gain, inertia, contact);
 }
 
-std::unique_ptr<Scheme> make_impulse_invariant(const Scene& scene, const Settings& settings) {
-    refuse_unknown_options(settings, {"energy"});
-    const std::string energy = option(settings, "energy", "true");
-    if (energy != "true" && energy != "adapted") throw Refusal("option energy: found \"" + energy + "\", expected true or adapted");
-    ModalString string = modal_string(modal_impulse_invariant, scene, settings);
+constexpr Option energy_option{
+    "energy", "true", "what the energy columns hold: the true energy, or the one that the scheme conserves", {"true", "adapted"}};
+constexpr Option impulse_invariant_options[] = {energy_option};
+
+Made made_impulse_invariant(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    const bool true_energy = choice_option(settings, energy_option) == "true";
+    ModalString string = modal_string(descriptor, scene, settings);
     GradientContact contact;
     contact.law = string.barrier;
     const double dt = string.dt;
@@ -109,22 +112,71 @@ std::unique_ptr<Scheme> make_impulse_invariant(const Scene& scene, const Setting
     for (int i = 0; i < string.count; ++i) {
         const double w = string.omega[i], wave = w > 0 ? std::sin(w * dt) / w : w < 0 ? std::sinh(w * dt) / w : dt;
         gain.push_back(dt * std::exp(-string.sigma[i] * dt) * wave / string.mass);
-        inertia.push_back(energy == "true" ? string.mass : dt * dt / gain.back());
+        inertia.push_back(true_energy ? string.mass : dt * dt / gain.back());
     }
     return std::make_unique<ModalThreePoint<GradientContact>>(std::move(string), gain, inertia, contact);
 }
 
+// ---- Limits that are known.
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// det of the string's recursion with the springs k g g' at z = -1, by the compliances there: den = 1 + C + C~ of each mode, with
+// C = 2 R cos(omega dt), C~ = R^2. The thread is its spring alone: its damper acts on y^{n+1} - y^{n-1} = 0.
+double penalty_margin(const Scene& scene, const Settings& settings) {
+    const String& s = scene.strings.front();
+    if (s.barriers.empty()) return nan;
+    const auto* barrier = std::get_if<LumpedBarrier>(&s.barriers.front());
+    if (!barrier || barrier->exponent != 1) return nan;
+    const double dt = 1 / settings.sample_rate;
+    const Modes modes = modes_of(s, modes_for(s, settings));
+    const auto g = footprint_weights(modes, barrier->position, barrier->width);
+    const auto c = s.thread ? footprint_weights(modes, s.thread->position, s.thread->width) : std::vector<double>(g.size(), 0.0);
+    double gg = 0, gc = 0, cc = 0;  // compliances [m/N]
+    for (int i = 0; i < modes.count(); ++i) {
+        const double R = std::exp(-modes.sigma[i] * dt), w = std::sqrt(omega_squared_damped(modes.omega0[i], modes.sigma[i]));
+        const double compliance = dt * dt / (modes.mass * (1 + 2 * R * std::cos(w * dt) + R * R));
+        gg += compliance * g[i] * g[i];
+        gc += compliance * g[i] * c[i];
+        cc += compliance * c[i] * c[i];
+    }
+    const double k = s.thread ? s.thread->stiffness : 0;
+    return 1 / (gg - k * gc * gc / (1 + k * cc)) / barrier->stiffness.k - 1;
+}
+
+// With a_i = omega dt/sin(omega dt) the scheme conserves sum a_i E_i, E_i true. All of E in mode j and a_i E_i then the same on average for
+// all i is E (a_j mean(1/a_i) - 1) more than there was. No mode near its limit is left out: modes above half the rate are refused.
+double shares_margin(const Scene& scene, const Settings& settings) {
+    const String& s = scene.strings.front();
+    const auto* start = s.initial ? std::get_if<ModeInitial>(&*s.initial) : nullptr;
+    if (!start || !std::holds_alternative<NoDamping>(s.damping)) return nan;
+    const Modes modes = modes_of(s, modes_for(s, settings));
+    if (start->number > modes.count()) return nan;
+    const auto share = [&](int i) {  // 1/a_i
+        const double h = modes.omega0[i] / settings.sample_rate;
+        return std::sin(h) / h;
+    };
+    double mean = 0;
+    for (int i = 0; i < modes.count(); ++i) mean += share(i) / modes.count();
+    return gain_allowed_unpromised - (mean / share(start->number - 1) - 1);
+}
 }  // namespace
 
-const Descriptor modal_explicit_penalty = {
-    "modal_explicit_penalty", "exact modes, contact force of the last step (conditionally stable control)",
-    modal_features,           Balance::none,
-    Clock::stepped,           make_explicit};
-const Descriptor modal_impulse_invariant = {"modal_impulse_invariant",
-                                            "van Walstijn et al. 2016, end of section 2.3: gains that differ from mode to mode (control)",
-                                            modal_features,
-                                            Balance::none,
-                                            Clock::stepped,
-                                            make_impulse_invariant};
+extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalty",
+                                                  .source = "exact modes, contact force of the last step (conditionally stable control)",
+                                                  .represents = modal_features,
+                                                  .balance = Balance::none,
+                                                  .clock = Clock::stepped,
+                                                  .make = made_explicit,
+                                                  .limit = {"penalty_limit", penalty_margin}};
+extern const Descriptor modal_impulse_invariant = {
+    .name = "modal_impulse_invariant",
+    .source = "van Walstijn et al. 2016, end of section 2.3: gains that differ from mode to mode (control)",
+    .represents = modal_features,
+    .balance = Balance::none,
+    .clock = Clock::stepped,
+    .make = made_impulse_invariant,
+    .options = impulse_invariant_options,
+    .limit = {"equal_shares", shares_margin}};
 
 }  // namespace jvari

@@ -10,9 +10,6 @@
 
 namespace jvari {
 
-extern const Descriptor modal_quadratised, modal_quadratised_two_point_constrained, modal_quadratised_two_point_raw,
-    modal_quadratised_three_point, modal_quadratised_three_point_constrained, modal_quadratised_three_point_raw;
-
 namespace {
 
 // ---- Three-point: psi lives at half steps.
@@ -127,7 +124,7 @@ public:
         double compliance = 0;
         for (int i = 0; i < m_.count; ++i) compliance += 0.5 * xi_ * m_.g_b[i] * m_.g_b[i] / A_[i];
         std::vector<Fact> f = seen_.list();
-        f.push_back({"static_compliance", compliance / m_.true_compliance, ""});
+        f.push_back({facts::static_compliance, compliance / m_.true_compliance});
         return f;
     }
     std::vector<FreeMode> free_modes() const override {
@@ -222,7 +219,7 @@ private:
 
 using Made = std::unique_ptr<Scheme>;
 
-Made make(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels, Quadratisation variant) {
+Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels, Quadratisation variant) {
     ModalString string = modal_string(descriptor, scene, settings);
     if (levels == 2) return std::make_unique<QuadratisedTwoPoint>(std::move(string), variant);
     const QuadratisedThreePointContact contact{QuadratisedLaw::make(string.barrier, variant, 1), 0, 0, 0, {}};
@@ -230,62 +227,49 @@ Made make(const Descriptor& descriptor, const Scene& scene, const Settings& sett
     return std::make_unique<ModalThreePoint<QuadratisedThreePointContact>>(std::move(string), gain, inertia, contact);
 }
 
-Made make_chosen(const Scene& scene, const Settings& settings) {
-    refuse_unknown_options(settings, {"levels", "variant"});
-    const std::string levels = option(settings, "levels", "2"), variant = option(settings, "variant", "released");
-    if (levels != "2" && levels != "3") throw Refusal("option levels: found \"" + levels + "\", expected 2 or 3");
-    if (variant != "raw" && variant != "constrained" && variant != "released")
-        throw Refusal("option variant: found \"" + variant + "\", expected raw, constrained or released");
-    return make(modal_quadratised, scene, settings, levels == "2" ? 2 : 3,
+constexpr Option levels_option{"levels", "2", "time levels of the recursion", {"2", "3"}};
+constexpr Option variant_option{"variant",
+                                "released",
+                                "psi out of contact: kept, driven to 0, or released in full where it would pull",
+                                {"raw", "constrained", "released"}};
+constexpr Option chosen_options[] = {levels_option, variant_option};
+
+Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    const std::string variant = choice_option(settings, variant_option);
+    return made(descriptor, scene, settings, choice_option(settings, levels_option) == "2" ? 2 : 3,
                 variant == "raw"           ? Quadratisation::raw
                 : variant == "constrained" ? Quadratisation::constrained
                                            : Quadratisation::released);
 }
 
-template <const Descriptor* descriptor, int levels, Quadratisation variant>
-Made make_fixed(const Scene& scene, const Settings& settings) {
-    refuse_unknown_options(settings, {});
-    return make(*descriptor, scene, settings, levels, variant);
+template <int levels, Quadratisation variant>
+Made made_as(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    return made(descriptor, scene, settings, levels, variant);
 }
 
 constexpr const char* raw_source = "Ducceschi et al. 2021 without the constraint on psi (known-bad control)";
 constexpr const char* constrained_source = "Ducceschi et al. 2021, with g signed by psi and psi driven to 0 out of contact";
 constexpr const char* released_source = "Ducceschi et al. 2021, psi released in full where it would pull";
 
+constexpr Descriptor quadratised(const char* name, const char* source, Made (*make)(const Descriptor&, const Scene&, const Settings&)) {
+    return {.name = name, .source = source, .represents = modal_features, .balance = Balance::exact, .clock = Clock::stepped, .make = make};
+}
+constexpr Descriptor with_options(Descriptor d, std::span<const Option> options) {
+    d.options = options;
+    return d;
+}
 }  // namespace
 
-const Descriptor modal_quadratised = {"modal_quadratised", released_source, modal_features, Balance::exact, Clock::stepped, make_chosen};
-const Descriptor modal_quadratised_two_point_constrained = {
-    "modal_quadratised_two_point_constrained",
-    constrained_source,
-    modal_features,
-    Balance::exact,
-    Clock::stepped,
-    make_fixed<&modal_quadratised_two_point_constrained, 2, Quadratisation::constrained>};
-const Descriptor modal_quadratised_two_point_raw = {"modal_quadratised_two_point_raw",
-                                                    raw_source,
-                                                    modal_features,
-                                                    Balance::exact,
-                                                    Clock::stepped,
-                                                    make_fixed<&modal_quadratised_two_point_raw, 2, Quadratisation::raw>};
-const Descriptor modal_quadratised_three_point = {"modal_quadratised_three_point",
-                                                  released_source,
-                                                  modal_features,
-                                                  Balance::exact,
-                                                  Clock::stepped,
-                                                  make_fixed<&modal_quadratised_three_point, 3, Quadratisation::released>};
-const Descriptor modal_quadratised_three_point_constrained = {
-    "modal_quadratised_three_point_constrained",
-    constrained_source,
-    modal_features,
-    Balance::exact,
-    Clock::stepped,
-    make_fixed<&modal_quadratised_three_point_constrained, 3, Quadratisation::constrained>};
-const Descriptor modal_quadratised_three_point_raw = {"modal_quadratised_three_point_raw",
-                                                      raw_source,
-                                                      modal_features,
-                                                      Balance::exact,
-                                                      Clock::stepped,
-                                                      make_fixed<&modal_quadratised_three_point_raw, 3, Quadratisation::raw>};
+extern const Descriptor modal_quadratised = with_options(quadratised("modal_quadratised", released_source, made_as_chosen), chosen_options);
+extern const Descriptor modal_quadratised_two_point_constrained =
+    quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>);
+extern const Descriptor modal_quadratised_two_point_raw =
+    quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>);
+extern const Descriptor modal_quadratised_three_point =
+    quadratised("modal_quadratised_three_point", released_source, made_as<3, Quadratisation::released>);
+extern const Descriptor modal_quadratised_three_point_constrained =
+    quadratised("modal_quadratised_three_point_constrained", constrained_source, made_as<3, Quadratisation::constrained>);
+extern const Descriptor modal_quadratised_three_point_raw =
+    quadratised("modal_quadratised_three_point_raw", raw_source, made_as<3, Quadratisation::raw>);
 
 }  // namespace jvari

@@ -28,7 +28,6 @@ double modal_dot(const ModalArray& a, const ModalArray& b) {
 }
 
 ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    refuse_missing(descriptor, scene);
     const String& s = scene.strings.front();
     ModalString m;
     m.steps_per_row = steps_per_row(settings);

@@ -49,7 +49,7 @@ constexpr Features modal_features = Features(Feature::bending_stiffness) | Featu
 // Modes above half the sample rate would alias.
 void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 
-// Refuses what the descriptor does not represent and modes above half the sample rate.
+// Refuses modes above half the sample rate.
 ModalString modal_string(const Descriptor&, const Scene&, const Settings&);
 
 double modal_dot(const ModalArray&, const ModalArray&);

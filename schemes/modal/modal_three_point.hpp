@@ -121,7 +121,7 @@ public:
     std::vector<Fact> facts() const override {
         if (m_.g_b.empty()) return {};
         std::vector<Fact> f = contact_.facts();
-        f.push_back({"static_compliance", compliance_ / m_.true_compliance, ""});
+        f.push_back({facts::static_compliance, compliance_ / m_.true_compliance});
         return f;
     }
     std::vector<FreeMode> free_modes() const override {

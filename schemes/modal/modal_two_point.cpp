@@ -19,8 +19,6 @@
 
 namespace jvari {
 
-extern const Descriptor modal_two_point, modal_two_point_trapezoidal;
-
 namespace {
 
 struct Coefficients {
@@ -39,8 +37,6 @@ Coefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i 
 class ModalTwoPoint final : public Scheme {
 public:
     ModalTwoPoint(const Descriptor& descriptor, const Scene& scene, const Settings& settings, Law law) {
-        refuse_missing(descriptor, scene);
-        refuse_unknown_options(settings, {});
         const String& s = scene.strings.front();
         m_.steps_per_row = steps_per_row(settings);
         m_.dt = 1 / settings.sample_rate;
@@ -161,15 +157,15 @@ public:
     int dofs() const override { return 2 * m_.modes; }
     std::vector<FreeMode> free_modes() const override { return free_; }
     std::vector<Fact> facts() const override {
-        std::vector<Fact> f = {{"start_phase_offset", offset_, "rad"}};
+        std::vector<Fact> f = {{facts::start_phase_offset, offset_}};
         if (m_.g_b) {
-            f.push_back({"smallest_contact_force", m_.least_force, "N"});
-            f.push_back({"deepest_penetration", m_.depth, "m"});
-            f.push_back({"static_compliance", compliance_, ""});
+            f.push_back({facts::smallest_contact_force, m_.least_force});
+            f.push_back({facts::deepest_penetration, m_.depth});
+            f.push_back({facts::static_compliance, compliance_});
         }
         if (m_.g_b && m_.barrier.alpha != 1) {
-            f.push_back({"contact_iterations_mean", m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0, ""});
-            f.push_back({"contact_iterations_most", m_.iterations_most, ""});
+            f.push_back({facts::contact_iterations_mean, m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0});
+            f.push_back({facts::contact_iterations_most, m_.iterations_most});
         }
         return f;
     }
@@ -203,25 +199,25 @@ private:
     std::vector<TwoPointTap> taps_;
 };
 
+template <Law law>
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    return std::make_unique<ModalTwoPoint>(descriptor, scene, settings, law);
+}
 }  // namespace
 
-const Descriptor modal_two_point = {"modal_two_point",
-                                    "van Walstijn et al. 2016, eqs 16-52",
-                                    modal_features,
-                                    Balance::exact,
-                                    Clock::stepped,
-                                    [](const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {
-                                        return std::make_unique<ModalTwoPoint>(modal_two_point, scene, settings, exact);
-                                    }};
-
-const Descriptor modal_two_point_trapezoidal = {"modal_two_point_trapezoidal",
-                                                "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
-                                                modal_features,
-                                                Balance::exact,
-                                                Clock::stepped,
-                                                [](const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {
-                                                    return std::make_unique<ModalTwoPoint>(modal_two_point_trapezoidal, scene, settings,
-                                                                                           trapezoidal);
-                                                }};
+extern const Descriptor modal_two_point = {.name = "modal_two_point",
+                                           .source = "van Walstijn et al. 2016, eqs 16-52",
+                                           .represents = modal_features,
+                                           .balance = Balance::exact,
+                                           .clock = Clock::stepped,
+                                           .make = made<exact>,
+                                           .stand_in_rank = 2};
+extern const Descriptor modal_two_point_trapezoidal = {
+    .name = "modal_two_point_trapezoidal",
+    .source = "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
+    .represents = modal_features,
+    .balance = Balance::exact,
+    .clock = Clock::stepped,
+    .make = made<trapezoidal>};
 
 }  // namespace jvari

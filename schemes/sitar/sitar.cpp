@@ -11,19 +11,7 @@ namespace jvari {
 
 using std::numbers::pi;
 
-std::string one_of(const Settings& settings, const char* name, std::initializer_list<const char*> values) {
-    const std::string value = option(settings, name, *values.begin());
-    std::string known;
-    for (const char* v : values) {
-        if (value == v) return value;
-        known += (known.empty() ? "" : ", ") + std::string(v);
-    }
-    throw Refusal("option " + std::string(name) + ": found \"" + value + "\", expected one of " + known);
-}
-
-SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Settings& settings) {
-    validate(scene);
-    refuse_missing(scheme, scene);
+SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Settings& settings, const std::string& stiffness) {
     const String& string = scene.strings.front();
     SitarString s;
     s.length = string.length;
@@ -35,13 +23,12 @@ SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Set
     s.step_loss = std::exp(-s.sigma * s.dt);
     if (const auto* mode = string.initial ? std::get_if<ModeInitial>(&*string.initial) : nullptr; mode && mode->number * s.f0 * s.dt >= 0.5)
         throw Refusal("the initial mode " + std::to_string(mode->number) + " lies above half the sample rate");
-    if (s.sigma > 0) s.facts.push_back({"start_phase_error", std::atan(s.sigma / first.omega0.front()), "rad"});
+    if (s.sigma > 0) s.facts.push_back({facts::start_phase_error, std::atan(s.sigma / first.omega0.front())});
     if (string.bending_stiffness != 0) {
-        const std::string stiffness = option(settings, "stiffness", "refuse");
         if (stiffness == "refuse")
             throw Refusal(std::string(scheme.name) + " carries one wave speed, and scene " + scene.name +
                           " has bending stiffness: it runs where the option stiffness says what becomes of it");
-        if (stiffness == "ignore") s.facts.push_back({"ignored_bending_stiffness", string.bending_stiffness, "N m^2"});
+        if (stiffness == "ignore") s.facts.push_back({facts::ignored_bending_stiffness, string.bending_stiffness});
         else s.f0 = first.omega0.front() / (2 * pi);
     }
     return s;
@@ -57,7 +44,7 @@ void set_integer_length(SitarString& s) {
     s.cells = static_cast<int>(std::lround(0.5 / (s.dt * s.f0)));  // (4)
     if (s.cells < 3) throw Refusal("the string has fewer than 3 samples from end to end: raise the sample rate");
     s.dx = s.length / s.cells;
-    s.facts.push_back({"period_error_cents", 1200 * std::log2(0.5 / (s.dt * s.cells) / s.f0), "cents"});
+    s.facts.push_back({facts::period_error_cents, 1200 * std::log2(0.5 / (s.dt * s.cells) / s.f0)});
 }
 
 void lay_bridge(SitarString& s, const String& string, double plucked) {
@@ -74,9 +61,9 @@ void lay_bridge(SitarString& s, const String& string, double plucked) {
     s.profile = heights(barrier.curve, x);  // (10), (11)
     for (int m = 0; m < nodes; ++m)
         if (plucked * initial_shape(string, x[m]) < s.profile[m]) throw Refusal("the initial shape lies below the bridge");
-    s.facts.push_back({"rigid_barrier", 1, ""});  // stiffness and exponent of the contact law play no part
-    s.facts.push_back({"bridge_nodes", static_cast<double>(nodes), ""});
-    s.facts.push_back({"bridge_length_error", nodes * s.dx - barrier.to, "m"});
+    s.facts.push_back({facts::rigid_barrier, 1});  // stiffness and exponent of the contact law play no part
+    s.facts.push_back({facts::bridge_nodes, static_cast<double>(nodes)});
+    s.facts.push_back({facts::bridge_length_error, nodes * s.dx - barrier.to});
 }
 
 namespace {
@@ -120,14 +107,14 @@ std::vector<SitarTap> sitar_taps(const Scene& scene, SitarString& s) {
         if (on_string && t.weight != 0 && t.weight != 1) ++between;
         taps.push_back(t);
     }
-    if (between > 0) s.facts.push_back({"taps_between_nodes", static_cast<double>(between), ""});  // read by linear interpolation
+    if (between > 0) s.facts.push_back({facts::taps_between_nodes, static_cast<double>(between)});  // read by linear interpolation
     return taps;
 }
 
 void BridgeLedger::report(std::vector<Fact>& facts) const {
-    facts.push_back({"bridge_energy_added", added, "J"});
-    facts.push_back({"bridge_energy_taken", taken, "J"});
-    facts.push_back({"smallest_contact_force", smallest_force, "N"});
+    facts.push_back({facts::bridge_energy_added, added});
+    facts.push_back({facts::bridge_energy_taken, taken});
+    facts.push_back({facts::smallest_contact_force, smallest_force});
 }
 
 }  // namespace jvari

@@ -17,7 +17,6 @@
 // dt F = Z [y(n+1, m) - loss y(n, m+1) - loss y(n, m-1) + loss^2 y(n-1, m)], Z = T/c the wave impedance, 0 where no rule acts (eq 9).
 #pragma once
 
-#include <initializer_list>
 #include <vector>
 
 #include "schemes/scheme.hpp"
@@ -42,11 +41,14 @@ struct SitarString {
     double wave_energy(double slopes) const { return 0.25 * tension / dx * slopes; }  // of a sum of squared differences [m^2] -> [J]
 };
 
-// The option's value, the first of `values` where it is not set; Refusal for any other.
-std::string one_of(const Settings&, const char* option_name, std::initializer_list<const char*> values);
+// Everything but the grid (dx, cells) and what hangs on it. `stiffness` is what becomes of bending stiffness: "refuse", "ignore", or
+// another word where the scheme takes it into account.
+SitarString sitar_string(const Descriptor&, const Scene&, const Settings&, const std::string& stiffness);
 
-// Everything but the grid (dx, cells) and what hangs on it. Refuses what neither scheme represents; `stiffness` is among its options.
-SitarString sitar_string(const Descriptor&, const Scene&, const Settings&);
+// The barrier is rigid, and the string that these schemes move lacks the sigma^2 term of a damped one.
+constexpr Approximation sitar_damping{Feature::damping, facts::start_phase_error},
+    sitar_profile{Feature::profile_barrier, facts::rigid_barrier}, sitar_power_law{Feature::power_law_contact, facts::rigid_barrier},
+    sitar_ignored_stiffness{Feature::bending_stiffness, facts::ignored_bending_stiffness};
 
 // The integer length of eq 4: L/dx = round(fs/(2 f0)); its error is a fact.
 void set_integer_length(SitarString&);

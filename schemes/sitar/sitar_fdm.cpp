@@ -13,8 +13,6 @@
 
 namespace jvari {
 
-extern const Descriptor sitar_fdm;
-
 namespace {
 
 struct Grid {
@@ -143,12 +141,14 @@ Status SitarFdm::advance(const Block& out) noexcept {
     return {};
 }
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_unknown_options(settings, {"stiffness"});
-    one_of(settings, "stiffness", {"refuse", "ignore"});
+constexpr Option stiffness_option{"stiffness", "refuse", "what becomes of bending stiffness", {"refuse", "ignore"}};
+constexpr Option options[] = {stiffness_option};
+constexpr Approximation approximates[] = {sitar_damping, sitar_ignored_stiffness, sitar_profile, sitar_power_law};
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     Grid g;
     g.steps_per_row = steps_per_row(settings);
-    g.string = sitar_string(sitar_fdm, scene, settings);
+    g.string = sitar_string(descriptor, scene, settings, choice_option(settings, stiffness_option));
     g.scene_string = scene.strings.front();
     set_integer_length(g.string);
     lay_bridge(g.string, g.scene_string, 1);
@@ -157,14 +157,17 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-const Descriptor sitar_fdm = {
-    "sitar_fdm",
-    "Deshmukh & Rayavarapu, eqs 6-12",
-    Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
-        Features(Feature::initial_shape),
-    Balance::to_tolerance,
-    Clock::stepped,
-    make,
+extern const Descriptor sitar_fdm = {
+    .name = "sitar_fdm",
+    .source = "Deshmukh & Rayavarapu, eqs 6-12",
+    .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+                  Features(Feature::initial_shape),
+    .balance = Balance::to_tolerance,
+    .clock = Clock::stepped,
+    .make = made,
+    .options = options,
+    .approximates = approximates,
+    .note = "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so.",
 };
 
 }  // namespace jvari

@@ -21,8 +21,6 @@
 
 namespace jvari {
 
-extern const Descriptor sitar_waveguide;
-
 namespace {
 
 using std::numbers::pi;
@@ -323,19 +321,29 @@ void set_filtered_length(Waves& w, const String& string, bool stiff) {
     w.peg = stiff ? tune_stiff(loop, omega, s.dt) : tune(loop, omega[0] * s.dt, {});
     s.cells = w.peg.cells;
     s.dx = 2 * s.length / loop;
-    s.facts.push_back({"period_error_cents", worst_cents(w.peg, {omega[0]}, s.dt), "cents"});
-    s.facts.push_back({"worst_partial_error_cents", worst_cents(w.peg, omega, s.dt), "cents"});
-    s.facts.push_back({"length_in_filter", s.length - s.cells * s.dx, "m"});
+    s.facts.push_back({facts::period_error_cents, worst_cents(w.peg, {omega[0]}, s.dt)});
+    s.facts.push_back({facts::worst_partial_error_cents, worst_cents(w.peg, omega, s.dt)});
+    s.facts.push_back({facts::length_in_filter, s.length - s.cells * s.dx});
 }
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    refuse_unknown_options(settings, {"length", "stiffness", "taps"});
-    const std::string length = one_of(settings, "length", {"integer", "fractional"});
-    const std::string stiffness = one_of(settings, "stiffness", {"refuse", "dispersion", "ignore"});
-    const std::string plane = one_of(settings, "taps", {"vertical", "horizontal"});
+constexpr Option length_option{
+    "length", "integer", "samples per period: a whole number, or the rest in an allpass at the peg", {"integer", "fractional"}};
+constexpr Option stiffness_option{"stiffness",
+                                  "refuse",
+                                  "what becomes of bending stiffness; its dispersion in an allpass at the peg needs length=fractional",
+                                  {"refuse", "dispersion", "ignore"}};
+constexpr Option taps_option{"taps", "vertical", "the plane of vibration that taps read", {"vertical", "horizontal"}};
+constexpr Option options[] = {length_option, stiffness_option, taps_option};
+constexpr Approximation approximates[] = {
+    sitar_damping, sitar_ignored_stiffness, {Feature::bending_stiffness, facts::worst_partial_error_cents}, sitar_profile, sitar_power_law};
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    const std::string length = choice_option(settings, length_option);
+    const std::string stiffness = choice_option(settings, stiffness_option);
+    const std::string plane = choice_option(settings, taps_option);
     Waves w;
     w.steps_per_row = steps_per_row(settings);
-    w.string = sitar_string(sitar_waveguide, scene, settings);
+    w.string = sitar_string(descriptor, scene, settings, stiffness);
     const String& string = scene.strings.front();
     const bool stiff = string.bending_stiffness != 0 && stiffness == "dispersion";
     if (stiff && length != "fractional")
@@ -360,14 +368,17 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-const Descriptor sitar_waveguide = {
-    "sitar_waveguide",
-    "Deshmukh & Rayavarapu, eqs 3-5 and 10-14",
-    Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
-        Features(Feature::initial_shape) | Feature::polarisation,
-    Balance::to_tolerance,
-    Clock::stepped,
-    make,
+extern const Descriptor sitar_waveguide = {
+    .name = "sitar_waveguide",
+    .source = "Deshmukh & Rayavarapu, eqs 3-5 and 10-14",
+    .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+                  Features(Feature::initial_shape) | Feature::polarisation,
+    .balance = Balance::to_tolerance,
+    .clock = Clock::stepped,
+    .make = made,
+    .options = options,
+    .approximates = approximates,
+    .note = "The barrier is rigid and begins at x = 0; with bending stiffness it runs where the option stiffness says what becomes of it.",
 };
 
 }  // namespace jvari

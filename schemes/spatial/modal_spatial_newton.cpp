@@ -26,8 +26,6 @@
 
 namespace jvari {
 
-extern const Descriptor modal_spatial_newton;
-
 namespace {
 
 struct TapReading {
@@ -97,14 +95,14 @@ public:
     int dofs() const override { return 2 * p_.update.modes(); }
 
     std::vector<Fact> facts() const override {
-        std::vector<Fact> facts = {{"interior_nodes", double(p_.update.modes()), ""},
-                                   {"modes_above_nyquist", double(p_.three_point.above_nyquist), ""}};
+        std::vector<Fact> facts = {{facts::interior_nodes, double(p_.update.modes())},
+                                   {facts::modes_above_nyquist, double(p_.three_point.above_nyquist)}};
         forces_.add_facts(facts);
         if (p_.string().barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(p_.string().barriers.front())) {
             const auto& g = p_.update.ports.front().weights;
             double own = 0;
             for (int j = 0; j < p_.modes.count(); ++j) own += p_.update.gain * g[j] * g[j] / p_.update.kappa[j];
-            facts.push_back({"static_compliance", own / static_compliance(p_.modes, g), ""});
+            facts.push_back({facts::static_compliance, own / static_compliance(p_.modes, g)});
         }
         return facts;
     }
@@ -259,10 +257,13 @@ std::string cheapest_form(const LinearUpdate& u) {
     return restricted <= sine ? "restricted" : "dst";  // dense, 2 n^2, is never below restricted: reads <= n
 }
 
-std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
-    validate(scene);
-    refuse_missing(modal_spatial_newton, scene);
-    refuse_unknown_options(settings, {"form"});
+constexpr Option form_option{"form",
+                             "auto",
+                             "how forces reach the grid: as one matrix, on the nodes read alone, by sine transforms, or what costs least",
+                             {"auto", "dense", "restricted", "dst"}};
+constexpr Option options[] = {form_option};
+
+std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
     if (scene.strings.empty()) throw Refusal("modal_spatial_newton: scene " + scene.name + " has no string");
     if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
     Problem p;
@@ -279,12 +280,11 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     p.update = {intervals, p.three_point.Ct, p.three_point.kappa, p.three_point.gain, p.ports.ports, 0};
     p.update.reads = static_cast<int>(p.ports.points.size()) + (p.string().thread ? 1 : 0);
 
-    std::string form = option(settings, "form", "auto");
+    std::string form = choice_option(settings, form_option);
     if (form == "auto") form = cheapest_form(p.update);
     if (form == "dense") return std::make_unique<SpatialNewton<DenseForm>>(std::move(p));
     if (form == "restricted") return std::make_unique<SpatialNewton<RestrictedForm>>(std::move(p));
-    if (form == "dst") return std::make_unique<SpatialNewton<SineForm>>(std::move(p));
-    throw Refusal("option form: found \"" + form + "\", expected auto, dense, restricted or dst");
+    return std::make_unique<SpatialNewton<SineForm>>(std::move(p));
 }
 
 constexpr Features represented = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
@@ -295,7 +295,15 @@ constexpr Features represented = Feature::bending_stiffness | Feature::damping |
 
 }  // namespace
 
-const Descriptor modal_spatial_newton = {
-    "modal_spatial_newton", "Issanchou et al. 2016, eqs 13-16, 20-21, 24-28", represented, Balance::exact, Clock::stepped, make};
+extern const Descriptor modal_spatial_newton = {
+    .name = "modal_spatial_newton",
+    .source = "Issanchou et al. 2016, eqs 13-16, 20-21, 24-28",
+    .represents = represented,
+    .balance = Balance::exact,
+    .clock = Clock::stepped,
+    .make = made,
+    .options = options,
+    .note = "Several contact points only where each is a node of the grid, and a thread only with one contact point.",
+    .stand_in_rank = 3};
 
 }  // namespace jvari

@@ -168,13 +168,13 @@ double SpatialForces::dissipated() const {
 }
 
 void SpatialForces::add_facts(std::vector<Fact>& facts) const {
-    facts.push_back({"smallest_contact_force", effort_.smallest_force, "N"});
-    facts.push_back({"deepest_penetration", effort_.deepest, "m"});
-    facts.push_back({"contact_points", double(contacts_.size()), ""});
-    facts.push_back({"contact_solves", effort_.solves, ""});
-    facts.push_back({"contact_iterations_mean", effort_.solves > 0 ? effort_.iterations / effort_.solves : 0, ""});
-    facts.push_back({"contact_iterations_most", effort_.most, ""});
-    facts.push_back({"contact_residual", effort_.residual, ""});
+    facts.push_back({facts::smallest_contact_force, effort_.smallest_force});
+    facts.push_back({facts::deepest_penetration, effort_.deepest});
+    facts.push_back({facts::contact_points, double(contacts_.size())});
+    facts.push_back({facts::contact_solves, effort_.solves});
+    facts.push_back({facts::contact_iterations_mean, effort_.solves > 0 ? effort_.iterations / effort_.solves : 0});
+    facts.push_back({facts::contact_iterations_most, effort_.most});
+    facts.push_back({facts::contact_residual, effort_.residual});
 }
 
 }  // namespace jvari
