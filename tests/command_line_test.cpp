@@ -1,6 +1,7 @@
 // The command line's contract: exit codes, what stands on which stream, and files that are whole or absent.
 #include "command_line.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -180,6 +181,36 @@ TEST(CommandLine, ListShowsWhatExistsAndWhichSchemeRepresentsWhichScene) {
     EXPECT_EQ(jvari(scratch, "list schemes --markdown").out.find("modal_two_pointt"), std::string::npos);
 }
 
+TEST(CommandLine, ListShowsOptionsAndFactsAsTextAsJsonAndAsATable) {
+    const Scratch scratch;
+    const auto options = nlohmann::json::parse(jvari(scratch, "list options --json" + plugin).out).at("options");
+    const auto of_stumbling =
+        std::find_if(options.begin(), options.end(), [](const auto& o) { return o.at("schemes") == nlohmann::json::array({"stumbling"}); });
+    ASSERT_NE(of_stumbling, options.end());
+    EXPECT_EQ(of_stumbling->at("name"), "fail_at");
+    EXPECT_EQ(of_stumbling->at("default"), "1e9");
+    EXPECT_EQ(of_stumbling->at("meaning"), "when the run diverges [s]");
+    EXPECT_NE(jvari(scratch, "list options --markdown" + plugin).out.find("| `fail_at` | 1e9 | when the run diverges [s] | `stumbling` |"),
+              std::string::npos);
+    EXPECT_NE(jvari(scratch, "list options").out.find("levels"), std::string::npos);
+    const std::string row = "| `smallest_contact_force` | N | ";
+    EXPECT_NE(jvari(scratch, "list facts --markdown").out.find(row), std::string::npos);
+    EXPECT_NE(jvari(scratch, "list facts").out.find("smallest_contact_force"), std::string::npos);
+    const auto schemes = nlohmann::json::parse(jvari(scratch, "list schemes --json").out).at("schemes");
+    const auto fdm = std::find_if(schemes.begin(), schemes.end(), [](const auto& d) { return d.at("name") == "sitar_fdm"; });
+    ASSERT_NE(fdm, schemes.end());
+    EXPECT_NE(fdm->at("approximates").dump().find("rigid_barrier"), std::string::npos);
+}
+
+TEST(CommandLine, APluginCompiledWithoutOptimisationIsWarnedOf) {
+    const Scratch scratch;
+    const std::string run = "run free_string --scheme stumbling --duration 0.01";
+    const Outcome slow = jvari(scratch, run + " --plugin " + JVARI_UNOPTIMISED_PLUGIN);
+    EXPECT_EQ(slow.code, 0) << slow.err;
+    EXPECT_NE(slow.err.find("compiled without optimisation"), std::string::npos) << slow.err;
+    EXPECT_EQ(jvari(scratch, run + plugin).err.find("compiled without optimisation"), std::string::npos);
+}
+
 TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
     const Scratch scratch;
     const std::string out = scratch / "cmp";
@@ -212,6 +243,10 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
     for (const char* key : {"commit", "compiler", "flags", "cpu", "date", "scene", "reference", "noise_floor"})
         EXPECT_TRUE(manifest.contains(key)) << key;
     EXPECT_EQ(manifest.at("scene").at("hash").get<std::string>().size(), 16u);
+    ASSERT_EQ(manifest.at("plugins").size(), 1u);
+    EXPECT_EQ(manifest.at("plugins").at(0).at("file"), JVARI_STUMBLING_PLUGIN);
+    EXPECT_EQ(manifest.at("plugins").at(0).at("hash"), hash_of(content(JVARI_STUMBLING_PLUGIN)));
+    EXPECT_EQ(manifest.at("plugins").at(0).at("flags").get<std::string>().substr(0, 9), "optimised");
 
     const std::string page = content(out + "/report.html");
     EXPECT_NE(page.find("free_string"), std::string::npos);
