@@ -126,9 +126,13 @@ struct Workshop {  // the schemes of the program, and three for the tests
         slow.name = "slow";
         slow.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return std::make_unique<Slow>(); };
         unwilling.name = "unwilling";
-        unwilling.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw Refusal("it is not willing"); };
+        unwilling.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+            throw Refusal("it is not willing");
+        };
         stumbling.name = "throwing";
-        stumbling.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw std::runtime_error("out of luck"); };
+        stumbling.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+            throw std::runtime_error("out of luck");
+        };
         for (const Descriptor* d : {&counting, &slow, &unwilling, &stumbling}) catalogue.schemes.push_back(d);
     }
 };

@@ -46,7 +46,7 @@ std::string headline_text(const Table& t, const std::string& error_column) {
         if (t.at(i, "status") != "ok") missing += fmt::format("  {:<{}}  {:>9}  {}\n", t.at(i, "scheme"), width, rate, t.at(i, "reason"));
         if (!t.at(i, "flags").empty())
             flagged += fmt::format("  {:<{}}  {:>9}  {} (smallest contact force {}, ledger open by {})\n", t.at(i, "scheme"), width, rate,
-                                   t.at(i, "flags"), cell_text(t, i, "smallest_contact_force", "{:.2g} N"),
+                                   t.at(i, "flags"), cell_text(t, i, facts::smallest_contact_force.name, "{:.2g} N"),
                                    cell_text(t, i, "energy_residual_accumulated", "{:.1e}"));
         text += fmt::format("{} {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n",
                             t.at(i, "pareto") == "1" ? "*" : " ", t.at(i, "scheme"), width, rate, t.at(i, "modes"),

@@ -69,8 +69,8 @@ Json json_of(const Summary& s) {
     j["times_real_time"] = s.times_real_time;
     j["energy_residual_per_step"] = s.energy_residual_per_step;
     j["energy_residual_accumulated"] = s.energy_residual_accumulated;
-    j["smallest_contact_force"] = s.smallest_contact_force;
-    j["deepest_penetration"] = s.deepest_penetration;
+    j[facts::smallest_contact_force.name] = s.smallest_contact_force;
+    j[facts::deepest_penetration.name] = s.deepest_penetration;
     j["facts"] = Json::object();
     for (const Fact& f : s.facts) j["facts"][f.name] = f.value;
     return j;

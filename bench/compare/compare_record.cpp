@@ -126,8 +126,8 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front,
         if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column, c.floor[c.headline.tap(measures()[k])][k]);
     row.number("energy_residual_per_step", ran ? s.energy_residual_per_step : nan);
     row.number("energy_residual_accumulated", ran ? s.energy_residual_accumulated : nan);
-    row.number("smallest_contact_force", ran ? s.smallest_contact_force : nan);
-    row.number("deepest_penetration", ran ? s.deepest_penetration : nan);
+    row.number(facts::smallest_contact_force.name, ran ? s.smallest_contact_force : nan);
+    row.number(facts::deepest_penetration.name, ran ? s.deepest_penetration : nan);
     row.count("dofs", s.dofs, ran);
     row.count("state_bytes", 8L * s.dofs, ran);
     row.count("steps", s.steps, ran);

@@ -140,7 +140,7 @@ void scheme(benchmark::State& state, const char* name) {
         state.counters["ns_per_step"] =
             benchmark::Counter(steps * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
         for (const Fact& f : r.facts)
-            if (f.name == "deepest_penetration") state.counters["penetration"] = f.value;  // there was contact
+            if (f.name == facts::deepest_penetration.name) state.counters["penetration"] = f.value;  // there was contact
         if (std::strcmp(name, "finite_difference_explicit") == 0) state.counters["error"] = against_long_double(y, N);
     }
 }

@@ -8,6 +8,7 @@
 #include "bench/compare/cheapest.hpp"
 #include "bench/report/chart_data.hpp"
 #include "bench/report/page_sections.hpp"
+#include "schemes/facts.hpp"
 
 namespace jvari {
 
@@ -155,7 +156,7 @@ Section cell_section(const Results& r) {
     if (from >= 0) s.first_columns.assign(s.table.columns.begin() + from, s.table.columns.begin() + to);
     for (const char* name : {"scheme", "options", "rate", "modes", "status", "error_l2_10ms", "error_l2_50ms", "error_l2_whole",
                              "horizon_s", "third_octave_db", "stft_db", "cost_s_per_s", "times_real_time", "ns_per_step",
-                             "energy_residual_accumulated", "smallest_contact_force", "deepest_penetration", "reason"})
+                             "energy_residual_accumulated", facts::smallest_contact_force.name, facts::deepest_penetration.name, "reason"})
         if (s.table.column(name) >= 0) s.first_columns.emplace_back(name);
     if (s.table.rows.empty()) s.table = {};
     return s;
