@@ -9,6 +9,7 @@
 #include "analysis/convergence.hpp"
 #include "bench/compare/elements.hpp"
 #include "bench/store/cell_rows.hpp"
+#include "schemes/facts.hpp"
 
 namespace jvari {
 
