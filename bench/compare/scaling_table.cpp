@@ -45,7 +45,7 @@ public:
         for (const Rows& rows : differing_in_rate(cells_, whole_, naming_)) add_series("rate", "rate", rows, "");
         for (const std::string& key : swept_keys(cells_)) {
             std::vector<std::string> held = with(naming_, {"rate", "modes"});
-            if (std::erase(held, key) > 0) against("contacts", std::string("fact_") + facts::contact_points.name, held, key);
+            if (std::erase(held, key) > 0) against("contacts", ("fact_" + std::string(facts::contact_points.name)).c_str(), held, key);
         }
         for (const std::size_t row : changed_) add_element(row);
     }
