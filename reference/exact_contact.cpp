@@ -355,9 +355,9 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     if (!(window > 0 && window <= 1)) throw Refusal("option window: expected a factor above 0 and no larger than 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    const int modes = modes_for(scene.strings.at(0), unsampled);
-    const String s = with_points(scene.strings.at(0), modes, profile_points(settings));
-    return std::make_unique<ExactContact>(s, scene, modes_of(s, modes), settings.tap_rate, window);
+    Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
+    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, window);
 }
 }  // namespace
 

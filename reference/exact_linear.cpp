@@ -194,7 +194,7 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.at(0);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    return std::make_unique<ExactLinear>(s, scene, modes_of(s, modes_for(s, unsampled)), settings.tap_rate);
+    return std::make_unique<ExactLinear>(s, scene, modes_of(s, unsampled), settings.tap_rate);
 }
 }  // namespace
 

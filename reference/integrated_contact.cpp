@@ -267,9 +267,9 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
     i.order = static_cast<int>(order);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    const int modes = modes_for(scene.strings.at(0), unsampled);
-    const String s = with_points(scene.strings.at(0), modes, profile_points(settings));
-    return std::make_unique<IntegratedContact>(s, scene, modes_of(s, modes), settings.tap_rate, choice);
+    Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
+    return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate, choice);
 }
 }  // namespace
 

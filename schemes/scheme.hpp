@@ -14,6 +14,8 @@
 
 namespace jvari {
 
+struct Modes;
+
 // A window of the caller's trace: column-major, one row per tap interval.
 struct Block {
     int rows = 0, taps = 0;
@@ -100,7 +102,7 @@ struct Plugin {
 // ---- Checks that every `make` begins with.
 
 void refuse_missing(const Descriptor&, const Scene&);  // Refusal naming what `represents` lacks
-int steps_per_row(const Settings&);                    // sample_rate/tap_rate; Refusal unless a whole number >= 1
+int steps_per_row(const Settings&);                    // sample_rate/tap_rate; Refusal unless a whole number from 1 to 2^31 - 1
 int modes_for(const String&, const Settings&);         // settings.modes, or every mode below min(20 kHz, sample_rate/2)
 
 // The value of an option, or `fallback`; option_names lists what the scheme knows. Refusal for an unknown name.
@@ -109,3 +111,4 @@ std::string option(const Settings&, const char* name, const char* fallback);
 double number_option(const Settings&, const char* name, double fallback);
 
 }  // namespace jvari
+Modes modes_of(const String&, const Settings&);        // those; Refusal where there is none, or more than most_modes

@@ -33,7 +33,7 @@ ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const
     ModalString m;
     m.steps_per_row = steps_per_row(settings);
     m.dt = 1 / settings.sample_rate;
-    const Modes modes = modes_of(s, modes_for(s, settings));
+    const Modes modes = modes_of(s, settings);
     refuse_above_nyquist(descriptor, modes, settings.sample_rate);
     m.count = modes.count();
     m.size = (m.count + modal_lanes - 1) / modal_lanes * modal_lanes;

@@ -44,7 +44,7 @@ public:
         const String& s = scene.strings.front();
         m_.steps_per_row = steps_per_row(settings);
         m_.dt = 1 / settings.sample_rate;
-        const Modes modes = modes_of(s, modes_for(s, settings));
+        const Modes modes = modes_of(s, settings);
         refuse_above_nyquist(descriptor, modes, settings.sample_rate);
         m_.modes = modes.count();
         m_.size = (m_.modes + two_point_padding - 1) / two_point_padding * two_point_padding;

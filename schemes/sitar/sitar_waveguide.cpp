@@ -314,12 +314,15 @@ Status SitarWaveguide<planes>::advance(const Block& out) noexcept {
 // A length of fs/f0 samples per period, the part that is no whole number of cells in a filter at the peg.
 void set_filtered_length(Waves& w, const String& string, bool stiff) {
     SitarString& s = w.string;
-    const double loop = 1 / (s.f0 * s.dt), hertz = std::min(20e3, 0.5 / s.dt);
+    const double loop = 1 / (s.f0 * s.dt);
+    Settings unasked;
+    unasked.sample_rate = 1 / s.dt;
+    refuse_too_many_cells(0.5 * loop);
     if (loop < 9) throw Refusal("the string has fewer than 9 samples per period: raise the sample rate");
     String heard = string;  // the string whose partials the loop aims at
     heard.damping = NoDamping{};
     if (!stiff) heard.bending_stiffness = 0;
-    const std::vector<double> omega = modes_of(heard, modes_below(heard, hertz)).omega0;
+    const std::vector<double> omega = modes_of(heard, unasked).omega0;
     w.peg = stiff ? tune_stiff(loop, omega, s.dt) : tune(loop, omega[0] * s.dt, {});
     s.cells = w.peg.cells;
     s.dx = 2 * s.length / loop;
