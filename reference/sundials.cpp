@@ -290,7 +290,7 @@ Integrator::Stop Integrator::advance(double to) noexcept {
         l.time_before = l.time;
         std::swap(l.depth, l.depth_before);
         const int result = l.step(target);
-        if (result < 0) return Stop::failed;
+        if (result < 0 || out.stopped()) return Stop::failed;
         l.contact = -1;
         if (result == CV_ROOT_RETURN) {
             const bool failed = multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) != CV_SUCCESS

@@ -41,6 +41,17 @@ std::span<const Descriptor> load_plugin(const std::string& path) {
     if (plugin->abi != plugin_abi)
         throw std::runtime_error("plugin " + path + " has interface version " + std::to_string(plugin->abi) + ", this program has " +
                                  std::to_string(plugin_abi));
+    const auto must = [&path](bool good, const std::string& wrong) {
+        if (!good) throw std::runtime_error("plugin " + path + " " + wrong);
+    };
+    must(plugin->count >= 0, "says that it has " + std::to_string(plugin->count) + " schemes");
+    must(plugin->schemes || plugin->count == 0, "says that it has " + std::to_string(plugin->count) + " schemes and shows none");
+    for (int i = 0; i < plugin->count; ++i) {
+        const Descriptor& d = plugin->schemes[i];
+        must(d.name && *d.name, "has no name for its scheme " + std::to_string(i));
+        must(d.source, "has no source for its scheme " + std::string(d.name));
+        must(d.make, "has nothing that makes its scheme " + std::string(d.name));
+    }
     return {plugin->schemes, static_cast<std::size_t>(plugin->count)};
 }
 

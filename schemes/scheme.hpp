@@ -22,7 +22,15 @@ struct Block {
     long stride = 0;           // rows of the whole trace
     double* tap = nullptr;     // one column per tap of the scene
     double* energy = nullptr;  // three columns: stored, supplied, dissipated [J]; nullptr = not probed
+
+    // Whether the caller wants no more of this run: advance() then returns at once, and nobody looks at what it returns or wrote. A scheme
+    // asks within a row, every few milliseconds of work, so that a long row can be ended; between blocks the caller sees to it itself.
+    bool (*stop)(void* caller) = nullptr;  // nullptr: never
+    void* caller = nullptr;
+    bool stopped() const noexcept { return stop && stop(caller); }
+    bool stopped(long step, long every) const noexcept { return step % every == every - 1 && stopped(); }
 };
+constexpr long steps_between_questions = 1024;  // of a step that takes microseconds at most
 
 enum class Outcome { ok, diverged, not_converged };
 const char* name_of(Outcome);
@@ -91,7 +99,7 @@ struct Descriptor {
     std::unique_ptr<Scheme> (*make)(const Scene&, const Settings&);  // throws Refusal or BadScene
 };
 
-constexpr unsigned plugin_abi = 2;
+constexpr unsigned plugin_abi = 3;
 struct Plugin {
     unsigned abi;  // plugin_abi
     const Descriptor* schemes;
@@ -104,6 +112,7 @@ struct Plugin {
 void refuse_missing(const Descriptor&, const Scene&);  // Refusal naming what `represents` lacks
 int steps_per_row(const Settings&);                    // sample_rate/tap_rate; Refusal unless a whole number from 1 to 2^31 - 1
 int modes_for(const String&, const Settings&);         // settings.modes, or every mode below min(20 kHz, sample_rate/2)
+Modes modes_of(const String&, const Settings&);        // those; Refusal where there is none, or more than most_modes
 
 // The value of an option, or `fallback`; option_names lists what the scheme knows. Refusal for an unknown name.
 void refuse_unknown_options(const Settings&, std::initializer_list<const char*> option_names);
@@ -111,4 +120,3 @@ std::string option(const Settings&, const char* name, const char* fallback);
 double number_option(const Settings&, const char* name, double fallback);
 
 }  // namespace jvari
-Modes modes_of(const String&, const Settings&);        // those; Refusal where there is none, or more than most_modes

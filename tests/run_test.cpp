@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <string_view>
+#include <thread>
 
+#include "schemes/registry.hpp"
 #include "tests/c3.hpp"
 
 namespace jvari {
@@ -37,6 +42,22 @@ Scene second() {
     Scene s = c3_free();
     s.duration = 1;
     return s;
+}
+
+Scene with_profile(Scene scene) {
+    scene.strings.front().thread.reset();
+    scene.strings.front().barriers = {ProfileBarrier{ParabolaCurve{4}, 0, 0.1, {1e8}, 1.5, 0}};
+    scene.taps.resize(2);
+    return scene;
+}
+Scene sitar() {  // what the schemes on rails represent
+    Scene scene = with_profile(c3_release());
+    String& s = scene.strings.front();
+    s.bending_stiffness = 0;
+    s.damping = PerPeriodDamping{0.996};
+    s.initial = TriangleInitial{0.3, 1e-3, 0};
+    scene.taps = {{"nut", Quantity::nut_force, 0, 0}};
+    return scene;
 }
 
 TEST(RunLoop, ATraceHasOneRowMoreThanItsDurationHasIntervals) {
@@ -75,18 +96,6 @@ TEST(RunLoop, ARunThatFailsKeepsTheRowsUpToTheFailingStep) {
     }
 }
 
-TEST(RunLoop, DenormalsAreFlushedForItsLifeOnly) {
-    volatile double tiny = std::numeric_limits<double>::min(), half = 0.5;
-    EXPECT_NE(tiny * half, 0);
-    {
-        const FlushDenormals flush;
-        EXPECT_EQ(tiny * half, 0);
-    }
-    EXPECT_NE(tiny * half, 0);
-}
-
-}  // namespace
-}  // namespace jvari
 // A scheme that says and does what a test tells it to; a row is a step.
 struct Odd final : Scheme {
     std::function<Status(const Block&, long first)> act = [](const Block&, long) { return Status{}; };
@@ -221,3 +230,15 @@ TEST(RunLoop, ASlowRunSaysSoOnceWithItsFacts) {
     EXPECT_LT(told.front(), 8);
 }
 
+TEST(RunLoop, DenormalsAreFlushedForItsLifeOnly) {
+    volatile double tiny = std::numeric_limits<double>::min(), half = 0.5;
+    EXPECT_NE(tiny * half, 0);
+    {
+        const FlushDenormals flush;
+        EXPECT_EQ(tiny * half, 0);
+    }
+    EXPECT_NE(tiny * half, 0);
+}
+
+}  // namespace
+}  // namespace jvari

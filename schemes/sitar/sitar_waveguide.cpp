@@ -84,7 +84,7 @@ private:
     double rail_slopes();
     double peg_slopes() const;
     [[gnu::always_inline]] void reflect(int to, int from, int steps) noexcept;  // in step() a loop of one
-    void coast(int steps) noexcept;
+    void coast(int steps, const Block& out) noexcept;
     void step() noexcept;
     void settle() noexcept {  // the loss of the steps since the last time
         const double loss2 = loss_[coasted_] * loss_[coasted_];
@@ -167,14 +167,16 @@ inline void SitarWaveguide<planes>::reflect(int to, int from, int steps) noexcep
 
 // Steps of rails that meet nothing on their way: none depends on another within the length of a rail.
 template <int planes>
-void SitarWaveguide<planes>::coast(int steps) noexcept {
+void SitarWaveguide<planes>::coast(int steps, const Block& out) noexcept {
     while (steps > 0) {
         const int top = head_ == 0 ? size_ : head_, run = std::min({steps, std::max(1, top - 1), s_.cells - coasted_});
         head_ = top - run;
         reflect(head_, top > 1 ? head_ - 1 : size_ - 1, run);
         steps -= run;
         coasted_ += run;
-        if (coasted_ == s_.cells) settle();
+        if (coasted_ < s_.cells) continue;
+        settle();
+        if (out.stopped()) return;
     }
 }
 
@@ -299,11 +301,12 @@ Status SitarWaveguide<planes>::advance(const Block& out) noexcept {
         }
         slopes_dissipated_ = 0;
         ledger_.next_row();
-        if (pending_.empty() && peg_.empty()) coast(w_.steps_per_row);
+        if (pending_.empty() && peg_.empty()) coast(w_.steps_per_row, out);
         else
             for (int k = 0; k < w_.steps_per_row; ++k) {
                 step();
                 if (!pending_.empty()) meet_bridge();
+                if (out.stopped(k, steps_between_questions)) return {};
             }
         settle();
         steps_ += w_.steps_per_row;

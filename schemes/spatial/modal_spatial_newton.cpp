@@ -89,6 +89,7 @@ public:
                 }
                 const Outcome outcome = step(out.energy != nullptr);
                 if (outcome != Outcome::ok) return {outcome, step_};
+                if (out.stopped(s, steps_between_questions)) return {};
             }
         }
         return {};

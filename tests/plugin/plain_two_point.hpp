@@ -77,7 +77,10 @@ public:
         for (int row = 0; row < out.rows; ++row) {
             for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = static_cast<double>(value(k));
             impulse_b = impulse_c = 0;
-            for (int n = 0; n < ratio_; ++n) step();
+            for (int n = 0; n < ratio_; ++n) {
+                step();
+                if (out.stopped(n, steps_between_questions)) return {};
+            }
         }
         return {};
     }
