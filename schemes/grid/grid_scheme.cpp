@@ -14,6 +14,7 @@ std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) 
         f.push_back({"smallest_contact_force", t.smallest_force, "N"});
         f.push_back({"deepest_penetration", t.deepest, "m"});
         f.push_back({"contact_points", static_cast<double>(obstacle.contacts()), ""});
+        if (obstacle.coupled() > 1) f.push_back({"coupled_contact_points", static_cast<double>(obstacle.coupled()), ""});
         f.push_back({"contact_iterations_mean", t.solves > 0 ? t.iterations / static_cast<double>(t.solves) : 0, ""});
         f.push_back({"contact_iterations_most", static_cast<double>(t.most_iterations), ""});
         f.push_back({"contact_residual", t.residual, ""});

@@ -282,6 +282,10 @@ std::unique_ptr<Scheme> make(const Scene& scene, const Settings& settings) {
 
     std::string form = option(settings, "form", "auto");
     if (form == "auto") form = cheapest_form(p.update);
+    constexpr int most_dense = 1 << 13;  // half a gigabyte of matrix
+    if (form == "dense" && p.update.modes() > most_dense)
+        throw Refusal("option form: dense takes no more than " + std::to_string(most_dense) + " modes, not " +
+                      std::to_string(p.update.modes()));
     if (form == "dense") return std::make_unique<SpatialNewton<DenseForm>>(std::move(p));
     if (form == "restricted") return std::make_unique<SpatialNewton<RestrictedForm>>(std::move(p));
     if (form == "dst") return std::make_unique<SpatialNewton<SineForm>>(std::move(p));
