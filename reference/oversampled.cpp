@@ -40,16 +40,38 @@ Oversampled oversampled(const Descriptor& scheme, const Scene& scene, const Sett
     return result;
 }
 
-const Descriptor* stand_in(const Scene& scene) {
-    const Descriptor* chosen = nullptr;
-    int best = 0;
-    for (const Descriptor& d : schemes()) {
-        if (!(needed_by(scene) - d.represents).empty()) continue;
-        const std::string_view name = d.name;
-        const int authority = name == "modal_spatial_newton" ? 3 : name == "modal_two_point" ? 2 : 1;
-        if (authority > best) best = authority, chosen = &d;
+std::vector<const Descriptor*> stand_ins(const Scene& scene) {
+    std::vector<const Descriptor*> able;
+    for (const Descriptor& d : schemes())
+        if ((needed_by(scene) - d.represents).empty()) able.push_back(&d);
+    for (const std::string_view name : {"modal_spatial_newton", "modal_two_point"})
+        for (const Descriptor* d : able)
+            if (d->name == name) return {d};
+    return able;
+}
+
+double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings& settings, int multiple) {
+    Scene start = scene;
+    start.duration = std::min(scene.duration, trial);
+    double worst = 0;
+    try {
+        const Oversampled o = oversampled(scheme, start, settings, multiple);
+        if (o.estimates.empty()) return HUGE_VAL;
+        for (const auto& tap : o.estimates) worst = std::max(worst, tap.back().error);
+    } catch (const Refusal&) {
+        return HUGE_VAL;
     }
-    return chosen;
+    return worst;
+}
+
+const Descriptor* best_by_estimate(const std::vector<const Descriptor*>& candidates, const Scene& scene, const Settings& settings,
+                                   int multiple) {
+    if (candidates.size() < 2) return candidates.empty() ? nullptr : candidates.front();
+    const Descriptor* best = candidates.front();
+    double least = HUGE_VAL;
+    for (const Descriptor* d : candidates)
+        if (const double error = estimate_of(*d, scene, settings, multiple); error < least) least = error, best = d;
+    return best;
 }
 
 }  // namespace jvari

@@ -20,7 +20,7 @@ struct Timed : Contender {
 };
 
 double sample(const Timed& t) {
-    const auto scheme = t.cell->scheme->make(*t.scene, t.cell->settings);
+    const auto scheme = made(*t.cell->scheme, *t.scene, t.cell->settings);
     RunOptions options;
     options.energy = t.probe;
     double seconds = 0;

@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "schemes/run.hpp"
+
 namespace jvari {
 
 namespace {
@@ -71,7 +73,7 @@ bool has_modes(const Trial& t) {
     const auto dofs = [&t](int modes) {
         Settings s = t.settings;
         s.modes = modes;
-        return t.scheme->make(t.scene, s)->dofs();
+        return made(*t.scheme, t.scene, s)->dofs();
     };
     try {
         return dofs(5) != dofs(6);
