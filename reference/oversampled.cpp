@@ -50,12 +50,12 @@ std::vector<const Descriptor*> stand_ins(const Scene& scene) {
     return able;
 }
 
-double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings& settings, int multiple) {
+double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings& settings, int multiple, const RunOptions& options) {
     Scene start = scene;
     start.duration = std::min(scene.duration, trial);
     double worst = 0;
     try {
-        const Oversampled o = oversampled(scheme, start, settings, multiple);
+        const Oversampled o = oversampled(scheme, start, settings, multiple, options);
         if (o.estimates.empty()) return HUGE_VAL;
         for (const auto& tap : o.estimates) worst = std::max(worst, tap.back().error);
     } catch (const Refusal&) {
@@ -65,12 +65,12 @@ double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings&
 }
 
 const Descriptor* best_by_estimate(const std::vector<const Descriptor*>& candidates, const Scene& scene, const Settings& settings,
-                                   int multiple) {
+                                   int multiple, const RunOptions& options) {
     if (candidates.size() < 2) return candidates.empty() ? nullptr : candidates.front();
     const Descriptor* best = candidates.front();
     double least = HUGE_VAL;
     for (const Descriptor* d : candidates)
-        if (const double error = estimate_of(*d, scene, settings, multiple); error < least) least = error, best = d;
+        if (const double error = estimate_of(*d, scene, settings, multiple, options); error < least) least = error, best = d;
     return best;
 }
 

@@ -52,13 +52,14 @@ void run_oversampled(Reference& r, const Scene& scene, Done& done) {
 }
 
 // Schemes that may stand in, in order of what they estimate their own error to be.
-void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene) {
-    if (choices.size() < 2) return;
+void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene, const ProgressOf& progress) {
+    RunOptions options;
+    options.progress = progress;
     std::vector<std::pair<double, ReferenceChoice>> tried;
     for (ReferenceChoice& c : choices) {
         Settings coarsest = c.settings;
         coarsest.sample_rate /= c.oversampled;
-        tried.emplace_back(estimate_of(*c.scheme, scene, coarsest, c.oversampled), std::move(c));
+        tried.emplace_back(estimate_of(*c.scheme, scene, coarsest, c.oversampled, options), std::move(c));
     }
     std::ranges::stable_sort(tried, {}, [](const auto& t) { return t.first; });
     for (std::size_t i = 0; i < tried.size(); ++i) choices[i] = std::move(tried[i].second);
@@ -79,8 +80,11 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
     bool ordered = false;
     std::vector<ReferenceChoice> in_turn = choices;
     for (std::size_t k = 0; k < in_turn.size(); ++k) try {
-            if (in_turn[k].oversampled && !ordered) least_error_first({in_turn.begin() + static_cast<long>(k), in_turn.end()}, scene);
-            ordered = ordered || in_turn[k].oversampled;
+            if (in_turn[k].oversampled && k + 1 < in_turn.size() && !ordered) {
+                const std::span<ReferenceChoice> rest(in_turn.begin() + static_cast<long>(k), in_turn.end());
+                side_by_side({1}, 1, console, "stand-in", [&](std::size_t, Done& done) { least_error_first(rest, scene, told_to(done)); });
+                ordered = true;
+            }
             const ReferenceChoice& choice = in_turn[k];
             Reference r{choice, {}, {}, {}};
             side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, Done& done) {
