@@ -19,10 +19,7 @@ class PlainTwoPoint final : public Scheme {
 
 public:
     PlainTwoPoint(const Scene& scene, const Settings& settings)
-        : scene_(scene),
-          string_(scene.strings.front()),
-          ratio_(steps_per_row(settings)),
-          modes_(modes_of(string_, settings)) {
+        : scene_(scene), string_(scene.strings.front()), ratio_(steps_per_row(settings)), modes_(modes_of(string_, settings)) {
         const Real dt = 1 / static_cast<Real>(settings.sample_rate);
         const int M = modes_.count();
         const Real xi = dt * dt / (2 * static_cast<Real>(modes_.mass));
