@@ -23,6 +23,14 @@ Confirmation confirmation_of(const Descriptor& reference, const Scene& scene) {
     return reference.confirmation ? reference.confirmation(scene) : Confirmation{};
 }
 
+double finest_rate(const CertifySettings& settings) {
+    return settings.oversampled_rate > 0 ? settings.oversampled_rate : 64 * settings.tap_rate;
+}
+
+Settings coarsest(const CertifySettings& settings) {  // of the oversampled runs
+    return {finest_rate(settings) / multiple, settings.tap_rate, settings.modes, {}};
+}
+
 std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
     std::vector<const Descriptor*> able;
     for (const Descriptor& r : references())
@@ -33,14 +41,11 @@ std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
     if (able.size() == 1)
         for (const Options& o : confirmation_of(*able.front(), scene).other_methods) jobs.push_back({able.front(), o, false});
     if (jobs.empty() || settings.oversampled_rate > 0)
-        if (const Descriptor* scheme = stand_in(scene)) jobs.push_back({scheme, {}, true});
+        if (const Descriptor* scheme = best_by_estimate(stand_ins(scene), scene, coarsest(settings), multiple))
+            jobs.push_back({scheme, {}, true});
     if (jobs.empty())
         throw Refusal("no reference and no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
     return jobs;
-}
-
-double finest_rate(const CertifySettings& settings) {
-    return settings.oversampled_rate > 0 ? settings.oversampled_rate : 64 * settings.tap_rate;
 }
 
 Certificate head(const Scene& scene, const CertifySettings& settings) {

@@ -50,8 +50,8 @@ public:
     std::vector<Fact> facts() const override;
 
 private:
-    bool interval(bool probe) noexcept;                                                 // to the next row
-    bool stretch(double from, double to, bool plucked, bool probe) noexcept;            // within one interval
+    bool interval(const Block& out) noexcept;                                           // to the next row
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;      // within one interval
     double window(double left, bool plucked, double since_pluck, bool probe) noexcept;  // how far it came
     double resolve(double longest, bool plucked, double since_pluck, int p_terms) noexcept;
     double bound(int point, double z, int p_terms, double growth) const noexcept;
@@ -135,13 +135,13 @@ Status ExactContact::advance(const Block& out) noexcept {
             out.energy[out.stride + row] = supplied_;
             out.energy[2 * out.stride + row] = dissipated_;
         }
-        if (!interval(out.energy != nullptr)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
+        if (!interval(out)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
         ++row_;
     }
     return {};
 }
 
-bool ExactContact::interval(bool probe) noexcept {
+bool ExactContact::interval(const Block& out) noexcept {
     bridge_impulse_ = thread_impulse_ = supplied_ = dissipated_ = 0;
     double from = interval_, to = interval_;  // of the pluck within this interval
     if (!pluck_.empty()) {
@@ -149,15 +149,15 @@ bool ExactContact::interval(bool probe) noexcept {
         from = std::clamp(start * osc_.rate, 0.0, interval_);
         to = std::clamp((start + pluck_[0].duration) * osc_.rate, 0.0, interval_);
     }
-    return stretch(0, from, false, probe) && stretch(from, to, true, probe) && stretch(to, interval_, false, probe);
+    return stretch(0, from, false, out) && stretch(from, to, true, out) && stretch(to, interval_, false, out);
 }
 
-bool ExactContact::stretch(double from, double to, bool plucked, bool probe) noexcept {
+bool ExactContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
     for (double at = from; at < to;) {
         const double left = to - at;
         const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / osc_.rate) : 0;
-        const double step = window(left, plucked, since_pluck, probe);
-        if (!(step >= 0)) return false;
+        const double step = window(left, plucked, since_pluck, out.energy != nullptr);
+        if (!(step >= 0) || out.stopped()) return false;
         idle_ = step > 1e-15 * interval_ ? 0 : idle_ + 1;
         if (idle_ > 1000) return false;
         at = step == left ? to : at + step;
@@ -342,6 +342,7 @@ double ExactContact::stored() const noexcept {
 std::vector<Fact> ExactContact::facts() const {
     return {{facts::events, extremes_.events},
             {facts::contact_points, double(springs_.contacts)},
+            {facts::coupled_contact_points, double(springs_.contacts)},
             {facts::windows, extremes_.windows},
             {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
             {facts::deepest_penetration, extremes_.deepest},
@@ -356,9 +357,9 @@ std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settin
     if (!(window > 0 && window <= 1)) throw Refusal("option window: expected a factor above 0 and no larger than 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    const int modes = modes_for(scene.strings.at(0), unsampled);
-    const String s = with_points(scene.strings.at(0), modes, profile_points(settings));
-    return std::make_unique<ExactContact>(s, scene, modes_of(s, modes), settings.tap_rate, window);
+    Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
+    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, window);
 }
 }  // namespace
 

@@ -43,6 +43,7 @@ Flight flight(double omega0, double sigma, long double t) {
 }
 
 constexpr int nodes = 16;
+constexpr long panels_between_questions = 16;  // (Block::stopped)
 
 class ExactLinear final : public Scheme {
 public:
@@ -55,12 +56,12 @@ private:
     struct State {
         std::vector<double> y, v;
     };
-    void next_row(bool probe) noexcept;
+    void next_row(const Block& out) noexcept;
     void fly(const State& from, long double t, State& to) const noexcept;
     void push(State&, double from, double to) const noexcept;  // free flight and the pluck's force, one panel
     void ledger(double from, double to) noexcept;              // from state_, energies of one panel by quadrature
     double stored() const noexcept;
-    int panels(double length) const noexcept { return std::max(1, static_cast<int>(std::ceil(length * rate_ / 3))); }
+    long panels(double length) const noexcept { return static_cast<long>(std::clamp(std::ceil(length * rate_ / 3), 1.0, 1e18)); }
 
     Modes modes_;
     Readout readout_;
@@ -107,12 +108,13 @@ Status ExactLinear::advance(const Block& out) noexcept {
             out.energy[out.stride + row] = supplied_;
             out.energy[2 * out.stride + row] = dissipated_;
         }
-        next_row(out.energy != nullptr);
+        next_row(out);
     }
     return {};
 }
 
-void ExactLinear::next_row(bool probe) noexcept {
+void ExactLinear::next_row(const Block& out) noexcept {
+    const bool probe = out.energy != nullptr;
     supplied_ = dissipated_ = 0;
     const double interval = 1 / tap_rate_, now = row_ / tap_rate_;
     double cut[4] = {0, interval, interval, interval};  // free, plucked, free
@@ -124,11 +126,13 @@ void ExactLinear::next_row(bool probe) noexcept {
     for (int part = 0; part < 3; ++part) {
         if (!probe && !plucked) break;
         const double length = cut[part + 1] - cut[part];
-        const int count = length > 0 ? panels(length) : 0;
-        for (int k = 0; k < count; ++k) {
-            const double a = now + cut[part] + length * k / count, b = now + cut[part] + length * (k + 1) / count;
+        const long count = length > 0 ? panels(length) : 0;
+        for (long k = 0; k < count; ++k) {
+            const double a = now + cut[part] + length * static_cast<double>(k) / static_cast<double>(count),
+                         b = now + cut[part] + length * static_cast<double>(k + 1) / static_cast<double>(count);
             if (probe) ledger(a, b);
             push(state_, a, b);
+            if (out.stopped(k, panels_between_questions)) return;
         }
     }
     ++row_;
@@ -192,7 +196,7 @@ std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settin
     const String& s = scene.strings.at(0);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    return std::make_unique<ExactLinear>(s, scene, modes_of(s, modes_for(s, unsampled)), settings.tap_rate);
+    return std::make_unique<ExactLinear>(s, scene, modes_of(s, unsampled), settings.tap_rate);
 }
 }  // namespace
 

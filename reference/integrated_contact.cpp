@@ -32,10 +32,11 @@ public:
     std::vector<Fact> facts() const override;
 
 private:
-    bool interval(bool probe) noexcept;                                        // to the next row
-    bool stretch(double from, double to, bool plucked, bool probe) noexcept;   // within one interval
-    double integrate(double left, bool plucked, double since_pluck) noexcept;  // no further than the next crossing; how far [1/rate]
-    void start(bool plucked, double since_pluck) noexcept;                     // y, u -> the integrator's state
+    bool interval(const Block& out) noexcept;                                       // to the next row
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;  // within one interval
+    double integrate(double left, bool plucked, double since_pluck,
+                     const Block& out) noexcept;            // no further than the next crossing; how far [1/rate]
+    void start(bool plucked, double since_pluck) noexcept;  // y, u -> the integrator's state
     void toggle(int contact) noexcept;
     double pace() noexcept;  // of the fastest motion [1/s]
     double stored() const noexcept;
@@ -105,13 +106,13 @@ Status IntegratedContact::advance(const Block& out) noexcept {
             out.energy[out.stride + row] = sums_.supplied;
             out.energy[2 * out.stride + row] = sums_.dissipated;
         }
-        if (!interval(out.energy != nullptr)) return {Outcome::not_converged, row_};
+        if (!interval(out)) return {Outcome::not_converged, row_};
         ++row_;
     }
     return {};
 }
 
-bool IntegratedContact::interval(bool probe) noexcept {
+bool IntegratedContact::interval(const Block& out) noexcept {
     sums_ = {};
     double from = interval_, to = interval_;  // of the pluck within this interval
     if (!pluck_.empty()) {
@@ -119,21 +120,21 @@ bool IntegratedContact::interval(bool probe) noexcept {
         from = std::clamp(start * flight_.osc.rate, 0.0, interval_);
         to = std::clamp((start + pluck_[0].duration) * flight_.osc.rate, 0.0, interval_);
     }
-    return stretch(0, from, false, probe) && stretch(from, to, true, probe) && stretch(to, interval_, false, probe);
+    return stretch(0, from, false, out) && stretch(from, to, true, out) && stretch(to, interval_, false, out);
 }
 
-bool IntegratedContact::stretch(double from, double to, bool plucked, bool probe) noexcept {
+bool IntegratedContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
     for (double at = from; at < to;) {
         const double left = to - at;
         const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.osc.rate) : 0;
         double step;
         if (exact_flight()) {
-            const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(), u_.data(), sums_, probe);
+            const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(), u_.data(), sums_, out.energy != nullptr);
             step = landing.length;
             leaving_ = -1;
             if (landing.contact >= 0) toggle(landing.contact);
-        } else step = integrate(left, plucked, since_pluck);
-        if (!(step >= 0)) return false;
+        } else step = integrate(left, plucked, since_pluck, out);
+        if (!(step >= 0) || out.stopped()) return false;
         idle_ = step > 1e-15 * interval_ ? 0 : idle_ + 1;
         if (idle_ > 1000) return false;
         at = step == left ? to : at + step;
@@ -141,10 +142,10 @@ bool IntegratedContact::stretch(double from, double to, bool plucked, bool probe
     return true;
 }
 
-double IntegratedContact::integrate(double left, bool plucked, double since_pluck) noexcept {
+double IntegratedContact::integrate(double left, bool plucked, double since_pluck, const Block& out) noexcept {
     if (!running_ || plucked != equations_.plucked) start(plucked, since_pluck);
     const double before = integrator_.time();
-    const auto stop = integrator_.advance(before + left / flight_.osc.rate);
+    const auto stop = integrator_.advance(before + left / flight_.osc.rate, out);
     if (stop == Integrator::Stop::failed) return -1;
     const double* z = integrator_.state();
     for (int i = 0; i < modes_.count(); ++i) {
@@ -264,9 +265,9 @@ std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settin
     i.order = static_cast<int>(order);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    const int modes = modes_for(scene.strings.at(0), unsampled);
-    const String s = with_points(scene.strings.at(0), modes, profile_points(settings));
-    return std::make_unique<IntegratedContact>(s, scene, modes_of(s, modes), settings.tap_rate, choice);
+    Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
+    return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate, choice);
 }
 
 // An integrator of another kind is there for scenes that nothing else can confirm.

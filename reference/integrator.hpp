@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "reference/string_equations.hpp"
+#include "schemes/scheme.hpp"
 
 namespace jvari {
 
@@ -21,7 +22,8 @@ class Integrator {
 public:
     struct Settings {
         Method method;
-        double tolerance;  // relative, per step; absolute: this times `floor` times the state's root mean square at the restart
+        double
+            tolerance;  // relative, per step; absolute: this times `floor` times the root of equations.scale_squared()/size at the restart
         double floor;
         LinearSolver solver;
         int order;  // highest, of the multi-step methods
@@ -34,8 +36,8 @@ public:
     void restart(double first_step, double longest_step) noexcept;  // from state() at time 0 [s]
 
     enum class Stop { reached, crossed, failed };
-    Stop advance(double to) noexcept;  // allocates nothing
-    int crossed() const noexcept;      // the contact
+    Stop advance(double to, const Block& out) noexcept;  // fails where the caller wants no more of `out`; allocates nothing
+    int crossed() const noexcept;                        // the contact
 
     struct Effort {  // and what the steps met
         double steps = 0, slopes = 0, solves = 0;

@@ -39,14 +39,38 @@ Oversampled oversampled(const Descriptor& scheme, const Scene& scene, const Sett
     return result;
 }
 
-const Descriptor* stand_in(const Scene& scene) {
-    const Descriptor* chosen = nullptr;
-    int best = 0;
+std::vector<const Descriptor*> stand_ins(const Scene& scene) {
+    std::vector<const Descriptor*> able;
     for (const Descriptor& d : schemes()) {
-        if (!(needed_by(scene) - d.represents).empty()) continue;
-        if (d.stand_in_rank > best) best = d.stand_in_rank, chosen = &d;
+        if (!(needed_by(scene) - d.represents).empty() || d.stand_in_rank < 1) continue;
+        if (!able.empty() && d.stand_in_rank > able.front()->stand_in_rank) able.clear();
+        if (able.empty() || d.stand_in_rank == able.front()->stand_in_rank) able.push_back(&d);
     }
-    return chosen;
+    return able;
+}
+
+double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings& settings, int multiple, const RunOptions& options) {
+    Scene start = scene;
+    start.duration = std::min(scene.duration, trial);
+    double worst = 0;
+    try {
+        const Oversampled o = oversampled(scheme, start, settings, multiple, options);
+        if (o.estimates.empty()) return HUGE_VAL;
+        for (const auto& tap : o.estimates) worst = std::max(worst, tap.back().error);
+    } catch (const Refusal&) {
+        return HUGE_VAL;
+    }
+    return worst;
+}
+
+const Descriptor* best_by_estimate(const std::vector<const Descriptor*>& candidates, const Scene& scene, const Settings& settings,
+                                   int multiple, const RunOptions& options) {
+    if (candidates.size() < 2) return candidates.empty() ? nullptr : candidates.front();
+    const Descriptor* best = candidates.front();
+    double least = HUGE_VAL;
+    for (const Descriptor* d : candidates)
+        if (const double error = estimate_of(*d, scene, settings, multiple, options); error < least) least = error, best = d;
+    return best;
 }
 
 }  // namespace jvari

@@ -33,7 +33,16 @@ struct Oversampled {
 // A run that fails ends the series: `run` is that run, with its status, and `estimates` is empty.
 Oversampled oversampled(const Descriptor&, const Scene&, const Settings&, int multiple, const RunOptions& = {});
 
-// The scheme that stands in where no reference represents the scene: of those that do, the first of the highest rank; or nullptr.
-const Descriptor* stand_in(const Scene&);
+// Those that may stand in where no reference represents the scene: of the schemes that do, those of the highest rank.
+std::vector<const Descriptor*> stand_ins(const Scene&);
+
+// What a scheme estimates its own error to be over the first `trial` of the scene, at the same rates as oversampled(): its worst tap.
+// Infinite where it refuses or fails.
+constexpr double trial = 10e-3;  // [s]
+double estimate_of(const Descriptor&, const Scene&, const Settings&, int multiple, const RunOptions& = {});
+
+// Of these the one that estimates its own error least, the first among equals; nullptr of none. One alone is not tried.
+const Descriptor* best_by_estimate(const std::vector<const Descriptor*>&, const Scene&, const Settings&, int multiple,
+                                   const RunOptions& = {});
 
 }  // namespace jvari

@@ -8,18 +8,10 @@
 namespace jvari {
 
 namespace {
-constexpr double near_node = 1e-9;  // of an interval of the grid, as in spatial_ports.cpp
-
-std::vector<double> positions(const ProfileBarrier& b, double spacing, bool grid) {
+std::vector<double> middles(const ProfileBarrier& b, int count) {
     std::vector<double> x;
-    if (!grid) {
-        const int count = static_cast<int>(std::round((b.to - b.from) / spacing));
-        for (int q = 0; q < count; ++q) x.push_back(b.from + (q + 0.5) * spacing);
-        return x;
-    }
-    const double slack = near_node * (1 + b.to / spacing);
-    for (double q = std::max(1.0, std::ceil(b.from / spacing - slack)); q <= b.to / spacing + slack; ++q)
-        x.push_back(std::clamp(q * spacing, b.from, b.to));
+    const double spacing = (b.to - b.from) / count;
+    for (int q = 0; q < count; ++q) x.push_back(b.from + (q + 0.5) * spacing);
     return x;
 }
 }  // namespace
@@ -44,8 +36,7 @@ String with_points(String s, int modes, ProfilePoints points) {
         profiles = true;
         const bool grid = points.count == 0;
         const double spacing = grid ? s.length / (modes + 1) : (b->to - b->from) / points.count;
-        auto x = positions(*b, spacing, grid);
-        std::erase_if(x, [&](double at) { return at >= s.length * (1 - near_node); });  // the string's end, which moves nothing
+        const auto x = grid ? nodes_on(*b, s.length, modes + 1).x : middles(*b, points.count);
         if (x.empty())
             throw Refusal("no node of a grid of " + std::to_string(modes) + " lies on a profile barrier; ask for more modes, or for nodes");
         const auto g = heights(b->curve, x);

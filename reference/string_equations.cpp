@@ -151,6 +151,14 @@ double StringEquations::potential(int a, double y) const noexcept {
     return point_[a].k * std::pow(std::abs(eta), point_[a].alpha + 1) / (point_[a].alpha + 1);
 }
 
+double StringEquations::scale_squared(const double* z) const noexcept {
+    double sum = 0, pressed = 0;
+    for (int i = 0; i < 2 * padded; ++i) sum += z[i] * z[i];
+    for (int a = 0; a < points; ++a)
+        if (acts(a)) pressed += potential(a, motion(a, z).y);
+    return std::max(sum, 2 * pressed / mass_);
+}
+
 // An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/sum(g^2/m_i) what the modes have there.
 // Points close to each other push the same modes: their stiffnesses add up, as Gershgorin's circles do.
 double StringEquations::pace(const double* z) const noexcept {

@@ -33,6 +33,8 @@ struct StringEquations {
     double penetration_speed(int contact, const double* z) const noexcept;  // [m/s]
     double contact_force(int contact, const double* z) const noexcept;      // [N], whether touched or not
     double potential(int point, double y) const noexcept;                   // [J], of a barrier or the thread
+    double scale_squared(
+        const double* z) const noexcept;          // sum of p^2 + v^2, or what barriers and thread press, 2 potential/m, where that is more
     double pace(const double* z) const noexcept;  // of the motion in contacts that are this deep and this fast, a bound [1/s]
 
     void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept;  // (I - gamma J(z)) x = b

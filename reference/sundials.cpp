@@ -268,16 +268,14 @@ void Integrator::restart(double first_step, double longest_step) noexcept {
     Library& l = *library_;
     l.first_step = first_step;
     l.longest_step = longest_step;
-    const double* z = l.state();
-    double sum = 0;
-    for (int i = 0; i < 2 * l.equations.padded; ++i) sum += z[i] * z[i];
-    l.floor = std::max(l.settings.floor * std::sqrt(sum / (2 * l.equations.padded)), 1e-30);  // [m/s]
+    // By what presses as well as by what moves: a string at rest that a barrier or a thread is about to push has no size of its own yet.
+    l.floor = std::max(l.settings.floor * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)), 1e-30);  // [m/s]
     for (int a = 0; a < l.equations.contacts; ++a) l.direction[a] = l.equations.touched[a] ? -1 : 1;
     l.look(l.depth);
     l.contact = l.reinit(0) ? -1 : -2;
 }
 
-Integrator::Stop Integrator::advance(double to) noexcept {
+Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
     Library& l = *library_;
     if (l.contact == -2) return Stop::failed;
     const int contacts = l.equations.contacts;
@@ -290,7 +288,7 @@ Integrator::Stop Integrator::advance(double to) noexcept {
         l.time_before = l.time;
         std::swap(l.depth, l.depth_before);
         const int result = l.step(target);
-        if (result < 0) return Stop::failed;
+        if (result < 0 || out.stopped()) return Stop::failed;
         l.contact = -1;
         if (result == CV_ROOT_RETURN) {
             const bool failed = multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) != CV_SUCCESS

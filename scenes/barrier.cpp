@@ -4,6 +4,7 @@
 #include <gsl/gsl_interp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -43,6 +44,14 @@ std::vector<double> heights(const Curve& curve, const std::vector<double>& x) {
 
 double height(const Curve& curve, double x) {
     return heights(curve, {x}).front();
+}
+
+ProfileNodes nodes_on(const ProfileBarrier& b, double length, int intervals) {
+    const double dx = length / intervals, slack = near_node * intervals;
+    ProfileNodes nodes{std::max(1, static_cast<int>(std::ceil(b.from / dx - slack))), {}};
+    const int last = std::min(intervals - 1, static_cast<int>(std::floor(b.to / dx + slack)));
+    for (int i = nodes.first; i <= last; ++i) nodes.x.push_back(std::clamp(i * dx, b.from, b.to));
+    return nodes;
 }
 
 double contact_modulus(double young1, double poisson1, double young2, double poisson2) {

@@ -11,6 +11,15 @@ double height(const Curve&, double x);
 // The same for many positions at once (a table's spline is made once).
 std::vector<double> heights(const Curve&, const std::vector<double>& x);
 
+// The nodes first, first + 1, ... of a grid of L/intervals that lie on a profile, the string's ends left out; x [m], on the profile. An end
+// of the profile that is a node to within near_node of the string's length is on it: both are rounded.
+constexpr double near_node = 1e-9;
+struct ProfileNodes {
+    int first;
+    std::vector<double> x;
+};
+ProfileNodes nodes_on(const ProfileBarrier&, double length, int intervals);
+
 // Contact modulus E* [Pa] from Young's moduli [Pa] and Poisson's ratios   (van Walstijn et al. 2016, eq 55)
 double contact_modulus(double young1, double poisson1, double young2, double poisson2);
 

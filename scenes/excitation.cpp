@@ -28,8 +28,8 @@ double hann_smoothing(double beta, double s) {
 }
 
 double coefficient(const TriangleInitial& t, double length, int mode) {
-    const double beta = mode * pi / length, x0 = t.position;
-    return 2 * t.amplitude * length * length / (mode * mode * pi * pi * x0 * (length - x0)) * std::sin(beta * x0) *
+    const double beta = mode * pi / length, x0 = t.position, number = mode;  // its square passes what an int holds
+    return 2 * t.amplitude * length * length / (number * number * pi * pi * x0 * (length - x0)) * std::sin(beta * x0) *
            hann_smoothing(beta, t.smoothing);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "scenes/damping.hpp"
 #include "scenes/excitation.hpp"
@@ -32,16 +33,19 @@ struct DecayOf {
 struct OneMode {
     double beta, omega0, sigma;
 };
-OneMode mode_of(const String& s, int i) {
-    const double beta = i * pi / s.length;
+double undamped_frequency(const String& s, int i) {  // omega0 of mode i [rad/s]
     const auto* table = std::get_if<TableDamping>(&s.damping);
-    const double omega0 = table ? 2 * pi * table->frequency_hz[i - 1] : stiff_string_frequency(s, beta);
+    return table ? 2 * pi * table->frequency_hz[i - 1] : stiff_string_frequency(s, i * pi / s.length);
+}
+OneMode mode_of(const String& s, int i) {
+    const double beta = i * pi / s.length, omega0 = undamped_frequency(s, i);
     return {beta, omega0, std::visit(DecayOf{s, i, beta, omega0}, s.damping)};
 }
 
-int modes_available(const String& s) {
+std::optional<int> modes_measured(const String& s) {
     const auto* table = std::get_if<TableDamping>(&s.damping);
-    return table ? static_cast<int>(std::min(table->frequency_hz.size(), table->decay_rate.size())) : 1 << 20;
+    if (!table) return {};
+    return static_cast<int>(std::min(table->frequency_hz.size(), table->decay_rate.size()));
 }
 }  // namespace
 
@@ -50,9 +54,11 @@ double omega_squared_damped(double omega0, double sigma) {
 }
 
 Modes modes_of(const String& s, int count) {
-    if (count > modes_available(s))
-        throw BadScene("string.damping.file", std::to_string(modes_available(s)) + " measured modes",
+    if (const auto measured = modes_measured(s); measured && count > *measured)
+        throw BadScene("string.damping.file", std::to_string(*measured) + " measured modes",
                        "at least the " + std::to_string(count) + " modes asked for");
+    if (count > most_modes)
+        throw BadScene("modes", std::to_string(count) + " of them asked for", "no more than " + std::to_string(most_modes));
     Modes modes;
     modes.mass = 0.5 * s.linear_density * s.length;
     for (int i = 1; i <= count; ++i) {
@@ -66,12 +72,13 @@ Modes modes_of(const String& s, int count) {
 
 int modes_below(const String& s, double hertz) {
     const double limit = 2 * pi * hertz;
-    int i = 0;
-    for (const int last = modes_available(s); i < last; ++i) {
-        const auto [beta, omega0, sigma] = mode_of(s, i + 1);
-        if (omega_squared_damped(omega0, sigma) >= limit * limit) break;
+    int low = 0, high = modes_measured(s).value_or(most_modes + 1);  // frequencies ascend: mode `low` is below, mode `high` + 1 is not
+    while (low < high) {
+        const int middle = low + (high - low + 1) / 2;
+        if (undamped_frequency(s, middle) < limit) low = middle;
+        else high = middle - 1;
     }
-    return i;
+    return low;
 }
 
 std::vector<double> displacement_weights(const Modes& modes, double position) {

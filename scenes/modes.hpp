@@ -15,10 +15,12 @@ struct Modes {
     int count() const { return static_cast<int>(beta.size()); }
 };
 
-// The first `count` modes. Throws BadScene where a table of measured modes has fewer rows.
+constexpr int most_modes = 1 << 20;  // of a string
+
+// The first `count` modes. Throws BadScene where a table of measured modes has fewer rows, or no string has as many.
 Modes modes_of(const String&, int count);
 
-// How many modes have a frequency below `hertz` (damped frequency; an overdamped mode counts as below).
+// How many modes have an undamped frequency below `hertz`, so that the number does not depend on the losses; it ends at most_modes + 1.
 int modes_below(const String&, double hertz);
 
 double omega_squared_damped(double omega0, double sigma);  // omega^2 = omega0^2 - sigma^2, negative where overdamped [rad^2/s^2]

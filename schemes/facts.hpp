@@ -18,6 +18,7 @@ struct FactName {
     FACT(deepest_penetration, "m", "deepest that the string went below an obstacle's surface")                                         \
     FACT(contact_points, "", "points at which the obstacle's force acts")                                                              \
     FACT(contact_solves, "", "contact equations solved")                                                                               \
+    FACT(coupled_contact_points, "", "points whose forces are solved for together: what a step of a dense contact costs grows with their cube") \
     FACT(contact_iterations_mean, "", "iterations of the contact solver, mean over the steps")                                         \
     FACT(contact_iterations_most, "", "iterations of the contact solver, most in one step")                                            \
     FACT(contact_residual, "", "largest residual that the contact solver left")                                                        \

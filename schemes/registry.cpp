@@ -38,6 +38,17 @@ const Plugin& load_plugin(const std::string& path) {
     if (plugin->abi != plugin_abi)
         throw std::runtime_error("plugin " + path + " has interface " + std::to_string(plugin->abi) + ", this program has " +
                                  std::to_string(plugin_abi) + ": compile it with the headers and the compiler of this program");
+    const auto must = [&path](bool good, const std::string& wrong) {
+        if (!good) throw std::runtime_error("plugin " + path + " " + wrong);
+    };
+    must(plugin->count >= 0, "says that it has " + std::to_string(plugin->count) + " schemes");
+    must(plugin->table || plugin->count == 0, "says that it has " + std::to_string(plugin->count) + " schemes and shows none");
+    for (int i = 0; i < plugin->count; ++i) {
+        const Descriptor& d = plugin->table[i];
+        must(d.name && *d.name, "has no name for its scheme " + std::to_string(i));
+        must(d.source, "has no source for its scheme " + std::string(d.name));
+        must(d.make, "has nothing that makes its scheme " + std::string(d.name));
+    }
     auto& all = kept_plugins();
     if (std::none_of(all.begin(), all.end(), [plugin](const LoadedPlugin& l) { return l.plugin == plugin; })) all.push_back({path, plugin});
     return *plugin;

@@ -9,9 +9,15 @@
 namespace jvari {
 
 struct RunOptions {
-    bool energy = false;                                      // fill the energy columns
-    int block_rows = 64;                                      // rows per advance(); the output does not depend on it
-    std::function<void(long done, long rows)> progress = {};  // called between blocks where set
+    bool energy = false;  // fill the energy columns
+    int block_rows = 64;  // rows per advance(); the output does not depend on it
+
+    // Told how far the run is, every few hundredths of a second where the scheme asks within its rows (Block::stop), else between blocks,
+    // which are then as short as that. What it throws ends the run and comes out of it.
+    std::function<void(long done, long rows)> progress = {};
+
+    // Told once, between two blocks, that the run has taken `long_run` and what the scheme says of itself.
+    std::function<void(long done, long rows, const std::vector<Fact>&)> slow = {};
 };
 
 struct Run {
@@ -27,12 +33,13 @@ struct Run {
 // A run whose stored energy exceeds this many times what was there at the start and has been supplied since has diverged
 // (seen where the energy is probed; a value that is not finite is always seen).
 constexpr double energy_budget = 10;
+constexpr double long_run = 2;  // [s] of computing
 
 // True energy, as a part of what there was, that a scheme without a promised balance may gain and still count as sound.
 constexpr double gain_allowed_unpromised = 1e-2;
 
-// rows = round(duration x tap_rate) + 1. Denormals are flushed to zero while stepping. Throws Refusal or BadScene before the first step;
-// a run that fails on the way ends with its status and the rows that are valid.
+// rows = round(duration x tap_rate) + 1. Denormals are flushed to zero while stepping. Throws Refusal or BadScene before the first step,
+// and BadScheme at any time; a run that fails on the way ends with its status and the rows that are valid.
 Run run(const Descriptor&, const Scene&, const Settings&, const RunOptions& = {});
 Run run(Scheme&, const Scene&, const Settings&, const RunOptions& = {});  // an existing scheme, from t = 0
 

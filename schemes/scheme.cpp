@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "scenes/modes.hpp"
 
@@ -63,7 +64,10 @@ std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& s
     validate(scene);
     refuse_missing(descriptor, scene);
     refuse_undeclared(descriptor, settings);
-    return descriptor.make(descriptor, scene, settings);
+    auto scheme = heard("is made", [&] { return descriptor.make(descriptor, scene, settings); });
+    if (!scheme)
+        throw BadScheme(std::string(descriptor.name) + " makes no scheme of scene " + scene.name + ", and does not refuse it either");
+    return scheme;
 }
 
 int steps_per_row(const Settings& s) {
@@ -71,12 +75,29 @@ int steps_per_row(const Settings& s) {
     if (!(whole >= 1) || std::abs(ratio - whole) > 1e-9 * whole)
         throw Refusal("the sample rate " + std::to_string(s.sample_rate) + " Hz is no whole multiple of the tap rate " +
                       std::to_string(s.tap_rate) + " Hz");
+    if (whole > std::numeric_limits<int>::max())
+        throw Refusal("the sample rate is " + std::to_string(whole) + " times the tap rate; no more than " +
+                      std::to_string(std::numeric_limits<int>::max()) + " steps fit between two rows");
     return static_cast<int>(whole);
 }
 
+namespace {
+double default_limit(const Settings& s) {  // of the modes that are carried unasked [Hz]
+    return s.sample_rate > 0 ? std::min(20e3, 0.5 * s.sample_rate) : 20e3;
+}
+}  // namespace
+
 int modes_for(const String& string, const Settings& s) {
-    if (s.modes > 0) return s.modes;
-    return modes_below(string, s.sample_rate > 0 ? std::min(20e3, 0.5 * s.sample_rate) : 20e3);
+    return s.modes > 0 ? s.modes : modes_below(string, default_limit(s));
+}
+
+Modes modes_of(const String& string, const Settings& s) {
+    const int count = modes_for(string, s);
+    if (count > 0 && count <= most_modes) return modes_of(string, count);
+    const std::string limit = std::to_string(std::lround(default_limit(s))) + " Hz";
+    if (count == 0) throw Refusal("the string has no mode below " + limit + ", where a scheme stops unasked: say how many it is to carry");
+    throw Refusal("the string has " + (s.modes > 0 ? std::to_string(count) + " modes" : "too many modes below " + limit) +
+                  "; no more than " + std::to_string(most_modes) + " are carried");
 }
 
 std::string option(const Settings& s, const Option& o) {

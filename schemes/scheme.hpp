@@ -16,13 +16,23 @@
 
 namespace jvari {
 
+struct Modes;
+
 // A window of the caller's trace: column-major, one row per tap interval.
 struct Block {
     int rows = 0, taps = 0;
     long stride = 0;           // rows of the whole trace
     double* tap = nullptr;     // one column per tap of the scene
     double* energy = nullptr;  // three columns: stored, supplied, dissipated [J]; nullptr = not probed
+
+    // Whether the caller wants no more of this run: advance() then returns at once, and nobody looks at what it returns or wrote. A scheme
+    // asks within a row, every few milliseconds of work, so that a long row can be ended; between blocks the caller sees to it itself.
+    bool (*stop)(void* caller) = nullptr;  // nullptr: never
+    void* caller = nullptr;
+    bool stopped() const noexcept { return stop && stop(caller); }
+    bool stopped(long step, long every) const noexcept { return step % every == every - 1 && stopped(); }
 };
+constexpr long steps_between_questions = 1024;  // of a step that takes microseconds at most
 
 enum class Outcome { ok, diverged, not_converged };
 const char* name_of(Outcome);
@@ -110,6 +120,23 @@ struct Confirmation {
     std::vector<OptionValues> other_methods = {};  // another method, for a scene that no other reference represents
 };
 
+// A scheme that breaks this contract: makes nothing, throws what says nothing, reports what cannot be.
+struct BadScheme : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// What a scheme does outside its noexcept part: what it throws has a sentence to it.
+template <class Do>
+auto heard(const char* doing, Do act) {
+    try {
+        return act();
+    } catch (const std::exception&) {
+        throw;
+    } catch (...) {
+        throw BadScheme(std::string("the scheme throws something that is no std::exception while it ") + doing);
+    }
+}
+
 enum class Balance { exact, to_tolerance, none };  // what the energy columns promise
 enum class Clock { stepped, continuous };          // continuous: a reference that has no sample rate
 
@@ -131,13 +158,14 @@ struct Descriptor {
 Features approximated(const Descriptor&);
 
 // The only way to make a scheme: refuses a scene that cannot be, features that the scheme does not represent, options that it does not
-// declare and words that an option does not take, then calls `make`.
+// declare and words that an option does not take, then calls `make`. Throws Refusal, BadScene, or BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
 
 // ---- Checks and values for `make`.
 
-int steps_per_row(const Settings&);             // sample_rate/tap_rate; Refusal unless a whole number >= 1
-int modes_for(const String&, const Settings&);  // settings.modes, or every mode below min(20 kHz, sample_rate/2)
+int steps_per_row(const Settings&);              // sample_rate/tap_rate; Refusal unless a whole number from 1 to 2^31 - 1
+int modes_for(const String&, const Settings&);   // settings.modes, or every mode below min(20 kHz, sample_rate/2)
+Modes modes_of(const String&, const Settings&);  // those; Refusal where there is none, or more than most_modes
 
 bool declares(const Descriptor&, const std::string& option_name);
 

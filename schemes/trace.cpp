@@ -15,7 +15,8 @@ double largest(std::span<const double> x) {
 }  // namespace
 
 long row_at(double seconds, double rate) {
-    return std::max(0L, static_cast<long>(std::ceil(seconds * rate - 1e-6)));
+    const double row = std::ceil(seconds * rate - 1e-6);
+    return row > 0 ? static_cast<long>(std::min(row, 1e18)) : 0;  // "until the end" is a very late instant
 }
 
 double relative_difference(std::span<const double> a, std::span<const double> b) {

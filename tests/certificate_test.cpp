@@ -69,6 +69,36 @@ TEST(Oversampled, EstimatesNoLessThanItsErrorAgainstTheExactReference) {
     }
 }
 
+TEST(StandIn, IsTheSchemeThatErrsLeastAndSaysSoItself) {  // two strings: grids alone represent them; each string is the exact one's
+    Scene one = c3_free();
+    one.duration = 10e-3;
+    one.strings.front().initial = ModeInitial{4, 1e-3};
+    one.taps = {{"nut", Quantity::nut_force, {}, 0}};
+    Scene two = one;
+    two.strings.push_back(two.strings.front());
+    const auto able = stand_ins(two);
+    ASSERT_GE(able.size(), 2u);
+    const Settings coarsest{44100, 44100, 0, {}};
+    const Descriptor* best = best_by_estimate(able, two, coarsest, 4);
+    ASSERT_NE(best, nullptr);
+    const auto truth = run(exact_linear, one, {0, 44100, 133, {}});
+    std::vector<double> twice;
+    for (const double v : truth.trace.column(0)) twice.push_back(2 * v);
+    const auto error = [&](const Descriptor& d) {
+        return relative_difference(oversampled(d, two, coarsest, 4).run.trace.column(0), twice, 44100, 1);
+    };
+    const double chosen = error(*best);
+    for (const Descriptor* d : able) EXPECT_LE(chosen, error(*d)) << d->name << " errs less than " << best->name;
+    EXPECT_NE(best, able.front());  // which stood in before
+}
+
+TEST(StandIn, OfOneStringCarriesItsModes) {
+    const auto able = stand_ins(c3_release());
+    ASSERT_EQ(able.size(), 1u);
+    EXPECT_STREQ(able.front()->name, "modal_spatial_newton");
+    EXPECT_EQ(best_by_estimate({}, c3_release(), {44100, 44100, 0, {}}, 4), nullptr);
+}
+
 TEST(Oversampled, SeesTheSchemesOrderWhereThereIsNoContact) {  // a grid's dispersion is of second order
     Scene scene = lossless(c3_free());
     scene.strings.front().initial = TriangleInitial{0.3, 1e-3, 0.3};

@@ -387,7 +387,7 @@ TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
     EXPECT_NE(reference["note"].get<std::string>().find("stands in"), std::string::npos);
 
     const Scene scene = short_scene("sitar_c5_two_planes", 0.02);
-    const Oversampled own = oversampled(*stand_in(scene), scene, {88200, 44100, 0, {}}, 4);
+    const Oversampled own = oversampled(*stand_ins(scene).front(), scene, {88200, 44100, 0, {}}, 4);
     const Table t = read_csv(content(out + "/cells.csv"));
     for (std::size_t tap = 0; tap < scene.taps.size(); ++tap) {
         EXPECT_EQ(t.number(0, "certificate_l2_10ms_" + scene.taps[tap].name), own.estimates[tap].front().error);

@@ -299,6 +299,69 @@ TEST(CommandLine, ComparedSchemesThatFailOrRefuseAreRowsAndDecideTheExitCodeOnly
     EXPECT_EQ(jvari(scratch, "compare tanpura_c3 --schemes stumbling --duration 0.01 --rates 44100 --repeats 1" + plugin).code, 3);
 }
 
+std::string bad_plugin(int kind) {
+    return std::string(" --plugin ") + JVARI_BAD_PLUGINS + std::to_string(kind) + ".so";
+}
+
+TEST(BadPlugin, ATableThatIsNoneIsASentence) {
+    const Scratch scratch;
+    const char* const says[] = {"",
+                                "says that it has 3 schemes and shows none",
+                                "says that it has -1 schemes",
+                                "has no name for its scheme 0",
+                                "has no source for its scheme bad_sourceless",
+                                "has nothing that makes its scheme bad_makeless"};
+    for (int kind = 1; kind <= 5; ++kind) {
+        const Outcome o = jvari(scratch, "list schemes" + bad_plugin(kind));
+        EXPECT_EQ(o.code, 2) << kind;
+        EXPECT_NE(o.err.find(says[kind]), std::string::npos) << o.err;
+    }
+}
+
+TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
+    const Scratch scratch;
+    const char* const names[] = {
+        "bad_throws", "bad_throws_a_number", "bad_makes_nothing", "bad_facts", "bad_facts_of_a_number", "bad_outcome", "bad_step"};
+    std::string schemes = "modal_two_point";
+    for (const std::string name : names) {
+        const Outcome o = jvari(scratch, "run free_string --duration 0.01 --scheme " + name + bad_plugin(0));
+        EXPECT_EQ(o.code, 4) << name;
+        EXPECT_GT(o.err.size(), 20u) << name;
+        schemes += "," + name;
+    }
+    const std::string out = scratch / "cmp";
+    const Outcome o = jvari(scratch, "compare free_string --duration 0.01 --repeats 1 --rates 44100 --json --schemes " + schemes +
+                                         " --out " + out + bad_plugin(0));
+    ASSERT_EQ(o.code, 0) << o.err;
+    const Table cells = read_csv(content(out + "/cells.csv"));
+    ASSERT_EQ(cells.rows.size(), 8u);
+    EXPECT_EQ(cells.at(0, "status"), "ok");
+    EXPECT_EQ(cells.at(1, "reason"), "not made today");
+    for (std::size_t i = 1; i < 8; ++i) EXPECT_GT(cells.at(i, "reason").size(), 10u) << i;
+}
+
+TEST(CommandLine, AReferenceThatFailsOnItsWayIsARowOfEveryVerb) {
+    const Scratch scratch;
+    const std::string failing = " --set string.0.barrier.0.stiffness=1e300 --duration 0.002";
+    const Outcome ran = jvari(scratch, "run tanpura_c3_release --scheme sundials --energy" + failing);
+    EXPECT_EQ(ran.code, 4) << ran.err;
+    EXPECT_EQ(ran.err.find("-92233"), std::string::npos) << ran.err;
+    const Outcome certified = jvari(scratch, "certify tanpura_c3_release --modes 20 --out " + (scratch / "c.json") + failing);
+    EXPECT_TRUE(certified.code == 0 || certified.code == 4) << certified.code << certified.err;
+    const Outcome compared =
+        jvari(scratch, "compare tanpura_c3_release --schemes sundials,modal_two_point --rates 44100 --repeats 1" + failing, "JVARI_CACHE=");
+    EXPECT_TRUE(compared.code == 0 || compared.code == 4) << compared.code << compared.err;
+}
+
+TEST(CommandLine, AStringWithoutAModeIsRefusedByWhatCarriesModes) {
+    const Scratch scratch;
+    const std::string taut = " --set string.0.tension=1e9 --duration 0.001";  // the first mode at 720 kHz
+    for (const char* scheme : {"modal_two_point", "modal_spatial_newton", "modal_quadratised", "modal_explicit_penalty", "exact_linear"}) {
+        const Outcome o = jvari(scratch, std::string("run ") + "free_string --scheme " + scheme + taut);
+        EXPECT_EQ(o.code, 3) << scheme << o.err;
+    }
+}
+
 TEST(CommandLine, WithoutNodePackagesTheTablesStillComeAndALineSaysWhatIsMissing) {
     const Scratch scratch;
     const std::string out = scratch / "cmp";

@@ -9,6 +9,7 @@
 
 #include "c3.hpp"
 #include "reference/references.hpp"
+#include "scenes/barrier.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -626,6 +627,41 @@ TEST(GridContact, ForceOfAProfileIsTheIntegralOfItsDensityOverTheString) {
             EXPECT_NEAR(r.trace.column(0)[n], want, 0.01 * want) << name << " " << n;
         }
     }
+}
+
+TEST(GridContact, AProfileThatEndsOnANodeHasIt) {  // whatever the rounding of both
+    int missed = 0, tried = 0;
+    for (const double length : {0.8, 1.0, 1.002, 0.65, 0.333})
+        for (int intervals = 7; intervals < 300; intervals += 4)
+            for (int node = 1; node < intervals; node += 3) {
+                ProfileBarrier b;
+                b.to = length * node / intervals;
+                const auto nodes = nodes_on(b, length, intervals);
+                missed += nodes.first != 1 || static_cast<int>(nodes.x.size()) != node || nodes.x.back() > b.to;
+                b.from = b.to;
+                b.to = length;
+                const auto rest = nodes_on(b, length, intervals);  // the string's end is none
+                missed += rest.first != node || static_cast<int>(rest.x.size()) != intervals - node || rest.x.front() < b.from;
+                ++tried;
+            }
+    EXPECT_GT(tried, 3000);
+    EXPECT_EQ(missed, 0);
+
+    Scene scene = c3_free();
+    scene.duration = 1e-3;
+    scene.strings.front().length = 0.8;
+    scene.strings.front().barriers = {ProfileBarrier{FlatCurve{}, 0, 0.08, {5e8}, 1, 0}};
+    scene.taps = {{"nut", Quantity::nut_force, 0, 0}};
+    for (const char* name : all) EXPECT_EQ(fact(run_at(name, scene, 176400, {{"grid", "150"}}), "contact_points"), 15) << name;
+}
+
+TEST(GridContact, ManyCoupledPointsAreToldAndTooManyRefused) {
+    Scene scene = c3_free();
+    scene.duration = 1e-3;
+    scene.strings.front().barriers = {ProfileBarrier{FlatCurve{}, 0, 0.5, {5e8}, 1, 0}};
+    EXPECT_EQ(fact(run_at(theta_, scene, 44100, {{"grid", "50"}}), "coupled_contact_points"), 25);
+    scene.strings.front().bending_stiffness = 0;
+    EXPECT_THROW(run_at(explicit_, scene, 44100 * 256, {{"grid", "20000"}}), Refusal);
 }
 
 TEST(GridContact, MomentumOfTheStringIsTheImpulseOfAllForces) {

@@ -25,6 +25,45 @@ TEST(Modes, TheC3StringHas133ModesBelow20kHz) {
     EXPECT_NEAR(std::sqrt(omega_squared_damped(m.omega0.back(), m.sigma.back())) / (2 * std::numbers::pi), 19986, 1);
 }
 
+TEST(Modes, HowManyLieBelowALimitDoesNotDependOnTheLosses) {
+    String s = c3();
+    const int lossless = modes_below(s, 20e3);
+    s.damping = PolynomialDamping{0.6, 6.5e-3, 1e-3};  // the high modes are overdamped
+    EXPECT_EQ(modes_below(s, 20e3), lossless);
+    EXPECT_LT(omega_squared_damped(modes_of(s, 500).omega0[499], modes_of(s, 500).sigma[499]), 0);
+}
+
+TEST(Modes, AreCountedOneByOneAsTheirFrequenciesSay) {
+    const String s = c3();
+    const Modes m = modes_of(s, 200);
+    for (int i = 0; i < 200; ++i) {
+        EXPECT_EQ(modes_below(s, m.omega0[i] / (2 * std::numbers::pi) * (1 - 1e-9)), i);
+        EXPECT_EQ(modes_below(s, m.omega0[i] / (2 * std::numbers::pi) * (1 + 1e-9)), i + 1);
+    }
+}
+
+TEST(Modes, TooManyOfThemAreASentenceAboutThem) {
+    String s = c3();
+    s.tension = 1e-9;
+    s.bending_stiffness = 0;
+    EXPECT_EQ(modes_below(s, 20e3), most_modes + 1);
+    try {
+        modes_of(c3(), most_modes + 1);
+        FAIL();
+    } catch (const BadScene& e) {
+        EXPECT_EQ(e.key, "modes");
+        EXPECT_NE(std::string(e.what()).find("1048577"), std::string::npos);
+    }
+}
+
+TEST(Triangle, CoefficientsFallByTheSquareOfTheModeHoweverHigh) {  // A/n^2 sin(beta x0)
+    const TriangleInitial t{0.5, 1e-3, 0};
+    for (const int mode : {1, 46341, 65535, 65537, 1048575}) {  // odd: sin = 1 or -1
+        const double n = mode;
+        EXPECT_NEAR(std::abs(coefficient(t, 1, mode)) * n * n, std::abs(coefficient(t, 1, 1)), 1e-9 * 1e-3) << mode;
+    }
+}
+
 TEST(Modes, FootprintWeightIsTheIntegralOfShapeTimesFootprintAlsoAtItsLimit) {
     const String s = c3();
     const Modes m = modes_of(s, 500);

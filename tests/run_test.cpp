@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <string_view>
+#include <thread>
 
+#include "schemes/registry.hpp"
 #include "tests/c3.hpp"
 
 namespace jvari {
@@ -37,6 +42,22 @@ Scene second() {
     Scene s = c3_free();
     s.duration = 1;
     return s;
+}
+
+Scene with_profile(Scene scene) {
+    scene.strings.front().thread.reset();
+    scene.strings.front().barriers = {ProfileBarrier{ParabolaCurve{4}, 0, 0.1, {1e8}, 1.5, 0}};
+    scene.taps.resize(2);
+    return scene;
+}
+Scene sitar() {  // what the schemes on rails represent
+    Scene scene = with_profile(c3_release());
+    String& s = scene.strings.front();
+    s.bending_stiffness = 0;
+    s.damping = PerPeriodDamping{0.996};
+    s.initial = TriangleInitial{0.3, 1e-3, 0};
+    scene.taps = {{"nut", Quantity::nut_force, 0, 0}};
+    return scene;
 }
 
 TEST(RunLoop, ATraceHasOneRowMoreThanItsDurationHasIntervals) {
@@ -73,6 +94,140 @@ TEST(RunLoop, ARunThatFailsKeepsTheRowsUpToTheFailingStep) {
         EXPECT_EQ(r.status.outcome, Outcome::not_converged);
         EXPECT_EQ(r.trace.rows, 101);
     }
+}
+
+// A scheme that says and does what a test tells it to; a row is a step.
+struct Odd final : Scheme {
+    std::function<Status(const Block&, long first)> act = [](const Block&, long) { return Status{}; };
+    std::function<std::vector<Fact>()> told = [] { return std::vector<Fact>{}; };
+    long row = 0;
+    void reset() noexcept override { row = 0; }
+    Status advance(const Block& out) noexcept override {
+        const long first = row;
+        row += out.rows;
+        return act(out, first);
+    }
+    int dofs() const override { return 1; }
+    std::vector<Fact> facts() const override { return told(); }
+};
+
+TEST(RunLoop, AReferenceInContinuousTimeThatFailsKeepsItsRowsToo) {
+    for (const bool energy : {false, true}) {
+        Odd scheme;
+        scheme.act = [](const Block& out, long first) { return first + out.rows > 83 ? Status{Outcome::not_converged, 83} : Status{}; };
+        const auto r = run(scheme, second(), {0, 1000, 0, {}}, {.energy = energy});
+        EXPECT_EQ(r.status.step, 83);
+        EXPECT_EQ(r.trace.rows, 84);
+        EXPECT_EQ(r.steps, 0);
+    }
+}
+
+TEST(RunLoop, WhatASchemeCannotMeanIsASentence) {
+    for (const Status said :
+         {Status{static_cast<Outcome>(77), 5}, Status{Outcome::diverged, -1000000}, Status{Outcome::diverged, 1L << 40}}) {
+        Odd scheme;
+        scheme.act = [said](const Block&, long) { return said; };
+        EXPECT_THROW(run(scheme, second(), {1000, 1000, 0, {}}), BadScheme);
+    }
+    Odd throws;
+    throws.told = []() -> std::vector<Fact> { throw 42; };
+    EXPECT_THROW(run(throws, second(), {1000, 1000, 0, {}}), BadScheme);
+    throws.told = []() -> std::vector<Fact> { throw std::runtime_error("no facts today"); };
+    EXPECT_THROW(run(throws, second(), {1000, 1000, 0, {}}), std::runtime_error);
+}
+
+TEST(Made, IsASchemeOrASentence) {
+    Descriptor d{"odd", "a test", {}, Balance::none, Clock::stepped, nullptr};
+    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return nullptr; };
+    EXPECT_THROW(make_scheme(d, second(), {1000, 1000, 0, {}}), BadScheme);
+    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw 42; };
+    EXPECT_THROW(make_scheme(d, second(), {1000, 1000, 0, {}}), BadScheme);
+    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw Refusal("not today"); };
+    EXPECT_THROW(make_scheme(d, second(), {1000, 1000, 0, {}}), Refusal);
+    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return std::make_unique<Odd>(); };
+    EXPECT_NE(make_scheme(d, second(), {1000, 1000, 0, {}}), nullptr);
+}
+
+TEST(RunLoop, MoreStepsOrRowsThanCanBeCountedAreRefused) {
+    EXPECT_EQ(steps_per_row({2147483647.0, 1, 0, {}}), 2147483647);
+    EXPECT_THROW(steps_per_row({2147483648.0, 1, 0, {}}), Refusal);
+    EXPECT_THROW(steps_per_row({132300000000000, 44100, 0, {}}), Refusal);
+    Odd scheme;
+    Scene scene = second();
+    scene.duration = 1e300;
+    EXPECT_THROW(run(scheme, scene, {1000, 1000, 0, {}}), Refusal);
+}
+
+// A row of 2^30 steps at 44.1 kHz, seven hours of sound, and a caller who has had enough at the second word.
+struct Enough {};
+void expect_enough(const Descriptor& d, Scene scene, const std::vector<std::pair<std::string, std::string>>& options = {}) {
+    scene.duration = 1e9;
+    int words = 0;
+    EXPECT_THROW(run(d, scene, {44100, 44100.0 / (1 << 30), 0, options},
+                     {.progress =
+                          [&](long, long) {
+                              if (++words == 2) throw Enough{};
+                          }}),
+                 Enough)
+        << d.name;
+}
+
+TEST(LongRow, OfEverySchemeCanBeEndedWithinIt) {
+    int tried = 0;
+    for (const Descriptor& d : schemes())
+        for (const Scene& scene : {c3_pluck(), with_profile(c3_release()), sitar()}) {
+            if (!(needed_by(scene) - d.represents).empty()) continue;
+            const bool grid = std::string_view(d.name).starts_with("finite");
+            expect_enough(d, scene,
+                          grid ? std::vector<std::pair<std::string, std::string>>{{"grid", "40"}}
+                               : std::vector<std::pair<std::string, std::string>>{});
+            ++tried;
+        }
+    EXPECT_GE(tried, static_cast<int>(schemes().size()));
+}
+
+TEST(Schemes, OnAStringWithoutAModeBelow20kHzRunOrRefuse) {  // the first at 720 kHz
+    Scene lumped = c3_release();
+    lumped.duration = 1e-3;
+    Scene rails = sitar();
+    rails.duration = 1e-3;
+    for (Scene scene : {lumped, rails}) {
+        scene.strings.front().tension = 1e9;
+        for (const Descriptor& d : schemes())
+            for (const std::string length : {"integer", "fractional"}) {
+                if (!(needed_by(scene) - d.represents).empty()) continue;
+                const bool waves = d.name == std::string("sitar_waveguide");
+                Settings settings{44100 * 1024, 44100, 0, {}};
+                if (waves) settings.options = {{"length", length}};
+                try {
+                    const auto r = run(d, scene, settings);
+                    EXPECT_EQ(std::string(d.name).find("modal"), std::string::npos) << d.name;
+                    EXPECT_FALSE(waves && length == "fractional");
+                } catch (const Refusal& refusal) {
+                    EXPECT_NE(std::string(refusal.what()).find("no mode below 20000 Hz"), std::string::npos)
+                        << d.name << ": " << refusal.what();
+                }
+            }
+    }
+}
+
+TEST(RunLoop, ASlowRunSaysSoOnceWithItsFacts) {
+    Odd scheme;
+    scheme.act = [](const Block& out, long) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(400) * out.rows);
+        return Status{};
+    };
+    scheme.told = [] { return std::vector<Fact>{{"contact_points", 1600, ""}}; };
+    Scene scene = second();
+    scene.duration = 7e-3;
+    std::vector<long> told;
+    run(scheme, scene, {1000, 1000, 0, {}}, {.slow = [&](long done, long, const std::vector<Fact>& facts) {
+            told.push_back(done);
+            EXPECT_EQ(facts.front().value, 1600);
+        }});
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_GT(told.front(), 0);
+    EXPECT_LT(told.front(), 8);
 }
 
 TEST(RunLoop, DenormalsAreFlushedForItsLifeOnly) {

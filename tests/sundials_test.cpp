@@ -8,7 +8,9 @@
 
 #include "reference/references.hpp"
 #include "reference/string_equations.hpp"
+#include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 #include "tests/allocations.hpp"
 #include "tests/c3.hpp"
@@ -272,6 +274,98 @@ TEST(Integrated, StartsInContactWhereTheSceneDoes) {
     for (const char* flight : {"exact", "integrate"}) {
         const auto r = integrated(scene, 20, {{"flight", flight}});
         EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 1e-8) << flight;
+    }
+}
+
+Scene pressed(double exponent) {  // at rest, 3 um into a stiff point
+    Scene scene;
+    scene.name = "pressed";
+    scene.duration = 1e-3;
+    String s;
+    s.length = 0.76;
+    s.linear_density = 0.0045;
+    s.tension = 8.6;
+    s.bending_stiffness = 9.8e-5;
+    s.barriers = {LumpedBarrier{0.32, 0.1, 2.8e-6, {5.9e8}, exponent, 0}};
+    scene.strings = {s};
+    scene.taps = {{"nut", Quantity::nut_force, 0, 0}, {"y", Quantity::displacement, 0, 0.32}};
+    return scene;
+}
+
+TEST(Integrated, StartsFromRestWhereABarrierPresses) {
+    const auto truth = run(exact_contact, pressed(1), {0, 44100, 20, {}});
+    for (const char* flight : {"exact", "integrate"}) {
+        const auto r = integrated(pressed(1), 20, {{"flight", flight}}, true);
+        ASSERT_EQ(r.status.outcome, Outcome::ok) << flight;
+        EXPECT_LT(relative_l2(r.trace.column(1), truth.trace.column(1)), 1e-7) << flight;
+    }
+    const auto r = integrated(pressed(1.15), 20, {}, true), finer = integrated(pressed(1.15), 20, {{"rtol", "1e-13"}});
+    ASSERT_EQ(r.status.outcome, Outcome::ok);
+    EXPECT_LT(relative_l2(r.trace.column(1), finer.trace.column(1)), 1e-7);
+    const auto stored = r.trace.energy_column(0), dissipated = r.trace.energy_column(2);
+    EXPECT_GT(stored[0], 0);
+    for (long n = 1; n < r.trace.rows; ++n) ASSERT_LE(std::abs(stored[n] - stored[n - 1] + dissipated[n]), 1e-9 * stored[0]) << n;
+}
+
+TEST(Integrated, OfAStringAtRestUnderAThreadOrAPluckRunsToo) {
+    Scene raised = c3_pluck();
+    raised.duration = 2e-3;
+    raised.strings.front().pluck.reset();
+    raised.strings.front().thread->height = 1e-5;
+    Scene plucked = c3_pluck();
+    plucked.duration = 2e-3;
+    for (const Scene& scene : {raised, plucked}) {
+        const auto truth = run(exact_contact, scene, {0, 44100, 20, {}});
+        const auto r = integrated(scene, 20, {{"flight", "integrate"}});
+        ASSERT_EQ(r.status.outcome, Outcome::ok);
+        EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 1e-6);
+    }
+}
+
+TEST(Integrated, ThatFailsOnItsWayKeepsTheRowsBefore) {
+    Scene scene = c3_release();
+    scene.duration = 2e-3;
+    std::get<LumpedBarrier>(scene.strings.front().barriers.front()).stiffness.k = 1e300;
+    for (const bool energy : {false, true}) {
+        const auto r = integrated(scene, 133, {}, energy);
+        ASSERT_EQ(r.status.outcome, Outcome::not_converged);
+        EXPECT_EQ(r.trace.rows, r.status.step + 1);
+        EXPECT_LE(r.trace.rows, r.trace.stride);
+    }
+}
+
+TEST(References, OfAStringWithoutAModeBelow20kHzRefuse) {
+    Scene scene = c3_release();
+    scene.strings.front().length = 4e-3;
+    scene.strings.front().barriers = {LumpedBarrier{2e-3, 0, 0, {1e5}, 1, 0}};
+    scene.strings.front().thread.reset();
+    scene.taps = {{"nut", Quantity::nut_force, 0, 0}};
+    ASSERT_EQ(modes_below(scene.strings.front(), 20e3), 0);
+    EXPECT_THROW(run(sundials, scene, {0, 44100, 0, {}}), Refusal);
+    EXPECT_THROW(run(exact_contact, scene, {0, 44100, 0, {}}), Refusal);
+    for (const Descriptor& d : schemes())
+        if ((needed_by(scene) - d.represents).empty() && std::string(d.name).starts_with("modal"))
+            EXPECT_THROW(run(d, scene, {44100, 44100, 0, {}}), Refusal) << d.name;
+    scene.strings.front().barriers.clear();
+    EXPECT_THROW(run(exact_linear, scene, {0, 44100, 0, {}}), Refusal);
+}
+
+struct Enough {};
+
+TEST(References, CanBeEndedWithinARow) {  // of 2^20 s
+    for (const Descriptor& d : references()) {
+        Scene scene = c3_pluck();
+        scene.strings.front().pluck->duration = 1e9;
+        if (d.name == std::string("exact_linear")) {
+            scene = c3_free();
+            scene.strings.front().pluck = Pluck{-0.4, 1e9, 0, 0, 0.5, 0};
+        }
+        scene.duration = 1e7;
+        int words = 0;
+        const RunOptions until_enough{.progress = [&](long, long) {
+            if (++words == 2) throw Enough{};
+        }};
+        EXPECT_THROW(run(d, scene, {0, 1.0 / (1 << 20), 20, {}}, until_enough), Enough) << d.name;
     }
 }
 

@@ -35,6 +35,16 @@ Settings settings_for(const RunRequest& r, const Descriptor& d) {
     return s;
 }
 
+// What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
+std::string dearest(const std::vector<Fact>& facts) {
+    const double coupled = fact(facts, facts::coupled_contact_points);
+    if (!(coupled > 8)) return "";
+    return fmt::format(
+        ". Dear is its contact: {:.0f} points that push each other are solved together, each step by up to the cube of those that touch; a "
+        "shorter profile or a coarser grid has fewer",
+        coupled);
+}
+
 std::string text_for(const Summary& s) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
     const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<28}{}", name, value); };
@@ -109,6 +119,9 @@ int run_command(const RunRequest& r) {
         RunOptions options;
         options.energy = r.energy;
         options.progress = [&progress](long done, long rows) { progress.show(static_cast<double>(done) / static_cast<double>(rows)); };
+        options.slow = [&](long done, long rows, const std::vector<Fact>& facts) {
+            console.note(fmt::format("{} on {}: {} of {} rows in {} s{}", d.name, scene.name, done, rows, long_run, dearest(facts)));
+        };
         result = run(d, scene, settings, options);
     }
     const Summary summary = summary_of(d, scene, settings, result);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/cost.hpp"
@@ -50,6 +51,20 @@ void run_oversampled(Reference& r, const Scene& scene, Done& done) {
     r.run = reference_run(r.choice, scene, done);  // a coarser one fails: no estimate
 }
 
+// Schemes that may stand in, in order of what they estimate their own error to be.
+void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene, const ProgressOf& progress) {
+    RunOptions options;
+    options.progress = progress;
+    std::vector<std::pair<double, ReferenceChoice>> tried;
+    for (ReferenceChoice& c : choices) {
+        Settings coarsest = c.settings;
+        coarsest.sample_rate /= c.oversampled;
+        tried.emplace_back(estimate_of(*c.scheme, scene, coarsest, c.oversampled, options), std::move(c));
+    }
+    std::ranges::stable_sort(tried, {}, [](const auto& t) { return t.first; });
+    for (std::size_t i = 0; i < tried.size(); ++i) choices[i] = std::move(tried[i].second);
+}
+
 std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
     std::string text = "jvari certify " + r.scene;
     if (r.modes > 0 || c.reference_settings.modes > 0) text += fmt::format(" --modes {}", c.reference_settings.modes);
@@ -62,7 +77,15 @@ std::string certify_command(const CompareRequest& r, const Comparison& c) {  // 
 
 Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const Console& console) {
     std::string refusals;
-    for (const ReferenceChoice& choice : choices) try {
+    bool ordered = false;
+    std::vector<ReferenceChoice> in_turn = choices;
+    for (std::size_t k = 0; k < in_turn.size(); ++k) try {
+            if (in_turn[k].oversampled && k + 1 < in_turn.size() && !ordered) {
+                const std::span<ReferenceChoice> rest(in_turn.begin() + static_cast<long>(k), in_turn.end());
+                side_by_side({1}, 1, console, "stand-in", [&](std::size_t, Done& done) { least_error_first(rest, scene, told_to(done)); });
+                ordered = true;
+            }
+            const ReferenceChoice& choice = in_turn[k];
             Reference r{choice, {}, {}, {}};
             side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, Done& done) {
                 if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), done);
@@ -127,7 +150,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
         try {
             const Trace trace = measure(cell, c.scene, &reference.run.trace, told_to(done));
             if (cell.reason.empty()) cell.sound = sound_of(trace.column(c.headline.nut), trace.tap_rate);
-        } catch (const Refusal& e) {
+        } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
             cell.refused = true;
             cell.reason = e.what();
         }

@@ -84,11 +84,16 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
     }
     for (const Descriptor* d : catalogue.references)
         if ((needed_by(scene) - d->represents).empty()) add(*d, "");
-    const Descriptor* able = stand_in(scene);  // of those in the program; else one that a plugin brought
-    const Descriptor& scheme = able ? *able : first_scheme;
-    add(scheme, fmt::format("no reference represents scene {}: {} oversampled to {} Hz, {} times the highest rate, stands in; its error is "
-                            "estimated from three rates, not bounded",
-                            scene.name, scheme.name, oversampling * at_highest.sample_rate, oversampling));
+    auto able = stand_ins(scene);  // of those in the program; else one that a plugin brought
+    if (able.empty()) able.push_back(&first_scheme);
+    const std::string why =
+        choices.empty() ? "no reference represents scene " + scene.name : "no reference gets scene " + scene.name + " going";
+    for (const Descriptor* scheme : able)
+        add(*scheme,
+            fmt::format("{}: {} oversampled to {} Hz, {} times the highest rate, stands in; its error is estimated from three rates, "
+                        "not bounded{}",
+                        why, scheme->name, oversampling * at_highest.sample_rate, oversampling,
+                        able.size() > 1 ? ", and was the least of those that could" : ""));
     return choices;
 }
 }  // namespace

@@ -31,8 +31,8 @@ struct Reference {
     Run run, moved;  // moved: started 1e-12 apart
     Trust trust;     // what its certificate, or its own estimate, says of it
 };
-// The first of the choices that represents the scene and gets going, its two runs side by side where `jobs` are not 1; throws Refusal where
-// none does.
+// The first of the choices that represents the scene and gets going, its two runs side by side where `jobs` are not 1; of the schemes that
+// may stand in the one that estimates its own error least goes first. Throws Refusal where none does.
 Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const Console&);
 
 // Runs the cell and fills summary, errors and reason; errors stay empty without a reference. Throws Refusal. What `progress` throws ends

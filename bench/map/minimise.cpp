@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "schemes/grid/finite_difference.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari {
 

@@ -69,6 +69,7 @@ Table dispersion_rows(const MeasuredCell& c) {
     const double rate = stepped ? c.settings.sample_rate : c.trace.tap_rate;
     const int carried = stepped ? modes_for(s, c.settings) : c.settings.modes > 0 ? c.settings.modes : dispersion_modes;
     const int count = std::min({dispersion_modes, carried, modes_below(s, 0.5 * listened * rate)});
+    if (count == 0) return t;
     const Modes modes = modes_of(s, count);
     const std::vector<FreeMode> own = make_scheme(c.scheme, c.scene, c.settings)->free_modes();
     const Heard h = heard(c);

@@ -51,9 +51,8 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
     }
     for (auto* w : {&depth_, &mean_, &slope_, &defect_, &dr_, &df_}) w->assign(n, 0.0);
     active_.assign(n, 0);
-    int largest = 0;
-    for (const Group& g : groups_) largest = std::max(largest, g.count);
-    matrix_.assign(static_cast<std::size_t>(largest) * largest, 0.0);
+    for (const Group& g : groups_) largest_ = std::max(largest_, g.count);
+    matrix_.assign(static_cast<std::size_t>(largest_) * largest_, 0.0);
 }
 
 GramSolution ContactGram::solve(const double* eta, const double* b, double* r, double* force) noexcept {

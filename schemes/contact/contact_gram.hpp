@@ -31,6 +31,7 @@ public:
     ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta);  // theta: n x n, row-major [m/N]
 
     int count() const { return static_cast<int>(laws_.size()); }
+    int coupled() const { return largest_; }  // of the contacts that Theta couples to each other, the most; a step costs up to their cube
 
     // eta [m] and b [m] in, r [m] and the mean forces [N] out; n of each. Allocates nothing.
     GramSolution solve(const double* eta, const double* b, double* r, double* force) noexcept;
@@ -46,6 +47,7 @@ private:
     std::vector<double> theta_;
     std::vector<int> order_;
     std::vector<Group> groups_;
+    int largest_ = 0;                                                       // of them
     std::vector<double> depth_, mean_, slope_, defect_, dr_, df_, matrix_;  // workspaces
     std::vector<int> active_;
 };

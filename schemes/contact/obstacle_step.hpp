@@ -26,6 +26,7 @@ public:
                  std::span<const double> theta, double span);
 
     int contacts() const { return contacts_; }
+    int coupled() const { return gram_.coupled(); }
     int points() const { return contacts_ + (thread_ ? 1 : 0); }
 
     // older and free [m] in, force on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.

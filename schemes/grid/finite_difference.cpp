@@ -48,7 +48,7 @@ Stencil footprint_stencil(const Grid& g, double position, double width) {
 
 Stencil displacement_stencil(const Grid& g, double position) {
     const double at = position / g.dx;
-    const int cell = std::clamp(static_cast<int>(std::floor(at)), 0, g.intervals - 1);
+    const int cell = static_cast<int>(std::clamp(std::floor(at), 0.0, g.intervals - 1.0));
     std::vector<double> w(g.intervals - 1, 0.0);
     for (int j = -1; j <= 2; ++j) {
         double weight = 1;
@@ -100,7 +100,7 @@ Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<doubl
 }  // namespace
 
 LossFit fit_losses(const String& s) {
-    const Modes modes = modes_of(s, std::max(3, modes_below(s, 20e3)));
+    const Modes modes = modes_of(s, std::clamp(modes_below(s, 20e3), 3, most_modes));
     const std::size_t n = modes.beta.size();
     std::vector<double> x, w;
     double all = 0;  // of the weights: the square that a fit of nothing would leave
@@ -206,10 +206,12 @@ GridMode midpoint_mode(const GridString& g, double dt, int mode) {
 
 // ---- The grid.
 
+constexpr double most_intervals = 1 << 17;  // the sum of an initial shape grows with their square
+
 Grid grid_of(const Descriptor& d, const String& s, double intervals) {
-    if (!(intervals >= 5) || intervals != std::floor(intervals) || intervals > 1e6)
+    if (!(intervals >= 5) || intervals != std::floor(intervals) || intervals > most_intervals)
         throw Refusal(std::string(d.name) + ": the grid has " + std::to_string(intervals) +
-                      " intervals, expected a whole number from 5 on");
+                      " intervals, expected a whole number from 5 to " + std::to_string(static_cast<long>(most_intervals)));
     return {static_cast<int>(intervals), s.length / intervals};
 }
 
@@ -223,8 +225,8 @@ Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, do
     const double over = number_option(settings, over_limit_option, 0), asked = number_option(settings, grid_option, 0);
     if (over != 0 && !(over > 1)) throw Refusal("option over_limit: found " + std::to_string(over) + ", expected a factor above 1");
     if (asked > std::max(most, over * finest))
-        throw Refusal(std::string(d.name) + ": " + std::to_string(std::lround(asked)) + " intervals are over the stability limit, " +
-                      std::to_string(std::lround(most)) + " at " + std::to_string(settings.sample_rate) +
+        throw Refusal(std::string(d.name) + ": " + std::to_string(asked) + " intervals are over the stability limit, " +
+                      std::to_string(most) + " at " + std::to_string(settings.sample_rate) +
                       " Hz; option over_limit goes there on purpose");
     return grid_of(d, s, asked != 0 ? asked : over != 0 ? std::ceil(finest * over) : most);
 }
@@ -232,20 +234,20 @@ Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, do
 // ---- A string of the scene on its grid.
 
 namespace {
+constexpr std::size_t most_contacts = 1 << 13;  // per string: half a gigabyte of compliances
+
 struct PlaceBarrier {
     GridString& g;
+    double length;  // of the string [m]
     void operator()(const LumpedBarrier& b) const {
         g.points.push_back(footprint_stencil(g.grid, b.position, b.width));
         g.laws.push_back({b.stiffness.k, b.exponent});
         g.heights.push_back(b.height);
     }
     void operator()(const ProfileBarrier& b) const {
-        std::vector<double> x;
-        for (int l = 1; l < g.grid.intervals; ++l) {
-            const double at = l * g.grid.dx;
-            if (at < b.from || at > b.to) continue;
-            x.push_back(at);
-            g.points.push_back({l, {1.0}});
+        const auto [first, x] = nodes_on(b, length, g.grid.intervals);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            g.points.push_back({first + static_cast<int>(i), {1.0}});
             g.laws.push_back({b.stiffness.K * g.grid.dx, b.exponent});  // lumped: a node stands for dx of the profile
         }
         if (x.empty())
@@ -291,10 +293,14 @@ GridString on_grid(const Scene& scene, int index, const Grid& grid, const LossFi
     g.loss = loss;
     g.initial = initial_shape(s, grid);
     for (const Barrier& b : s.barriers) {
-        std::visit(PlaceBarrier{g}, b);
+        std::visit(PlaceBarrier{g, s.length}, b);
         if (const auto* lumped = std::get_if<LumpedBarrier>(&b))
             g.narrowest = g.narrowest == 0 ? lumped->width / grid.dx : std::min(g.narrowest, lumped->width / grid.dx);
     }
+    if (g.points.size() > most_contacts)
+        throw Refusal("the grid has " + std::to_string(g.points.size()) +
+                      " points on the barriers, whose compliances on each other are kept; " + std::to_string(most_contacts) +
+                      " at most: a lower rate or option grid makes fewer");
     if (s.barriers.size() == 1)
         if (const auto* b = std::get_if<LumpedBarrier>(&s.barriers.front())) g.compliance = relative_compliance(g, s, *b);
     g.thread = s.thread;

@@ -64,7 +64,10 @@ public:
     Status advance(const Block& out) noexcept {
         for (int row = 0; row < out.rows && failed_.outcome == Outcome::ok; ++row) {
             write(out, row);
-            for (int i = 0; i < steps_ && failed_.outcome == Outcome::ok; ++i) step(out.energy != nullptr);
+            for (int i = 0; i < steps_ && failed_.outcome == Outcome::ok; ++i) {
+                step(out.energy != nullptr);
+                if (out.stopped(i, steps_on_grid_between_questions)) return {};
+            }
         }
         return failed_;
     }

@@ -14,6 +14,7 @@ std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) 
         f.push_back({facts::smallest_contact_force, t.smallest_force});
         f.push_back({facts::deepest_penetration, t.deepest});
         f.push_back({facts::contact_points, static_cast<double>(obstacle.contacts())});
+        if (obstacle.coupled() > 1) f.push_back({facts::coupled_contact_points, static_cast<double>(obstacle.coupled())});
         f.push_back({facts::contact_iterations_mean, t.solves > 0 ? t.iterations / static_cast<double>(t.solves) : 0});
         f.push_back({facts::contact_iterations_most, static_cast<double>(t.most_iterations)});
         f.push_back({facts::contact_residual, t.residual});

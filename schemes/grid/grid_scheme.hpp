@@ -12,6 +12,8 @@
 
 namespace jvari {
 
+constexpr long steps_on_grid_between_questions = 16;  // (Block::stopped): a step of a dense contact takes milliseconds
+
 template <class OneString>
 class GridScheme final : public Scheme {
 public:

@@ -96,10 +96,7 @@ public:
     Status advance(const Block& out) noexcept {
         for (int row = 0; row < out.rows && failed_.outcome == Outcome::ok; ++row) {
             write(out, row);
-            if (out.energy)
-                for (int i = 0; i < steps_ && failed_.outcome == Outcome::ok; ++i) step<true>();
-            else
-                for (int i = 0; i < steps_ && failed_.outcome == Outcome::ok; ++i) step<false>();
+            if (!(out.energy ? steps<true>(out) : steps<false>(out))) return {};
         }
         return failed_;
     }
@@ -117,6 +114,14 @@ public:
     }
 
 private:
+    template <bool probe>
+    bool steps(const Block& out) noexcept {  // of a row; false: the caller wants no more
+        for (int i = 0; i < steps_ && failed_.outcome == Outcome::ok; ++i) {
+            step<probe>();
+            if (out.stopped(i, steps_on_grid_between_questions)) return false;
+        }
+        return true;
+    }
     void mirror(double* u) const noexcept {  // odd about both ends
         const int N = g_.grid.intervals;
         u[-1] = -u[1];

@@ -112,6 +112,7 @@ public:
                 if (out.energy) ledger();
                 step();
                 if (!m_.g_b.empty()) seen_.note(F_b_, psi_, m_.h_b - y_b_, q_.psi(m_.h_b - y_b_));
+                if (out.stopped(k, steps_between_questions)) return {};
             }
             if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
         }

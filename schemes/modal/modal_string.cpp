@@ -21,6 +21,16 @@ void refuse_above_nyquist(const Descriptor& d, const Modes& modes, double sample
     }
 }
 
+PluckSteps pluck_steps(const Pluck& pluck, double dt) {
+    const double first = std::floor(pluck.start / dt), last = std::ceil((pluck.start + pluck.duration) / dt);
+    constexpr double longest = 1 << 28, latest = 1e18;  // [steps]
+    if (!(last < latest && last - first < longest))
+        throw Refusal("the pluck, from " + std::to_string(pluck.start) + " s on, for " + std::to_string(pluck.duration) +
+                      " s, is too long or too late at " + std::to_string(1 / dt) + " Hz: its force is kept for every step, of which " +
+                      std::to_string(1 << 28) + " fit");
+    return {static_cast<long>(first), static_cast<long>(last - first)};
+}
+
 double modal_dot(const ModalArray& a, const ModalArray& b) {
     double sum = 0;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i] * b[i];
@@ -32,7 +42,7 @@ ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const
     ModalString m;
     m.steps_per_row = steps_per_row(settings);
     m.dt = 1 / settings.sample_rate;
-    const Modes modes = modes_of(s, modes_for(s, settings));
+    const Modes modes = modes_of(s, settings);
     refuse_above_nyquist(descriptor, modes, settings.sample_rate);
     m.count = modes.count();
     m.size = (m.count + modal_lanes - 1) / modal_lanes * modal_lanes;
@@ -68,9 +78,9 @@ ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const
     }
     if (s.pluck) {
         m.g_e = padded(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        m.pluck_first = static_cast<long>(std::floor(s.pluck->start / m.dt));
-        const long last = static_cast<long>(std::ceil((s.pluck->start + s.pluck->duration) / m.dt));
-        for (long n = m.pluck_first; n <= last; ++n) m.pluck.push_back(force(*s.pluck, n * m.dt));
+        const PluckSteps steps = pluck_steps(*s.pluck, m.dt);
+        m.pluck_first = steps.first;
+        for (long n = steps.first; n <= steps.first + steps.count; ++n) m.pluck.push_back(force(*s.pluck, n * m.dt));
     }
     for (const Tap& tap : scene.taps) {
         ModalTap t{tap.quantity, {}};

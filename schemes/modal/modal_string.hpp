@@ -46,6 +46,12 @@ constexpr Features modal_features = Features(Feature::bending_stiffness) | Featu
                                     Feature::measured_modes | Feature::lumped_barrier | Feature::power_law_contact | Feature::thread |
                                     Feature::initial_shape | Feature::pluck;
 
+// The steps of dt that a pluck acts in. Refusal where it lasts longer than its table can.
+struct PluckSteps {
+    long first, count;
+};
+PluckSteps pluck_steps(const Pluck&, double dt);
+
 // Modes above half the sample rate would alias.
 void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 

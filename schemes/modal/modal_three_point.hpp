@@ -103,6 +103,7 @@ public:
             for (int k = 0; k < m_.steps_per_row; ++k) {
                 step();
                 solve();
+                if (out.stopped(k, steps_between_questions)) return {};
                 if (k + 1 == m_.steps_per_row) break;
                 impulse_b_ += F_b_;
                 impulse_c_ += F_c_;

@@ -40,7 +40,7 @@ public:
         const String& s = scene.strings.front();
         m_.steps_per_row = steps_per_row(settings);
         m_.dt = 1 / settings.sample_rate;
-        const Modes modes = modes_of(s, modes_for(s, settings));
+        const Modes modes = modes_of(s, settings);
         refuse_above_nyquist(descriptor, modes, settings.sample_rate);
         m_.modes = modes.count();
         m_.size = (m_.modes + two_point_padding - 1) / two_point_padding * two_point_padding;
@@ -109,8 +109,9 @@ public:
             m_.g_e = keep(unscaled(footprint_weights(modes, s.pluck->position, s.pluck->width)));
             if (m_.g_b) m_.theta_be = two_point_dot(m_.g_b, m_.g_e, m_.size);
             if (m_.g_c) m_.theta_ce = two_point_dot(m_.g_c, m_.g_e, m_.size);
-            m_.pluck_first = static_cast<long>(std::floor(s.pluck->start / m_.dt));
-            m_.pluck_steps = static_cast<long>(std::ceil((s.pluck->start + s.pluck->duration) / m_.dt)) - m_.pluck_first;
+            const PluckSteps steps = pluck_steps(*s.pluck, m_.dt);
+            m_.pluck_first = steps.first;
+            m_.pluck_steps = steps.count;
             for (long n = m_.pluck_first; n < m_.pluck_first + m_.pluck_steps; ++n)
                 pluck_.push_back(0.5 * (force(*s.pluck, n * m_.dt) + force(*s.pluck, (n + 1) * m_.dt)));
             m_.pluck = pluck_.data();

@@ -146,6 +146,17 @@ HWY_INLINE void steps(TwoPoint& m, long count) {
     }
 }
 
+template <ContactKind kind, bool thread, bool probe>
+HWY_INLINE bool steps_of_row(TwoPoint& m, const Block& out) {  // false: the caller wants no more
+    long left = m.steps_per_row;
+    for (; left > steps_between_questions; left -= steps_between_questions) {
+        steps<kind, thread, probe>(m, steps_between_questions);
+        if (out.stopped()) return false;
+    }
+    steps<kind, thread, probe>(m, left);
+    return true;
+}
+
 // Stored energy (49): sum (q^2 + A y^2)/xi with q = J u/2 + A y, in the scaled modes.
 template <ContactKind kind, bool thread>
 double stored(const TwoPoint& m) {
@@ -181,9 +192,9 @@ Status advance(TwoPoint& m, const Block& out) {
             out.energy[out.stride + row] = m.supplied;
             out.energy[2 * out.stride + row] = m.dissipated;
             m.supplied = m.dissipated = 0;
-            steps<kind, thread, true>(m, m.steps_per_row);
-        } else {
-            steps<kind, thread, false>(m, m.steps_per_row);
+            if (!steps_of_row<kind, thread, true>(m, out)) return {};
+        } else if (!steps_of_row<kind, thread, false>(m, out)) {
+            return {};
         }
     }
     return m.status;

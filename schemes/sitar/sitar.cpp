@@ -34,6 +34,13 @@ SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Set
     return s;
 }
 
+void refuse_too_many_cells(double cells) {
+    constexpr double most = 1 << 24;
+    if (!(cells <= most))
+        throw Refusal("the string is " + std::to_string(cells) + " samples long from end to end; no more than " +
+                      std::to_string(static_cast<long>(most)) + " are carried: lower the sample rate");
+}
+
 std::vector<FreeMode> SitarString::free_modes() const {
     std::vector<FreeMode> all;
     for (int n = 1; n < cells; ++n) all.push_back({pi * n / (cells * dt), sigma});
@@ -41,6 +48,7 @@ std::vector<FreeMode> SitarString::free_modes() const {
 }
 
 void set_integer_length(SitarString& s) {
+    refuse_too_many_cells(0.5 / (s.dt * s.f0));
     s.cells = static_cast<int>(std::lround(0.5 / (s.dt * s.f0)));  // (4)
     if (s.cells < 3) throw Refusal("the string has fewer than 3 samples from end to end: raise the sample rate");
     s.dx = s.length / s.cells;

@@ -52,6 +52,7 @@ constexpr Approximation sitar_damping{Feature::damping, facts::start_phase_error
 
 // The integer length of eq 4: L/dx = round(fs/(2 f0)); its error is a fact.
 void set_integer_length(SitarString&);
+void refuse_too_many_cells(double cells);  // of any length: more than memory or an int holds
 
 // The profile at the nodes, once the grid is known. Refuses a bridge away from x = 0, shorter than a cell, or above the string at t = 0
 // (`plucked`: the share of the initial shape that lies in the plane of the bridge).

@@ -136,6 +136,7 @@ Status SitarFdm::advance(const Block& out) noexcept {
         for (int k = 0; k < g_.steps_per_row; ++k) {
             step();
             if (bridge) meet_bridge();
+            if (out.stopped(k, steps_between_questions)) return {};
         }
     }
     return {};

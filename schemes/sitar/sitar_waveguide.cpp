@@ -82,7 +82,7 @@ private:
     double rail_slopes();
     double peg_slopes() const;
     [[gnu::always_inline]] void reflect(int to, int from, int steps) noexcept;  // in step() a loop of one
-    void coast(int steps) noexcept;
+    void coast(int steps, const Block& out) noexcept;
     void step() noexcept;
     void settle() noexcept {  // the loss of the steps since the last time
         const double loss2 = loss_[coasted_] * loss_[coasted_];
@@ -165,14 +165,16 @@ inline void SitarWaveguide<planes>::reflect(int to, int from, int steps) noexcep
 
 // Steps of rails that meet nothing on their way: none depends on another within the length of a rail.
 template <int planes>
-void SitarWaveguide<planes>::coast(int steps) noexcept {
+void SitarWaveguide<planes>::coast(int steps, const Block& out) noexcept {
     while (steps > 0) {
         const int top = head_ == 0 ? size_ : head_, run = std::min({steps, std::max(1, top - 1), s_.cells - coasted_});
         head_ = top - run;
         reflect(head_, top > 1 ? head_ - 1 : size_ - 1, run);
         steps -= run;
         coasted_ += run;
-        if (coasted_ == s_.cells) settle();
+        if (coasted_ < s_.cells) continue;
+        settle();
+        if (out.stopped()) return;
     }
 }
 
@@ -297,11 +299,12 @@ Status SitarWaveguide<planes>::advance(const Block& out) noexcept {
         }
         slopes_dissipated_ = 0;
         ledger_.next_row();
-        if (pending_.empty() && peg_.empty()) coast(w_.steps_per_row);
+        if (pending_.empty() && peg_.empty()) coast(w_.steps_per_row, out);
         else
             for (int k = 0; k < w_.steps_per_row; ++k) {
                 step();
                 if (!pending_.empty()) meet_bridge();
+                if (out.stopped(k, steps_between_questions)) return {};
             }
         settle();
         steps_ += w_.steps_per_row;
@@ -312,12 +315,15 @@ Status SitarWaveguide<planes>::advance(const Block& out) noexcept {
 // A length of fs/f0 samples per period, the part that is no whole number of cells in a filter at the peg.
 void set_filtered_length(Waves& w, const String& string, bool stiff) {
     SitarString& s = w.string;
-    const double loop = 1 / (s.f0 * s.dt), hertz = std::min(20e3, 0.5 / s.dt);
+    const double loop = 1 / (s.f0 * s.dt);
+    Settings unasked;
+    unasked.sample_rate = 1 / s.dt;
+    refuse_too_many_cells(0.5 * loop);
     if (loop < 9) throw Refusal("the string has fewer than 9 samples per period: raise the sample rate");
     String heard = string;  // the string whose partials the loop aims at
     heard.damping = NoDamping{};
     if (!stiff) heard.bending_stiffness = 0;
-    const std::vector<double> omega = modes_of(heard, modes_below(heard, hertz)).omega0;
+    const std::vector<double> omega = modes_of(heard, unasked).omega0;
     w.peg = stiff ? tune_stiff(loop, omega, s.dt) : tune(loop, omega[0] * s.dt, {});
     s.cells = w.peg.cells;
     s.dx = 2 * s.length / loop;

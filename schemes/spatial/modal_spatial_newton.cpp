@@ -87,6 +87,7 @@ public:
                 }
                 const Outcome outcome = step(out.energy != nullptr);
                 if (outcome != Outcome::ok) return {outcome, step_};
+                if (out.stopped(s, steps_between_questions)) return {};
             }
         }
         return {};
@@ -282,6 +283,10 @@ std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settin
 
     std::string form = choice_option(settings, form_option);
     if (form == "auto") form = cheapest_form(p.update);
+    constexpr int most_dense = 1 << 13;  // half a gigabyte of matrix
+    if (form == "dense" && p.update.modes() > most_dense)
+        throw Refusal("option form: dense takes no more than " + std::to_string(most_dense) + " modes, not " +
+                      std::to_string(p.update.modes()));
     if (form == "dense") return std::make_unique<SpatialNewton<DenseForm>>(std::move(p));
     if (form == "restricted") return std::make_unique<SpatialNewton<RestrictedForm>>(std::move(p));
     return std::make_unique<SpatialNewton<SineForm>>(std::move(p));

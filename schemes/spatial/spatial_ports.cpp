@@ -9,7 +9,7 @@
 namespace jvari {
 
 namespace {
-constexpr double near_node = 1e-9;  // of an interval
+constexpr double most_weights = 1 << 27;  // of nodes on modes: a gigabyte
 
 int node_at(double position, double length, int intervals) {  // 0: between nodes
     const double i = position / length * intervals, node = std::round(i);
@@ -37,28 +37,31 @@ struct PointsOf {
         add(point, node, node != 0 ? node_weights(intervals, node) : footprint_weights(modes, b.position, b.width));
     }
     void operator()(const ProfileBarrier& b) const {
-        const double dx = s.length / intervals;
-        const int first = std::max(1, static_cast<int>(std::ceil(b.from / dx - near_node * intervals)));
-        const int last = std::min(intervals - 1, static_cast<int>(std::floor(b.to / dx + near_node * intervals)));
-        if (first > last)
+        const auto [first, x] = nodes_on(b, s.length, intervals);
+        if (x.empty())
             throw Refusal("modal_spatial_newton: no node of " + std::to_string(intervals - 1) + " lies on the profile barrier of scene " +
                           scene + "; ask for more modes");
-        std::vector<double> x;
-        for (int i = first; i <= last; ++i) x.push_back(std::clamp(i * dx, b.from, b.to));
-        const auto g = heights(b.curve, x);
-        for (int i = first; i <= last; ++i)
-            add({{b.stiffness.K * dx, b.exponent}, g[i - first], b.contact_loss}, i, node_weights(intervals, i));
+        if (static_cast<double>(x.size()) * intervals > most_weights)
+            throw Refusal("modal_spatial_newton: " + std::to_string(x.size()) + " of " + std::to_string(intervals - 1) +
+                          " nodes lie on the profile barrier of scene " + scene + ", more than fit in memory; ask for fewer modes");
+        const double dx = s.length / intervals;
+        int node = first;
+        for (const double height : heights(b.curve, x)) {
+            add({{b.stiffness.K * dx, b.exponent}, height, b.contact_loss}, node, node_weights(intervals, node));
+            ++node;
+        }
     }
 };
 }  // namespace
 
 int intervals_for(const String& s, const Settings& settings) {
-    if (settings.modes > 0) return settings.modes + 1;
-    const int least = std::max(1, modes_for(s, settings)) + 1;
+    if (settings.modes > 0) return std::min(settings.modes, most_modes + 1) + 1;  // modes_of refuses the one too many
+    const int least = modes_of(s, settings).count() + 1;
     int intervals = least;
     for (const Barrier& barrier : s.barriers)
         if (const auto* profile = std::get_if<ProfileBarrier>(&barrier))
-            intervals = std::max(intervals, static_cast<int>(std::ceil(8 * s.length / (profile->to - profile->from))));
+            intervals =
+                std::max(intervals, static_cast<int>(std::min(std::ceil(8 * s.length / (profile->to - profile->from)), most_modes + 2.0)));
     const auto on_nodes = [&](int n) {
         return std::all_of(s.barriers.begin(), s.barriers.end(), [&](const Barrier& barrier) {
             const auto* b = std::get_if<LumpedBarrier>(&barrier);

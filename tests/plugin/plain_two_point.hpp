@@ -19,10 +19,7 @@ class PlainTwoPoint final : public Scheme {
 
 public:
     PlainTwoPoint(const Scene& scene, const Settings& settings)
-        : scene_(scene),
-          string_(scene.strings.front()),
-          ratio_(steps_per_row(settings)),
-          modes_(modes_of(string_, modes_for(string_, settings))) {
+        : scene_(scene), string_(scene.strings.front()), ratio_(steps_per_row(settings)), modes_(modes_of(string_, settings)) {
         const Real dt = 1 / static_cast<Real>(settings.sample_rate);
         const int M = modes_.count();
         const Real xi = dt * dt / (2 * static_cast<Real>(modes_.mass));
@@ -77,7 +74,10 @@ public:
         for (int row = 0; row < out.rows; ++row) {
             for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = static_cast<double>(value(k));
             impulse_b = impulse_c = 0;
-            for (int n = 0; n < ratio_; ++n) step();
+            for (int n = 0; n < ratio_; ++n) {
+                step();
+                if (out.stopped(n, steps_between_questions)) return {};
+            }
         }
         return {};
     }
