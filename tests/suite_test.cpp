@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "bench/compare/compare_record.hpp"
+#include "bench/report/spectrogram_chart.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/scene_file.hpp"
@@ -193,6 +195,48 @@ TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone
     EXPECT_EQ(csv(errors_only(table_of(plan, resumed.records))), whole);
 }
 
+TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
+    const Scratch scratch;
+    const Workshop w;
+    const Suite suite = parse_suite(counting_suite, "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    const std::string whole = csv(errors_only(table_of(plan, run_suite(plan, scratch.path, false, 2, w.console).records)));
+    const std::string path = scratch / (plan.cells[2].id + ".json"), kept = content(path);
+    const auto ran_with = [&](const std::string& text) {
+        std::ofstream(path, std::ios::binary) << text;
+        const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
+        EXPECT_EQ(csv(errors_only(table_of(plan, resumed.records))), whole);
+        return resumed.ran;
+    };
+    EXPECT_EQ(ran_with(kept), 0);
+    std::string altered = kept;
+    const auto digit = altered.find_first_of("123456789", altered.find("error_l2_50ms") + 20);
+    altered[digit] = altered[digit] == '1' ? '2' : '1';
+    EXPECT_EQ(ran_with(altered), 1);
+    EXPECT_EQ(ran_with(kept.substr(0, kept.find(",\n \"checksum")) + "}\n"), 1);  // as versions without checksums wrote it
+}
+
+TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures, be the checksum right
+    const Scratch scratch;
+    const Suite suite = parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string"]
+        schemes = ["modal_two_point"]
+        rates = [44100]
+        duration = 0.01
+        measure = ["errors", "sound"]
+    )",
+                                    "a.toml");
+    const Workshop w;
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    run_suite(plan, scratch.path, false, 1, w.console);
+    const std::string path = scratch / (plan.cells[0].id + ".json");
+    auto json = nlohmann::ordered_json::parse(unsealed(content(path)));
+    json["rows"]["sound"]["rows"][0] = nlohmann::ordered_json::array();
+    std::ofstream(path) << sealed(json.dump());
+    EXPECT_EQ(run_suite(plan, scratch.path, true, 1, w.console).ran, 1);
+}
+
 TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
     const Scratch scratch;
     const Workshop w;
@@ -202,7 +246,7 @@ TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
     const fs::path path = scratch.path / (plan.cells[2].id + ".json");
     auto json = nlohmann::ordered_json::parse(content(path));
     json["timed"] = false;
-    std::ofstream(path) << json.dump();
+    std::ofstream(path) << sealed(json.dump());
     makes = 0;
     const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
     EXPECT_EQ(resumed.ran, 0);

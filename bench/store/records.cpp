@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -27,12 +26,6 @@ std::string options_text(const Options& options) {
     std::string text;
     for (const auto& [name, value] : options) text += (text.empty() ? "" : " ") + name + "=" + value;
     return text;
-}
-
-std::string hash_of(const std::string& text) {
-    std::uint64_t h = 0xcbf29ce484222325;
-    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3;
-    return fmt::format("{:016x}", h);
 }
 
 int Table::column(const std::string& name) const {

@@ -26,7 +26,7 @@ struct PlannedCell {
     const PlannedPoint* point;
     Cell cell;
     std::string identity;  // JSON: the scene's hash, the scheme, the settings, the program, what is measured
-    std::string id;        // 16 hexadecimal digits (FNV-1a) of it
+    std::string id;        // hash_of it
 };
 
 struct SuitePlan {
