@@ -7,6 +7,7 @@
 #include "bench/command/commands.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/console.hpp"
+#include "bench/store/indented.hpp"
 #include "bench/suite/suite_file.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -174,7 +175,7 @@ int list_command(const ListRequest& r) {
             }
     if (r.markdown) {
         console.print(markdown(shelf.catalogue));
-        console.print_json(Json{{"markdown", markdown(shelf.catalogue)}}.dump(2));
+        console.print_json(indented({{"markdown", markdown(shelf.catalogue)}}));
         return done;
     }
     Json json = Json::object();
@@ -195,7 +196,7 @@ int list_command(const ListRequest& r) {
     }
     text.pop_back();
     console.print(text);
-    console.print_json(json.dump(2));
+    console.print_json(indented(json));
     return done;
 }
 

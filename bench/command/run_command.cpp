@@ -8,6 +8,7 @@
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/summary.hpp"
 #include "bench/store/console.hpp"
+#include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
 #include "bench/store/records.hpp"
@@ -120,7 +121,7 @@ int run_command(const RunRequest& r) {
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
     }
     console.print(text);
-    console.print_json(json.dump(2));
+    console.print_json(indented(json));
     if (result.status.outcome == Outcome::ok) return done;
     console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome), result.status.step, result.trace.rows));
     return run_failed;
