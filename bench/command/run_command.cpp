@@ -98,7 +98,7 @@ int run_command(const RunRequest& r) {
     const Scene scene = load_scene(r.scene, r.set, r.duration);
     const Settings settings = settings_for(r, d);
     const TraceFile file = file_for(r, d, scene, settings);
-    if (!r.out.empty()) check(file, settings.tap_rate);
+    if (!r.out.empty()) check(file, scene, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * r.energy) > 2e9)
         throw UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));

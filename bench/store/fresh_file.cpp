@@ -43,10 +43,10 @@ void FreshFile::keep() {
     const bool synced = file >= 0 && fsync(file) == 0;
     const int reason = errno;
     if (file >= 0) close(file);
-    if (!synced) throw UsageError(fmt::format("cannot write {}: {}", path_.string(), std::strerror(reason)));
+    if (!synced) throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), std::strerror(reason)));
     std::error_code error;
     fs::rename(beside_, path_, error);
-    if (error) throw UsageError(fmt::format("cannot write {}: {}", path_.string(), error.message()));
+    if (error) throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), error.message()));
     kept_ = true;
 }
 
@@ -55,7 +55,7 @@ void write_fresh(const fs::path& path, const std::string& content) {
     std::ofstream stream(file.path(), std::ios::binary);
     stream << content;
     stream.close();
-    if (!stream) throw UsageError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+    if (!stream) throw Unwritable(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
     file.keep();
 }
 

@@ -15,7 +15,7 @@ public:
     FreshFile(const FreshFile&) = delete;
     FreshFile& operator=(const FreshFile&) = delete;
     const std::filesystem::path& path() const { return beside_; }  // write here
-    void keep();                                                   // flushes to the disk and renames
+    void keep();                                                   // flushes to the disk and renames; throws Unwritable
 
 private:
     Undisturbed writing_;  // an interruption leaves no part behind
@@ -23,8 +23,8 @@ private:
     bool kept_ = false;
 };
 
-void write_fresh(const std::filesystem::path&, const std::string& content);
-std::string read_whole(const std::filesystem::path&);  // throws UsageError
+void write_fresh(const std::filesystem::path&, const std::string& content);  // throws UsageError, Unwritable
+std::string read_whole(const std::filesystem::path&);                        // throws UsageError
 
 // Throws UsageError where no file could be written there, before an hour of work is spent on it.
 void must_be_writable(const std::filesystem::path&);
