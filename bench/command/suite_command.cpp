@@ -100,6 +100,7 @@ void make_folder(const fs::path& folder) {
         throw UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
     must_be_writable(folder / "cells.csv");
     must_be_writable(folder / "cells" / "any.json");
+    for (const char* own : {"cells", "points", "sounds", "failures"}) sweep_parts(folder / own);
 }
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Files appear whole or not at all: written beside their place, then renamed onto it.
+// Files appear whole or not at all: written beside their place, then renamed onto it. Where a link stands there, its target is written.
 #pragma once
 
 #include <filesystem>
@@ -28,5 +28,9 @@ std::string read_whole(const std::filesystem::path&);                        // 
 
 // Throws UsageError where no file could be written there, before an hour of work is spent on it.
 void must_be_writable(const std::filesystem::path&);
+
+// Removes from a folder of ours what killed programs left: parts of files of processes that are no more, and that nobody has written to for
+// an hour (a process of another machine or container is not seen from here).
+void sweep_parts(const std::filesystem::path& folder);
 
 }  // namespace jvari

@@ -105,6 +105,7 @@ Run kept_run(const fs::path& folder, const std::string& key, const std::function
     if (r.wall_seconds < worth_keeping) return r;
     try {
         fs::create_directories(folder);
+        sweep_parts(folder);
         write_run(path, key, r);
     } catch (const std::exception&) {  // it is a convenience
     }
