@@ -261,6 +261,7 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         scenes = ["free_string"]
         schemes = ["modal_two_point", "unwilling", "throwing", "slow"]
         rates = [44100]
+        modes = 10
         duration = 0.1
         time_limit_s = 0.02
         measure = ["errors", "cost", "spectrogram"]
@@ -275,6 +276,40 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         EXPECT_EQ(t.at(i, "status"), expected[i].first);
         EXPECT_EQ(t.at(i, "reason"), expected[i].second);
         EXPECT_EQ(t.at(i, "cost_s_per_s").empty(), i > 0);
+    }
+}
+
+TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
+    const Workshop w;
+    const Suite suite = parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string"]
+        schemes = ["modal_two_point"]
+        reference = "slow"
+        rates = [44100]
+        duration = 1.0
+        time_limit_s = 0.2
+        measure = ["errors"]
+    )",
+                                    "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    const Table t = table_of(plan, run_suite(plan, "", false, 1, w.console).records);
+    EXPECT_EQ(t.at(0, "status"), "ok");
+    EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
+    EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.2 s");
+}
+
+TEST(SuiteCommand, ASceneWithoutTapsIsRefused) {
+    const Scratch scratch;
+    std::ofstream(scratch / "s.toml") << "name = \"s\"\nsource = \"none\"\nduration = 0.01\n[[string]]\nlength = 1.0\nlinear_density = "
+                                         "1e-3\ntension = 50.0\n[string.initial]\nshape = \"mode\"\nnumber = 1\namplitude = 1e-3\n";
+    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"" << scratch / "s.toml"
+                                      << "\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\n";
+    for (const std::string& command :
+         {"compare " + (scratch / "s.toml") + " --schemes modal_two_point --rates 44100 --repeats 1", "suite " + (scratch / "a.toml")}) {
+        const Outcome o = jvari(scratch, command);
+        EXPECT_EQ(o.code, 2) << command << o.err;
+        EXPECT_NE(o.err.find("scene s has no tap"), std::string::npos) << o.err;
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/cost.hpp"
+#include "bench/compare/time_limit.hpp"
 #include "bench/store/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "schemes/run.hpp"
@@ -19,9 +20,9 @@ ProgressOf told_to(Done& done) {
     return [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
 }
 
-Run reference_run(const ReferenceChoice& choice, const Scene& scene, Done& done) {
+Run reference_run(const ReferenceChoice& choice, const Scene& scene, const ProgressOf& progress) {
     RunOptions options;
-    options.progress = told_to(done);
+    options.progress = progress;
     const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
     return choice.kept ? kept_run(kept_runs_folder(), run_key(*choice.scheme, scene, choice.settings), make) : make();
 }
@@ -31,9 +32,9 @@ double last_instant(const Run& r) {
 }
 
 // A scheme at three rates, the highest of them those of `r.choice`: its run there and its own estimate.
-void run_oversampled(Reference& r, const Scene& scene, Done& done) {
+void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progress) {
     RunOptions options;
-    options.progress = told_to(done);
+    options.progress = progress;
     Settings coarsest = r.choice.settings;
     coarsest.sample_rate /= r.choice.oversampled;
     try {
@@ -47,7 +48,7 @@ void run_oversampled(Reference& r, const Scene& scene, Done& done) {
     } catch (const Refusal& e) {
         r.trust.missing = e.what();
     }
-    r.run = reference_run(r.choice, scene, done);  // a coarser one fails: no estimate
+    r.run = reference_run(r.choice, scene, progress);  // a coarser one fails: no estimate
 }
 
 std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
@@ -60,14 +61,16 @@ std::string certify_command(const CompareRequest& r, const Comparison& c) {  // 
 }
 }  // namespace
 
-Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const Console& console) {
+Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const Console& console,
+                        double time_limit) {
     std::string refusals;
     for (const ReferenceChoice& choice : choices) try {
             Reference r{choice, {}, {}, {}};
             side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, Done& done) {
-                if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), done);
-                else if (choice.oversampled) run_oversampled(r, scene, done);
-                else r.run = reference_run(choice, scene, done);
+                const ProgressOf progress = within(time_limit, told_to(done));
+                if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress);
+                else if (choice.oversampled) run_oversampled(r, scene, progress);
+                else r.run = reference_run(choice, scene, progress);
             });
             if (r.run.trace.rows < 2) {
                 refusals += fmt::format("; {} failed at its start", choice.scheme->name);
@@ -77,6 +80,8 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
             return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();
+        } catch (const PastItsLimit& e) {
+            throw PastItsLimit(fmt::format("reference {}: {}", choice.name(), e.what()));
         }
     throw Refusal("reference: none represents scene " + scene.name + refusals);
 }
