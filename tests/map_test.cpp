@@ -66,6 +66,18 @@ TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
 
 // ---- Bisection
 
+TEST(MapFile, MorePointsThanCanBeRunAreRefusedWithTheirNumber) {
+    const std::string head = "[[map]]\nname = \"a\"\nscene = \"free_string\"\nschemes = [\"modal_two_point\", \"modal_quadratised\"]\n";
+    const auto axis = [](const char* name, const std::string& points) {
+        return name + std::string(" = { key = \"") + (*name == 'x' ? "rate" : "duration") + "\", from = 1, to = 2, points = " + points +
+               " }\n";
+    };
+    EXPECT_EQ(refusal_of(head + axis("x", "9999999")), "a.toml:5: map.0.x.points: found 9999999, expected at most 1000000");
+    EXPECT_EQ(refusal_of(head + axis("x", "10000") + axis("y", "1000")),
+              "a.toml:1: map.0: found 20000000 points, expected at most 1000000");
+    EXPECT_EQ(refusal_of(head + axis("x", "500") + axis("y", "1000")), "read");
+}
+
 TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
     int asked = 0;
     const auto past_pi = [&asked](double x) { return ++asked, x < 3.14159265 ? Verdict::sound : Verdict::diverged; };
