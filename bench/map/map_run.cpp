@@ -196,7 +196,7 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
     }
     std::vector<std::optional<Boundary>> found(changes.size());
     side_by_side(std::vector<double>(changes.size(), 1), jobs, console, "boundaries", [&](std::size_t i, Done&) {
-        const auto [low, high] = changes[i];
+        const JudgedPoint *low = changes[i].low, *high = changes[i].high;  // clang 14 captures no structured binding
         const MapAxis& axis = low->at.map->x;
         const Bracket b = bisect({number_of(low->at.x), number_of(high->at.x), low->tried.judgement.verdict, high->tried.judgement.verdict},
                                  low->at.map->refine, axis.whole, [&](double x) {
