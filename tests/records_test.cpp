@@ -21,6 +21,14 @@ TEST(Records, WhatCsvWritesItReadsBackWhateverTheFieldsHold) {
     EXPECT_EQ(back.rows, t.rows);
 }
 
+TEST(Records, NoTextIsAFormulaToASpreadsheetAndNumbersStayNumbers) {
+    const Table t{{"=a", "b"}, {{"=1+1", "-thread"}, {"@x", "+"}, {"'=1", "'"}, {"-0.5", "-inf"}, {"-1e-05", "=a,\"b\""}}};
+    EXPECT_EQ(csv(t), "'=a,b\n'=1+1,'-thread\n'@x,'+\n''=1,''\n-0.5,-inf\n-1e-05,\"'=a,\"\"b\"\"\"\n");
+    const Table back = read_csv(csv(t));
+    EXPECT_EQ(back.columns, t.columns);
+    EXPECT_EQ(back.rows, t.rows);
+}
+
 TEST(Records, NumbersReadBackAsTheSameDouble) {
     for (double x : {0.0, 0.1, 1.0 / 3, 1e-320, 6.02214076e23, -0.1, 2822400.0, std::numeric_limits<double>::max()})
         EXPECT_EQ(number_of(text_of(x)), x);

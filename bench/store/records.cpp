@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 namespace jvari {
 
@@ -54,7 +55,15 @@ Table Table::only(const std::vector<std::string>& names) const {
     return part;
 }
 
-std::string quoted(const std::string& field) {
+namespace {
+bool is_marked(const std::string& field) {  // in a file: "'=1+1"
+    return field.size() > 1 && field[0] == '\'' && std::string_view("=+-@'\t").find(field[1]) != std::string_view::npos;
+}
+}  // namespace
+
+std::string quoted(const std::string& plain) {
+    const bool mark = is_marked("'" + plain) && std::isnan(number_of(plain));
+    const std::string field = mark ? "'" + plain : plain;
     if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
     std::string text = "\"";
     for (char c : field) text += c == '"' ? "\"\"" : std::string(1, c);
@@ -79,6 +88,8 @@ Table read_csv(const std::string& text) {
     int line = 1;
     const auto end_row = [&] {
         if (!begun) return;  // an empty line
+        for (std::string& field : fields)
+            if (is_marked(field)) field.erase(0, 1);
         if (table.columns.empty()) {
             table.columns = fields;
         } else if (fields.size() != table.columns.size()) {
