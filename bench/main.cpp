@@ -1,11 +1,9 @@
 // jvari: the verbs, and what their failures mean to the caller.
-#include <fmt/core.h>
-
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "bench/command/commands.hpp"
 #include "bench/store/console.hpp"
+#include "bench/store/indented.hpp"
 #include "bench/store/interruption.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/scheme.hpp"
@@ -21,14 +19,18 @@ struct Verb {
 };
 
 int fail(bool json, int code, const char* status, const std::string& message) {
-    fmt::print(stderr, "jvari: {}\n", message);
-    if (json) fmt::print("{}\n", nlohmann::ordered_json{{"status", status}, {"message", message}, {"exit_code", code}}.dump(2));
+    jvari::tell("jvari: " + message);
+    try {
+        jvari::Console(json, false).print_json(jvari::indented({{"status", status}, {"message", message}, {"exit_code", code}}));
+    } catch (const jvari::Unwritable&) {  // the code says it
+    }
     return code;
 }
 }  // namespace
 
 int main(int argc, char** argv) {
     using namespace jvari;
+    hold_standard_streams();
     heed_interruptions();
     bool json = false;
     for (int k = 1; k < argc; ++k) json = json || std::strcmp(argv[k], "--json") == 0;
@@ -47,5 +49,7 @@ int main(int argc, char** argv) {
         return fail(json, refused, "refused", e.what());
     } catch (const std::exception& e) {
         return fail(json, run_failed, "error", e.what());
+    } catch (...) {  // a plugin may throw what it likes
+        return fail(json, run_failed, "error", "something was thrown that is no exception of the standard library");
     }
 }

@@ -13,8 +13,8 @@
 namespace jvari {
 
 namespace {
-constexpr int deepest = 16;         // levels of nesting; scenes have five
-constexpr int dots_in_a_line = 64;  // a key of very many parts would nest tables deeper than the stack is high
+constexpr int deepest = 16;        // levels of nesting; scenes have five
+constexpr int dots_in_a_key = 64;  // a key of very many parts would nest tables deeper than the stack is high
 
 template <class Indexed>
 std::optional<std::size_t> index_in(const Indexed& name) {
@@ -22,6 +22,18 @@ std::optional<std::size_t> index_in(const Indexed& name) {
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), i);
     if (error != std::errc() || end != name.data() + name.size()) return {};
     return i;
+}
+
+// One past the text of TOML that begins at `from`: "", '', """ """ or ''' '''. One that is not closed ends with its line, or with all.
+std::size_t end_of_text(std::string_view all, std::size_t from) {
+    const char mark = all[from];
+    const bool lines = all.substr(from, 3) == std::string(3, mark);
+    for (std::size_t i = from + (lines ? 3 : 1); i < all.size(); ++i) {
+        if (mark == '"' && all[i] == '\\') ++i;
+        else if (lines && all.substr(i, 3) == std::string(3, mark)) return std::min({all.find_first_not_of(mark, i), i + 5, all.size()});
+        else if (!lines && (all[i] == mark || all[i] == '\n')) return all[i] == mark ? i + 1 : i;
+    }
+    return all.size();
 }
 
 std::vector<std::string> parts_of(std::string_view path) {
@@ -79,16 +91,25 @@ struct Reading {
     int place;                 // 0: take the line from the document
     std::string at(int line) const { return place ? where : where + ":" + std::to_string(line); }
 
+    // Between two of , = [ ] { } and the ends of lines stands at most one key; dots in texts and comments are none of its own.
     void refuse_long_keys(std::string_view text) const {
-        int line = 1;
-        for (std::size_t begin = 0; begin <= text.size(); ++line) {
-            const std::size_t end = std::min(text.find('\n', begin), text.size());
-            std::string_view one = text.substr(begin, end - begin);
-            const std::size_t comment = one.find('#');
-            if (comment < one.find_first_of("\"'")) one = one.substr(0, comment);
-            if (std::count(one.begin(), one.end(), '.') > dots_in_a_line)
-                throw SceneFileError(at(line) + ": found more than " + std::to_string(dots_in_a_line) + " dots in a line, expected fewer");
-            begin = end + 1;
+        int line = 1, dots = 0;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            const char c = text[i];
+            if (c == '"' || c == '\'') {
+                const std::size_t end = end_of_text(text, i);
+                line += static_cast<int>(std::count(text.begin() + static_cast<long>(i), text.begin() + static_cast<long>(end), '\n'));
+                i = end - 1;
+            } else if (c == '#') {
+                i = std::min(text.find('\n', i), text.size()) - 1;
+            } else if (c == '.') {
+                if (++dots > dots_in_a_key)
+                    throw SceneFileError(at(line) + ": found a key with more than " + std::to_string(dots_in_a_key) +
+                                         " dots, expected fewer");
+            } else if (std::string_view(",=[]{}\n").find(c) != std::string_view::npos) {
+                dots = 0;
+                line += c == '\n';
+            }
         }
     }
 

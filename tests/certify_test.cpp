@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/store/checksum.hpp"
 #include "bench/store/records.hpp"
 #include "bench/trust/certificate_file.hpp"
 #include "bench/trust/certificate_library.hpp"
@@ -103,8 +104,7 @@ TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherVersionIsNotBelieved) {
         Json j = Json::parse(text);
         j.erase("checksum");
         j[key] = value;
-        j["checksum"] = hash_of(j.dump());
-        return j.dump();
+        return sealed(j.dump());
     };
     EXPECT_FALSE(refused(with_checksum("scene", "another"))) << why;
     EXPECT_TRUE(refused(with_checksum("program", "jvari 0.0.0")));
@@ -112,6 +112,13 @@ TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherVersionIsNotBelieved) {
     EXPECT_TRUE(refused(with_checksum("entries", Json::array())));
     EXPECT_TRUE(refused(with_checksum("noise_floor", Json::object())));
     EXPECT_TRUE(refused(with_checksum("taps", {"nut", "elsewhere"})));
+
+    const std::string deep = "{\"x\": " + std::string(300000, '[') + std::string(300000, ']');
+    EXPECT_TRUE(refused(deep + ", \"checksum\": \"0\"}"));
+    EXPECT_NE(why.find("checksum"), std::string::npos) << why;
+    EXPECT_TRUE(refused(sealed(deep + "}")));
+    EXPECT_NE(why.find("deeper"), std::string::npos) << why;
+    EXPECT_TRUE(refused(std::string(300000, '[')));
 }
 
 // ---- The verb
@@ -128,8 +135,7 @@ struct Verb {  // jvari certify of a small scene, its file in a folder of its ow
         Json j = Json::parse(content(file));
         j.erase("checksum");
         j["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] = 0.125;
-        j["checksum"] = hash_of(j.dump());
-        write(file, j.dump());
+        write(file, sealed(j.dump()));
     }
     bool altered() const { return Json::parse(content(file))["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] == 0.125; }
     std::string duration = "0.02";

@@ -49,4 +49,15 @@ inline Outcome jvari(const Scratch& scratch, const std::string& arguments, const
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
 
+// Lines of bash in the folder of the test; $J is the program. Without charts and without kept runs.
+inline Outcome shell(const Scratch& scratch, const std::string& lines) {
+    const std::string script = scratch / "script";
+    std::ofstream(script) << "export J=" JVARI_PROGRAM " JVARI_CACHE= JVARI_NODE_MODULES=/nowhere\nulimit -c 0\ncd "
+                          << scratch.path.string() << "\n"
+                          << lines << "\n";
+    const int status = std::system(("bash " + script + " >" + (scratch / "stdout") + " 2>" + (scratch / "stderr") + " </dev/null").c_str());
+    std::filesystem::remove(script);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(scratch / "stdout"), content(scratch / "stderr")};
+}
+
 }  // namespace jvari::test

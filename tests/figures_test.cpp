@@ -56,6 +56,10 @@ TEST(FigureFile, WhatIsWrongWithAFacetIsSaidWithFileLineAndKey) {
          "a.toml:3: cells.0.envelope.width_hz: found 0, expected a number > 0"},
         {"taps = [{ name = \"a\", quantity = \"velocty\" }]",
          "a.toml:3: cells.0.taps.0.quantity: unknown quantity \"velocty\"; did you mean"},
+        {"taps = [{ name = \"a\", quantity = \"velocity\", string = 0.5 }]",
+         "a.toml:3: cells.0.taps.0.string: found 0.5, expected a whole number from 0 to 1000"},
+        {"taps = [{ name = \"a\", quantity = \"velocity\", string = 1e300 }]",
+         "a.toml:3: cells.0.taps.0.string: found 1e+300, expected a whole number from 0 to 1000"},
     };
     for (const auto& [text, expected] : cases)
         EXPECT_NE(refusal_of(cells + text).find(expected), std::string::npos) << refusal_of(cells + text);

@@ -251,5 +251,47 @@ TEST(Interruption, ASecondSignalEndsAtOnceWhatTheFirstWaitsFor) {
     EXPECT_EQ(child.end(), SIGINT);
 }
 
+// ---- What a program leaves that had no time to clean up
+
+struct Left : Scratch {  // files of some age, in the name of a process that is no more
+    Left() {
+        const pid_t child = fork();
+        if (child == 0) _exit(0);
+        waitpid(child, nullptr, 0);
+        gone = std::to_string(child);
+    }
+    std::string file(const std::string& name, int hours) const {
+        std::ofstream(*this / name) << "half";
+        fs::last_write_time(*this / name, fs::file_time_type::clock::now() - std::chrono::hours(hours));
+        return *this / name;
+    }
+    std::string gone;
+};
+
+TEST(Killed, PartsAreSweptAndThoseOfOthersAreNot) {
+    const Left left;
+    const std::string swept = left.file(".a.json." + left.gone + ".part", 2);
+    const std::string kept[] = {left.file(".b.json." + left.gone + ".part", 0),
+                                left.file(".c.json." + std::to_string(getpid()) + ".part", 2),
+                                left.file("d.json", 2),
+                                left.file("e.json." + left.gone + ".part", 2),
+                                left.file(".f.json.part", 2),
+                                left.file(".g.x" + left.gone + ".part", 2)};
+    sweep_parts(left.path);
+    sweep_parts(left.path / "nowhere");
+    EXPECT_FALSE(fs::exists(swept));
+    for (const std::string& name : kept) EXPECT_TRUE(fs::exists(name)) << name;
+}
+
+TEST(Killed, ASuiteSweepsItsCells) {
+    const Left left;
+    fs::create_directories(left / "kept/cells");
+    const std::string part = left.file("kept/cells/.a.json." + left.gone + ".part", 2);
+    std::ofstream(left / "a.toml")
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\nrepeats = 1\n";
+    EXPECT_EQ(shell(left, "$J suite a.toml --out kept").code, 0);
+    EXPECT_FALSE(fs::exists(part));
+}
+
 }  // namespace
 }  // namespace jvari::test

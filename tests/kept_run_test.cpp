@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/compare/catalogue.hpp"
+#include "bench/store/checksum.hpp"
 #include "command_line.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
@@ -71,6 +72,29 @@ TEST(KeptRun, IsNotBelievedWhereItIsBrokenAlteredOrOfAnother) {
     }
     overwrite(path, whole);
     EXPECT_TRUE(read_run(path, "key"));
+}
+
+TEST(KeptRun, IsNotBelievedWhereItsChecksumIsRightAndItsContentIsNot) {
+    const Scratch scratch;
+    const fs::path path = scratch / "a.run";
+    write_run(path, "key", a_run());
+    const std::string right = content(path.string()).substr(32);
+    const auto believed = [&](const std::string& text) {
+        overwrite(path, hash_of(text) + text);
+        return read_run(path, "key").has_value();
+    };
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string text = right;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    EXPECT_TRUE(believed(right));
+    EXPECT_FALSE(believed(with("\"ok\"", "\"no such outcome\"")));
+    EXPECT_FALSE(believed(with("\"ok\"", "77")));
+    EXPECT_FALSE(believed(with("\"rows\":", "\"rows\":1")));
+    EXPECT_FALSE(believed(right + "12345678"));
+    EXPECT_FALSE(believed(with("\"ok\"", std::string(200000, '[') + std::string(200000, ']'))));
+    EXPECT_FALSE(believed(std::string(200000, '[') + "\n"));
+    EXPECT_FALSE(believed(std::string(200000, '\x81')));
 }
 
 TEST(KeptRun, IsMadeOnceAndAgainWhereTheFileIsBroken) {

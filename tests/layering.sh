@@ -43,6 +43,7 @@ only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'referen
 only CLI11 'CLI/' 'bench/command/'
 only JSON 'nlohmann/' 'bench/'
 only fmt 'fmt/' 'bench/'
+only xxHash 'xxhash' 'bench/store/checksum'
 only "libsndfile and HDF5" '(sndfile|hdf5)' 'bench/store/'
 forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp')

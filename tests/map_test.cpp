@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "bench/map/map_tables.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/suite/suite_file.hpp"
 #include "command_line.hpp"
 #include "scenes/scene_file.hpp"
@@ -64,6 +65,18 @@ TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
 }
 
 // ---- Bisection
+
+TEST(MapFile, MorePointsThanCanBeRunAreRefusedWithTheirNumber) {
+    const std::string head = "[[map]]\nname = \"a\"\nscene = \"free_string\"\nschemes = [\"modal_two_point\", \"modal_quadratised\"]\n";
+    const auto axis = [](const char* name, const std::string& points) {
+        return name + std::string(" = { key = \"") + (*name == 'x' ? "rate" : "duration") + "\", from = 1, to = 2, points = " + points +
+               " }\n";
+    };
+    EXPECT_EQ(refusal_of(head + axis("x", "9999999")), "a.toml:5: map.0.x.points: found 9999999, expected at most 1000000");
+    EXPECT_EQ(refusal_of(head + axis("x", "10000") + axis("y", "1000")),
+              "a.toml:1: map.0: found 20000000 points, expected at most 1000000");
+    EXPECT_EQ(refusal_of(head + axis("x", "500") + axis("y", "1000")), "read");
+}
 
 TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
     int asked = 0;
@@ -208,6 +221,30 @@ TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     const auto first = fs::directory_iterator(scratch.path)->path(), second = std::next(fs::directory_iterator(scratch.path))->path();
     fs::copy_file(first, second, fs::copy_options::overwrite_existing);  // a point under the name of another
     EXPECT_EQ(run_of(suite, scratch.path, true).ran, 1);
+}
+
+TEST(Maps, APointIsBelievedWhereItIsAsItWasWritten) {
+    const Scratch scratch;
+    const Suite suite = parse_suite(limits, "a.toml");
+    const MapRun whole = run_of(suite, scratch.path);
+    const fs::path file = fs::directory_iterator(scratch.path)->path();
+    const std::string kept = content(file.string());
+    const auto ran_with = [&](const std::string& text) {
+        std::ofstream(file, std::ios::binary) << text;
+        const MapRun resumed = run_of(suite, scratch.path, true);
+        EXPECT_EQ(csv(maps_table(resumed)), csv(maps_table(whole)));
+        return resumed.ran;
+    };
+    EXPECT_EQ(ran_with(kept), 0);
+    for (const char* key : {"outcome", "status", "error", "steps"}) {
+        std::string altered = kept;
+        const auto value = altered.find(':', altered.find(std::string("\"") + key + "\"")) + 1;
+        altered.replace(value, altered.find_first_of(",}", value) - value, "77");
+        EXPECT_EQ(ran_with(altered), 1) << key;
+        EXPECT_EQ(ran_with(sealed(unsealed(kept))), 0);
+        if (std::string(key) == "steps") continue;  // a number in place of a number: that is for the checksum alone to tell
+        EXPECT_EQ(ran_with(sealed(altered.substr(0, altered.find(",\n \"checksum")) + "}")), 1) << key;
+    }
 }
 
 TEST(Maps, TheProgramWritesTablesForASuiteOfMapsAlone) {

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+
+#include "bench/store/checksum.hpp"
 
 namespace jvari {
 namespace {
@@ -13,6 +16,14 @@ TEST(Records, WhatCsvWritesItReadsBackWhateverTheFieldsHold) {
     Table t;
     t.columns = {"plain", "a, comma", "a \"quotation\""};
     t.rows = {{"", "two\nlines", "\"\""}, {"x", ",", "\r\n"}, {"\u00e9", " space ", ""}};
+    const Table back = read_csv(csv(t));
+    EXPECT_EQ(back.columns, t.columns);
+    EXPECT_EQ(back.rows, t.rows);
+}
+
+TEST(Records, NoTextIsAFormulaToASpreadsheetAndNumbersStayNumbers) {
+    const Table t{{"=a", "b"}, {{"=1+1", "-thread"}, {"@x", "+"}, {"'=1", "'"}, {"-0.5", "-inf"}, {"-1e-05", "=a,\"b\""}}};
+    EXPECT_EQ(csv(t), "'=a,b\n'=1+1,'-thread\n'@x,'+\n''=1,''\n-0.5,-inf\n-1e-05,\"'=a,\"\"b\"\"\"\n");
     const Table back = read_csv(csv(t));
     EXPECT_EQ(back.columns, t.columns);
     EXPECT_EQ(back.rows, t.rows);
@@ -42,6 +53,34 @@ TEST(Records, APartOfATableKeepsTheOrderAskedFor) {
     const Table part = t.only({"c", "absent", "a"});
     EXPECT_EQ(part.columns, (std::vector<std::string>{"c", "a"}));
     EXPECT_EQ(part.rows[0], (std::vector<std::string>{"3", "1"}));
+}
+
+// Of nothing as the definition of XXH3 in 128 bits has it; and that a change of one bit changes it.
+TEST(Checksum, IsXxh3) {
+    EXPECT_EQ(hash_of(""), "99aa06d3014798d86001c324468d497f");
+    EXPECT_EQ(hash_of("a").size(), 32u);
+    EXPECT_NE(hash_of("a"), hash_of("`"));
+}
+
+TEST(Checksum, WhatWasSealedComesBackAndNothingElseDoes) {
+    const std::string object = "{\n \"a\": [1, \"}\"]\n}", file = sealed(object);
+    EXPECT_EQ(unsealed(file), object);
+    EXPECT_TRUE(file.ends_with("\"\n}\n")) << file;
+    for (std::size_t k = 0; k < file.size(); ++k) {
+        std::string altered = file;
+        altered[k] ^= 1;
+        EXPECT_THROW(unsealed(altered), std::runtime_error) << k;
+        EXPECT_THROW(unsealed(file.substr(0, k)), std::runtime_error) << k;
+    }
+}
+
+TEST(Checksum, NestingIsCountedOutsideOfTexts) {
+    const auto deep = [](std::size_t n, const std::string& within) { return std::string(n, '[') + within + std::string(n, ']'); };
+    EXPECT_NO_THROW(refuse_deep(deep(32, "\"[[[[\\\"[[[[\"")));
+    EXPECT_NO_THROW(refuse_deep("[" + deep(31, "") + "," + deep(31, "") + "]"));
+    EXPECT_THROW(refuse_deep(deep(33, "")), std::runtime_error);
+    EXPECT_THROW(refuse_deep(deep(32, "\"\\\\\", []")), std::runtime_error);
+    EXPECT_THROW(refuse_deep(std::string(300000, '{')), std::runtime_error);
 }
 
 }  // namespace

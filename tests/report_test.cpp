@@ -2,6 +2,7 @@
 #include "bench/report/report.hpp"
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bench/report/chart_data.hpp"
 #include "bench/report/page_sections.hpp"
@@ -74,6 +75,52 @@ TEST(Report, AFolderWithoutResultsIsRefused) {
     EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
     std::ofstream(empty / "manifest.json") << "{";
     EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
+}
+
+TEST(Report, TextsThatAreNoUtf8AreShownAsFarAsTheyAre) {
+    const MadeUp folder(every_file);
+    std::string cells = content(folder / "cells.csv");
+    cells.replace(cells.find(",one,"), 5, ",one\xff,");
+    std::ofstream(folder / "cells.csv", std::ios::binary) << cells;
+    const Outcome o = jvari(folder, "report --json " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(content(folder / "report.html").find("one\ufffd"), std::string::npos);
+}
+
+TEST(Report, AManifestThatIsNestedTooDeepIsRefused) {
+    const MadeUp folder(every_file);
+    std::ofstream(folder / "manifest.json") << "{\"suite\": \"a\", \"x\": " << std::string(300000, '[') << std::string(300000, ']') << "}";
+    EXPECT_EQ(jvari(folder, "report " + folder.path.string()).code, 2);
+}
+
+TEST(Report, SoundsLieBelowTheFolder) {
+    const Scratch outside;
+    std::ofstream(outside / "private.wav", std::ios::binary) << wav_of({44100, 1, std::vector<std::int16_t>(4410, 7)});
+    for (const std::string& file : {outside / "private.wav", "../" + outside.path.filename().string() + "/private.wav"}) {
+        const MadeUp folder(every_file);
+        std::ofstream(folder / "sounds.csv") << "scheme,rate,modes,tap,quantity,sample_rate,peak,file,reference_file\none,44100,1,nut,"
+                                                "nut_force,44100,1,"
+                                             << file << ",\n";
+        const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+        EXPECT_EQ(o.code, 2) << o.err;
+        EXPECT_NE(o.err.find("expected one below the folder"), std::string::npos) << o.err;
+    }
+}
+
+TEST(Report, PicturesOfDifferentProblemsHaveDifferentNames) {
+    const std::string start = "a, " + std::string(200, 'x');
+    const std::vector<std::string> problems{"a, height = -0.001", "a, height = 0.001", "a, k = 1e-05", "a, k = 1e+05", "a, name = (x)",
+                                            "a, name = [x]",      start + " = 1",      start + " = 2", "a, n = a b",   "a, n = a,b"};
+    std::set<std::string> files;
+    for (const std::string& p : problems) {
+        const std::string file = twin_file("map", p, problems);
+        EXPECT_TRUE(files.insert(file).second) << file;
+        EXPECT_LE(file.size(), 108u);
+        EXPECT_EQ(file.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.+-"), std::string::npos) << file;
+    }
+    EXPECT_TRUE(files.contains("map-a-height--0.001.svg"));
+    EXPECT_TRUE(files.contains("map-a-height-0.001.svg"));  // as it was: it meets none
+    EXPECT_TRUE(files.contains("map-a-k-1e+05.svg"));
 }
 
 TEST(Report, OnlyRunsOfOneSceneAtOneSweptPointAreCompared) {

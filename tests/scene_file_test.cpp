@@ -352,7 +352,7 @@ const std::vector<Bad> bad_scenes{
     {head + "x = [[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n", "scene.toml:3: found tables or arrays nested deeper than 16"},
     {"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
      "a = 1",
-     "scene.toml:1: found more than 64 dots in a line, expected fewer"},
+     "scene.toml:1: found a key with more than 64 dots, expected fewer"},
     {std::string((1 << 20) + 1, ' '), "scene.toml:1: found 1048577 bytes, expected at most 1048576"},
     // keys
     {"", "scene.toml:1: name: found nothing, expected a text"},

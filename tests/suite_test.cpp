@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "bench/compare/compare_record.hpp"
+#include "bench/report/spectrogram_chart.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/scene_file.hpp"
@@ -61,6 +63,29 @@ TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
     ASSERT_EQ(plan.cells.size(), 3u);  // sitar_fdm is the same at both points, and no reference differs
     EXPECT_EQ(options_text(plan.cells[0].cell.settings.options), "length=integer");
     EXPECT_EQ(options_text(plan.cells[2].cell.settings.options), "length=fractional");
+}
+
+TEST(SuiteFile, DotsAreCountedInKeysAlone) {
+    const auto suite = [](const std::string& more) { return "[[cells]]\nscenes = [\"b\"]\n" + more + "\n"; };
+    std::string numbers, dots;
+    for (int k = 1; k <= 80; ++k) numbers += (k > 1 ? ", " : "") + std::to_string(k) + ".5", dots += ".a";
+    const std::string full(80, '.');
+    const std::string sound[] = {suite("rates = [" + numbers + "]"), suite("sweep = { \"string.0.tension\" = [" + numbers + "] }"),
+                                 "source = \"" + full + "\"\n" + suite(""),
+                                 "source = '''\n" + full + " it's \n'''  # " + full + "\n" + suite("")};
+    for (const std::string& text : sound) EXPECT_EQ(refusal_of(text), "read");
+    const std::string keys[] = {"a" + dots + " = 1",
+                                "[a" + dots + "]",
+                                "x = { a" + dots + " = 1 }",
+                                "x = [{ b = \"\", a" + dots + " = 1 }]",
+                                "x = \"\"\"it's\"\"\"\"\na" + dots + " = '\"'",
+                                "x = '''\"'''\na" + dots + " = 1 # \"",
+                                "\",\"" + dots + ".\",\"" + dots + " = 1",
+                                "x = \"\\\"\"\na" + dots + " = 1",
+                                "x = 'a\\'\na" + dots + " = 1"};
+    for (const std::string& key : keys)
+        EXPECT_NE(refusal_of(suite(key)).find("found a key with more than 64 dots"), std::string::npos) << key << "\n"
+                                                                                                        << refusal_of(suite(key));
 }
 
 TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {
@@ -197,6 +222,48 @@ TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone
     EXPECT_EQ(csv(errors_only(table_of(plan, resumed.records))), whole);
 }
 
+TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
+    const Scratch scratch;
+    const Workshop w;
+    const Suite suite = parse_suite(counting_suite, "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    const std::string whole = csv(errors_only(table_of(plan, run_suite(plan, scratch.path, false, 2, w.console).records)));
+    const std::string path = scratch / (plan.cells[2].id + ".json"), kept = content(path);
+    const auto ran_with = [&](const std::string& text) {
+        std::ofstream(path, std::ios::binary) << text;
+        const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
+        EXPECT_EQ(csv(errors_only(table_of(plan, resumed.records))), whole);
+        return resumed.ran;
+    };
+    EXPECT_EQ(ran_with(kept), 0);
+    std::string altered = kept;
+    const auto digit = altered.find_first_of("123456789", altered.find("error_l2_50ms") + 20);
+    altered[digit] = altered[digit] == '1' ? '2' : '1';
+    EXPECT_EQ(ran_with(altered), 1);
+    EXPECT_EQ(ran_with(kept.substr(0, kept.find(",\n \"checksum")) + "}\n"), 1);  // as versions without checksums wrote it
+}
+
+TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures, be the checksum right
+    const Scratch scratch;
+    const Suite suite = parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string"]
+        schemes = ["modal_two_point"]
+        rates = [44100]
+        duration = 0.01
+        measure = ["errors", "sound"]
+    )",
+                                    "a.toml");
+    const Workshop w;
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    run_suite(plan, scratch.path, false, 1, w.console);
+    const std::string path = scratch / (plan.cells[0].id + ".json");
+    auto json = nlohmann::ordered_json::parse(unsealed(content(path)));
+    json["rows"]["sound"]["rows"][0] = nlohmann::ordered_json::array();
+    std::ofstream(path) << sealed(json.dump());
+    EXPECT_EQ(run_suite(plan, scratch.path, true, 1, w.console).ran, 1);
+}
+
 TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
     const Scratch scratch;
     const Workshop w;
@@ -205,8 +272,9 @@ TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
     run_suite(plan, scratch.path, false, 2, w.console);
     const fs::path path = scratch.path / (plan.cells[2].id + ".json");
     auto json = nlohmann::ordered_json::parse(content(path));
+    json.erase("checksum");
     json["timed"] = false;
-    std::ofstream(path) << json.dump();
+    std::ofstream(path) << sealed(json.dump());
     makes = 0;
     const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
     EXPECT_EQ(resumed.ran, 0);
@@ -221,6 +289,7 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         scenes = ["free_string"]
         schemes = ["modal_two_point", "unwilling", "throwing", "slow"]
         rates = [44100]
+        modes = 10
         duration = 0.1
         time_limit_s = 0.02
         measure = ["errors", "cost", "spectrogram"]
@@ -235,6 +304,40 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         EXPECT_EQ(t.at(i, "status"), expected[i].first);
         EXPECT_EQ(t.at(i, "reason"), expected[i].second);
         EXPECT_EQ(t.at(i, "cost_s_per_s").empty(), i > 0);
+    }
+}
+
+TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
+    const Workshop w;
+    const Suite suite = parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string"]
+        schemes = ["modal_two_point"]
+        reference = "slow"
+        rates = [44100]
+        duration = 1.0
+        time_limit_s = 0.2
+        measure = ["errors"]
+    )",
+                                    "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    const Table t = table_of(plan, run_suite(plan, "", false, 1, w.console).records);
+    EXPECT_EQ(t.at(0, "status"), "ok");
+    EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
+    EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.2 s");
+}
+
+TEST(SuiteCommand, ASceneWithoutTapsIsRefused) {
+    const Scratch scratch;
+    std::ofstream(scratch / "s.toml") << "name = \"s\"\nsource = \"none\"\nduration = 0.01\n[[string]]\nlength = 1.0\nlinear_density = "
+                                         "1e-3\ntension = 50.0\n[string.initial]\nshape = \"mode\"\nnumber = 1\namplitude = 1e-3\n";
+    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"" << scratch / "s.toml"
+                                      << "\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\n";
+    for (const std::string& command :
+         {"compare " + (scratch / "s.toml") + " --schemes modal_two_point --rates 44100 --repeats 1", "suite " + (scratch / "a.toml")}) {
+        const Outcome o = jvari(scratch, command);
+        EXPECT_EQ(o.code, 2) << command << o.err;
+        EXPECT_NE(o.err.find("scene s has no tap"), std::string::npos) << o.err;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "bench/store/console.hpp"
 #include "bench/store/machine.hpp"
@@ -24,7 +25,8 @@ constexpr const char* examples =
     "  jvari certify tanpura_c3_release --duration 0.1         how far the references agree there\n"
     "  jvari report report                                     its page and picture once more\n"
     "\n"
-    "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed (what was written stays valid).\n"
+    "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed, or "
+    "its result could not be written (what was written stays valid).\n"
     "Ctrl-C leaves whole files only; a suite says how many cells are kept.";
 
 std::string a_number(const std::string& text, bool whole) {
@@ -219,7 +221,9 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {
-        app.exit(asked);
+        std::ostringstream text, nothing;
+        app.exit(asked, text, nothing);
+        Console(false, false).print(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
         return std::nullopt;
     } catch (const CLI::ParseError& e) {
         throw UsageError(std::string(e.what()) + " (see jvari " + (argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : "") +

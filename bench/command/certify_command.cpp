@@ -10,6 +10,7 @@
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/indented.hpp"
 #include "bench/store/records.hpp"
 #include "bench/trust/certificate_file.hpp"
 #include "bench/trust/certificate_library.hpp"
@@ -159,15 +160,13 @@ int certify_command(const CertifyRequest& r) {
         std::any_of(entries.begin(), entries.end(), [](const auto& e) { return e.reason.empty() && e.status.outcome == Outcome::ok; });
     Json costs = Json::array();
     for (const auto& e : entries) costs.push_back(e.wall_seconds);
-    console.print_json(Json{
-        {"scene", scene.name},
-        {"status", good ? "ok" : "failed"},
-        {"cached", cached},
-        {"file", path.string()},
-        {"cost_file", cost_path(path).string()},
-        {"certificate", Json::parse(json_of(kept))},
-        {"wall_seconds",
-         costs}}.dump(2));
+    console.print_json(indented({{"scene", scene.name},
+                                 {"status", good ? "ok" : "failed"},
+                                 {"cached", cached},
+                                 {"file", path.string()},
+                                 {"cost_file", cost_path(path).string()},
+                                 {"certificate", Json::parse(json_of(kept))},
+                                 {"wall_seconds", costs}}));
     return good ? done : run_failed;
 }
 

@@ -1,4 +1,4 @@
-// jvari compare: the main job. What it found goes to a folder, a table and a page.
+// jvari compare: the main job. What it found goes to a folder and a page; then, that nothing is lost where nobody reads it, to a table.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "bench/compare/convergence_table.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/indented.hpp"
 
 namespace jvari {
 
@@ -63,14 +64,7 @@ int compare_command(const CompareCall& r) {
     const Table cells = cells_of(c);
     const std::string manifest = manifest_of(c, r);
 
-    const double rate = c.reference_summary.rate;
-    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene.name,
-                              c.reference_name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
-                              c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
-                              c.scene.taps.at(c.headline.bridge).name));
-    console.print(headline_text(cells, headline_error(c)) + "\n" + certificate_text(c) + "\n" + floor_text(c));
     const Table cheapest = cheapest_of(cells, headline_error(c), c.scene.name);
-    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
     Json files = Json::array();
     if (!r.out.empty()) {
         const fs::path folder = r.out;
@@ -85,19 +79,26 @@ int compare_command(const CompareCall& r) {
         write_sounds(c, folder);
         for (const char* name : {"cells.csv", "errors.csv", "cost.csv", "manifest.json"}) files.push_back((folder / name).string());
         for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
-        console.print("written: " + folder.string());
     }
+
+    const double rate = c.reference_summary.rate;
+    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene.name,
+                              c.reference_name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
+                              c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
+                              c.scene.taps.at(c.headline.bridge).name));
+    console.print(headline_text(cells, headline_error(c)) + "\n" + certificate_text(c) + "\n" + floor_text(c));
+    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
+    if (!r.out.empty()) console.print("written: " + r.out);
     const int code = exit_code(c);
-    console.print_json(Json{
-        {"scene", c.scene.name},
-        {"reference", c.reference_name},
-        {"status", code == done      ? "ok"
-                   : code == refused ? "refused"
-                                     : "failed"},
-        {"manifest", Json::parse(manifest)},
-        {"cells", Json::parse(rows_json(cells))},
-        {"cheapest", Json::parse(rows_json(cheapest))},
-        {"files", files}}.dump(2));
+    console.print_json(indented({{"scene", c.scene.name},
+                                 {"reference", c.reference_name},
+                                 {"status", code == done      ? "ok"
+                                            : code == refused ? "refused"
+                                                              : "failed"},
+                                 {"manifest", Json::parse(manifest)},
+                                 {"cells", Json::parse(rows_json(cells))},
+                                 {"cheapest", Json::parse(rows_json(cheapest))},
+                                 {"files", files}}));
     return code;
 }
 

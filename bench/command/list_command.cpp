@@ -8,6 +8,7 @@
 #include "bench/command/list_seam.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/console.hpp"
+#include "bench/store/indented.hpp"
 #include "bench/suite/suite_file.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -140,7 +141,7 @@ int list_command(const ListRequest& r) {
                                   : r.what == "facts" ? list_facts().markdown
                                                       : list_descriptors("", all).markdown;
         console.print(table);
-        console.print_json(Json{{"markdown", table}}.dump(2));
+        console.print_json(indented({{"markdown", table}}));
         return done;
     }
     Json json = Json::object();
@@ -164,7 +165,7 @@ int list_command(const ListRequest& r) {
     }
     text.pop_back();
     console.print(text);
-    console.print_json(json.dump(2));
+    console.print_json(indented(json));
     return done;
 }
 

@@ -5,6 +5,7 @@
 #include "bench/command/commands.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/console.hpp"
+#include "bench/store/indented.hpp"
 
 namespace jvari {
 
@@ -20,7 +21,7 @@ int report_command(const ReportRequest& r) {
         files.push_back((fs::path(r.folder) / name).string());
         console.print("written: " + (fs::path(r.folder) / name).string());
     }
-    console.print_json(Json{{"folder", r.folder}, {"files", files}}.dump(2));
+    console.print_json(indented({{"folder", r.folder}, {"files", files}}));
     return done;
 }
 

@@ -8,6 +8,7 @@
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/summary.hpp"
 #include "bench/store/console.hpp"
+#include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
 #include "bench/store/records.hpp"
@@ -108,7 +109,7 @@ int run_command(const RunRequest& r) {
     const Scene scene = load_scene(r.scene, r.set, r.duration);
     const Settings settings = settings_for(r, d);
     const TraceFile file = file_for(r, d, scene, settings);
-    if (!r.out.empty()) check(file, settings.tap_rate);
+    if (!r.out.empty()) check(file, scene, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * r.energy) > 2e9)
         throw UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
@@ -134,7 +135,7 @@ int run_command(const RunRequest& r) {
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
     }
     console.print(text);
-    console.print_json(json.dump(2));
+    console.print_json(indented(json));
     if (result.status.outcome == Outcome::ok) return done;
     console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome), result.status.step, result.trace.rows));
     return run_failed;

@@ -17,6 +17,7 @@
 #include "bench/report/figure_chart.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/indented.hpp"
 #include "bench/store/interruption.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/suite/row_facet.hpp"
@@ -42,7 +43,7 @@ std::string manifest_of(const Suite& suite, const SuitePlan& plan) {
     Json manifest = Json::parse(made_by());
     manifest.update(
         {{"suite", suite.name}, {"source", suite.source}, {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}});
-    return manifest.dump(2);
+    return indented(manifest);
 }
 
 std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
@@ -99,6 +100,7 @@ void make_folder(const fs::path& folder) {
         throw UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
     must_be_writable(folder / "cells.csv");
     must_be_writable(folder / "cells" / "any.json");
+    for (const char* own : {"cells", "points", "sounds", "failures"}) sweep_parts(folder / own);
 }
 }  // namespace
 
@@ -115,16 +117,12 @@ int suite_command(const SuiteRequest& r) {
         make_folder(folder);
         last_word.emplace([&] { console.note(kept_text(plan, suite, folder)); });
     }
-    const std::vector<std::string> mapped =
-        run_and_record_maps(suite.maps, catalogue, {suite.name, program_identity(r.plugins), folder, r.resume, r.jobs}, console);
+    const RecordedMaps maps = run_and_record_maps(suite.maps, catalogue, {program_identity(r.plugins), folder, r.resume, r.jobs}, console);
     const SuiteRun run = run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
     const Table cells = table_of(plan, run.records);
     const std::string manifest = manifest_of(suite, plan);
-    if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
     const Table cheapest = cheapest_of(cells);
-    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
-
-    Json files = mapped;
+    Json files = maps.files;
     if (!r.out.empty()) {
         const auto write = [&](const char* name, const std::string& content) {
             write_fresh(folder / name, content);
@@ -143,20 +141,23 @@ int suite_command(const SuiteRequest& r) {
         write("manifest.json", manifest + "\n");
         for (const DrawnFigure& f : draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
         for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
-        console.print("written: " + folder.string());
     }
+    // Files first: nothing is lost where nobody reads this.
+    if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
+    if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
+    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
+    if (!r.out.empty()) console.print("written: " + folder.string());
     const int code = exit_code(run.records);
     const char* status = code == done ? "ok" : code == refused ? "refused" : "failed";
-    console.print_json(Json{
-        {"suite", suite.name},
-        {"status", status},
-        {"ran", run.ran},
-        {"timed", run.timed},
-        {"read_back", run.read_back},
-        {"manifest", Json::parse(manifest)},
-        {"cells", Json::parse(rows_json(cells))},
-        {"cheapest", Json::parse(rows_json(cheapest))},
-        {"files", files}}.dump(2));
+    console.print_json(indented({{"suite", suite.name},
+                                 {"status", status},
+                                 {"ran", run.ran},
+                                 {"timed", run.timed},
+                                 {"read_back", run.read_back},
+                                 {"manifest", Json::parse(manifest)},
+                                 {"cells", Json::parse(rows_json(cells))},
+                                 {"cheapest", Json::parse(rows_json(cheapest))},
+                                 {"files", files}}));
     return code;
 }
 

@@ -9,6 +9,7 @@
 
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/cost.hpp"
+#include "bench/compare/time_limit.hpp"
 #include "bench/store/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "schemes/run.hpp"
@@ -20,9 +21,9 @@ ProgressOf told_to(Done& done) {
     return [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
 }
 
-Run reference_run(const ReferenceChoice& choice, const Scene& scene, Done& done) {
+Run reference_run(const ReferenceChoice& choice, const Scene& scene, const ProgressOf& progress) {
     RunOptions options;
-    options.progress = told_to(done);
+    options.progress = progress;
     const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
     return choice.kept ? kept_run(kept_runs_folder(), run_key(*choice.scheme, scene, choice.settings), make) : make();
 }
@@ -32,9 +33,9 @@ double last_instant(const Run& r) {
 }
 
 // A scheme at three rates, the highest of them those of `r.choice`: its run there and its own estimate.
-void run_oversampled(Reference& r, const Scene& scene, Done& done) {
+void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progress) {
     RunOptions options;
-    options.progress = told_to(done);
+    options.progress = progress;
     Settings coarsest = r.choice.settings;
     coarsest.sample_rate /= r.choice.oversampled;
     try {
@@ -48,7 +49,7 @@ void run_oversampled(Reference& r, const Scene& scene, Done& done) {
     } catch (const Refusal& e) {
         r.trust.missing = e.what();
     }
-    r.run = reference_run(r.choice, scene, done);  // a coarser one fails: no estimate
+    r.run = reference_run(r.choice, scene, progress);  // a coarser one fails: no estimate
 }
 
 // Schemes that may stand in, in order of what they estimate their own error to be.
@@ -75,22 +76,25 @@ std::string certify_command(const CompareRequest& r, const Comparison& c) {  // 
 }
 }  // namespace
 
-Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const Console& console) {
+Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const Console& console,
+                        double time_limit) {
     std::string refusals;
     bool ordered = false;
     std::vector<ReferenceChoice> in_turn = choices;
     for (std::size_t k = 0; k < in_turn.size(); ++k) try {
             if (in_turn[k].oversampled && k + 1 < in_turn.size() && !ordered) {
                 const std::span<ReferenceChoice> rest(in_turn.begin() + static_cast<long>(k), in_turn.end());
-                side_by_side({1}, 1, console, "stand-in", [&](std::size_t, Done& done) { least_error_first(rest, scene, told_to(done)); });
+                side_by_side({1}, 1, console, "stand-in",
+                             [&](std::size_t, Done& done) { least_error_first(rest, scene, within(time_limit, told_to(done))); });
                 ordered = true;
             }
             const ReferenceChoice& choice = in_turn[k];
             Reference r{choice, {}, {}, {}};
             side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, Done& done) {
-                if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), done);
-                else if (choice.oversampled) run_oversampled(r, scene, done);
-                else r.run = reference_run(choice, scene, done);
+                const ProgressOf progress = within(time_limit, told_to(done));
+                if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress);
+                else if (choice.oversampled) run_oversampled(r, scene, progress);
+                else r.run = reference_run(choice, scene, progress);
             });
             if (r.run.trace.rows < 2) {
                 refusals += fmt::format("; {} failed at its start", choice.scheme->name);
@@ -100,6 +104,8 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
             return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();
+        } catch (const PastItsLimit& e) {
+            throw PastItsLimit(fmt::format("reference {}: {}", choice.name(), e.what()));
         }
     throw Refusal("reference: none represents scene " + scene.name + refusals);
 }

@@ -99,6 +99,8 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
 }  // namespace
 
 Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
+    if (scene.taps.empty())
+        throw UsageError("scene " + scene.name + " has no tap: there is nothing to compare. A [[tap]] says what to hear");
     std::vector<double> rates = r.rates;
     if (rates.empty())
         for (int multiple : {1, 2, 4, 8, 16, 32, 64}) rates.push_back(44100.0 * multiple);

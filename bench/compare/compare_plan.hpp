@@ -1,6 +1,7 @@
 // What a comparison is going to run: which cells at which settings, which references to try in turn.
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 #include "bench/compare/compare.hpp"
@@ -32,8 +33,9 @@ struct Reference {
     Trust trust;     // what its certificate, or its own estimate, says of it
 };
 // The first of the choices that represents the scene and gets going, its two runs side by side where `jobs` are not 1; of the schemes that
-// may stand in the one that estimates its own error least goes first. Throws Refusal where none does.
-Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const Console&);
+// may stand in the one that estimates its own error least goes first. Throws Refusal where none does, and PastItsLimit where one of the two
+// runs computes for longer than `time_limit` [s]: another in its place would make the errors a matter of the machine.
+Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const Console&, double time_limit = HUGE_VAL);
 
 // Runs the cell and fills summary, errors and reason; errors stay empty without a reference. Throws Refusal. What `progress` throws ends
 // it.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/pareto.hpp"
+#include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -246,7 +247,7 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                        {"bridge", c.scene.taps.at(c.headline.bridge).name},
                        {"error", headline_error(c)}}},
                      {"noise_floor", floor}});
-    return manifest.dump(2);
+    return indented(manifest);
 }
 
 }  // namespace jvari

@@ -14,6 +14,7 @@ namespace jvari {
 
 namespace {
 constexpr const char* plain_keys[] = {"rate", "modes", "duration", "amplitude"};
+constexpr double most_points = 1e6;  // of a map: each is a run
 
 bool is_option(const std::string& key) {
     return key.rfind("option:", 0) == 0;
@@ -52,6 +53,7 @@ MapAxis axis_of(const SuiteReader& read, const Value& v, const std::string& with
         const double from = read.positive(need("from"), within + ".from"), to = read.positive(need("to"), within + ".to");
         const int points = read.count(need("points"), within + ".points");
         if (points < 2) read.refuse(need("points"), within + ".points", "2 or more");
+        if (points > most_points) read.refuse(need("points"), within + ".points", fmt::format("at most {}", most_points));
         if (!(to > from)) read.refuse(need("to"), within + ".to", "more than from");
         for (int i = 0; i < points; ++i) {
             const double x = i + 1 == points ? to : from * std::pow(to / from, static_cast<double>(i) / (points - 1));
@@ -85,6 +87,10 @@ Map map_of(const SuiteReader& read, const Value& v, const std::string& within) {
     if (const Value* y = v.find("y")) m.y = axis_of(read, *y, within + ".y");
     if (const Value* s = v.find("schemes"))
         m.schemes = read.several(*s, within + ".schemes", [&](const Value& one, const std::string& k) { return read.text(one, k); });
+    const double points = static_cast<double>(m.x.values.size()) * static_cast<double>(std::max<std::size_t>(1, m.y.values.size())) *
+                          static_cast<double>(std::max<std::size_t>(1, m.schemes.size()));
+    if (points > most_points)
+        throw SceneFileError(fmt::format("{}: {}: found {} points, expected at most {}", read.place(v), within, points, most_points));
     for (const char* plain : plain_keys)
         if (const Value* x = v.find(plain)) m.fixed.emplace_back(plain, value_text(read, *x, plain, within + "." + plain));
     if (const Value* t = v.find("options"))

@@ -8,8 +8,7 @@ namespace jvari {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> run_and_record_maps(const std::vector<Map>& maps, const Catalogue& catalogue, const MapRequest& r,
-                                             const Console& console) {
+RecordedMaps run_and_record_maps(const std::vector<Map>& maps, const Catalogue& catalogue, const MapRequest& r, const Console& console) {
     if (maps.empty()) return {};
     const bool kept = !r.folder.empty();
     if (kept)
@@ -20,12 +19,11 @@ std::vector<std::string> run_and_record_maps(const std::vector<Map>& maps, const
         }
     Truths truths(catalogue);
     const MapRun run = run_maps(maps, truths, r.program, kept ? r.folder / "points" : fs::path(), r.resume, r.jobs, console);
-    console.print(r.title + "\n" + maps_text(run));
-    std::vector<std::string> files;
-    if (!kept) return files;
+    RecordedMaps recorded{{}, maps_text(run)};
+    if (!kept) return recorded;
     const auto write = [&](const fs::path& name, const std::string& content) {
         write_fresh(r.folder / name, content);
-        files.push_back((r.folder / name).string());
+        recorded.files.push_back((r.folder / name).string());
     };
     write("maps.csv", csv(maps_table(run)));
     const std::vector<Reproducer> failures = reproducers_of(run, truths, r.jobs, console);
@@ -33,7 +31,7 @@ std::vector<std::string> run_and_record_maps(const std::vector<Map>& maps, const
     for (const Reproducer& f : failures) files_of[{f.trial.scheme->name, f.expected.verdict}] = "failures/" + f.file;
     write_failures(r.folder / "failures", failures);
     write("boundaries.csv", csv(boundaries_table(run, files_of)));
-    return files;
+    return recorded;
 }
 
 }  // namespace jvari

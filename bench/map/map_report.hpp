@@ -13,14 +13,16 @@ namespace jvari {
 class Console;
 
 struct MapRequest {
-    std::string title;             // of what is printed: the suite's name
     std::string program;           // program_identity
-    std::filesystem::path folder;  // "": nothing is written, the text is printed all the same
+    std::filesystem::path folder;  // "": nothing is written
     bool resume = false;
     int jobs = 0;  // 0: as many as there are cores
 };
 
-// Files written; none where there are no maps.
-std::vector<std::string> run_and_record_maps(const std::vector<Map>&, const Catalogue&, const MapRequest&, const Console&);
+struct RecordedMaps {
+    std::vector<std::string> files;  // written
+    std::string text;                // for the terminal; "" where there are no maps
+};
+RecordedMaps run_and_record_maps(const std::vector<Map>&, const Catalogue&, const MapRequest&, const Console&);
 
 }  // namespace jvari

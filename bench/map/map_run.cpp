@@ -11,7 +11,9 @@
 #include <optional>
 
 #include "bench/map/map_theory.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/side_by_side.hpp"
 
@@ -26,30 +28,36 @@ Json number(double x) {  // JSON has no NaN and no infinity
 }
 
 std::string json_of(const Tried& t, const std::string& identity) {
-    return Json{{"point", Json::parse(identity)},
-                {"outcome", static_cast<int>(t.judgement.verdict)},
-                {"detail", t.judgement.detail},
-                {"step", t.judgement.step},
-                {"status", static_cast<int>(t.figures.status.outcome)},
-                {"displacement", number(t.figures.displacement)},
-                {"energy_gain", number(t.figures.energy_gain)},
-                {"pull", number(t.figures.pull)},
-                {"error", number(t.figures.error)},
-                {"reference", t.reference},
-                {"steps", t.steps}}
-               .dump(-1, ' ', false, Json::error_handler_t::replace) +
-           "\n";
+    return sealed(Json{
+        {"point", Json::parse(identity)},
+        {"outcome", name_of(t.judgement.verdict)},
+        {"detail", t.judgement.detail},
+        {"step", t.judgement.step},
+        {"status", name_of(t.figures.status.outcome)},
+        {"displacement", number(t.figures.displacement)},
+        {"energy_gain", number(t.figures.energy_gain)},
+        {"pull", number(t.figures.pull)},
+        {"error", number(t.figures.error)},
+        {"reference", t.reference},
+        {"steps",
+         t.steps}}.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+Verdict verdict_named(const std::string& name) {
+    for (const Verdict v : verdicts())
+        if (name == name_of(v)) return v;
+    throw std::runtime_error("unknown outcome " + name);
 }
 
 std::optional<Tried> read_back(const fs::path& path, const std::string& identity) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return std::nullopt;
     try {
-        const Json j = Json::parse(read_whole(path));
+        const Json j = Json::parse(unsealed(read_whole(path)));
         if (j.at("point") != Json::parse(identity)) return std::nullopt;
         Tried t;
-        t.judgement = {static_cast<Verdict>(j.at("outcome").get<int>()), j.at("detail"), j.at("step")};
-        t.figures.status = {static_cast<Outcome>(j.at("status").get<int>()), j.at("step")};
+        t.judgement = {verdict_named(j.at("outcome")), j.at("detail"), j.at("step")};
+        t.figures.status = {outcome_named(j.at("status")), j.at("step")};
         t.figures.displacement = number_of(j.at("displacement"));
         t.figures.energy_gain = number_of(j.at("energy_gain"));
         t.figures.pull = number_of(j.at("pull"));
@@ -57,9 +65,7 @@ std::optional<Tried> read_back(const fs::path& path, const std::string& identity
         t.reference = j.at("reference");
         t.steps = j.at("steps");
         return t;
-    } catch (const Json::exception&) {
-        return std::nullopt;
-    } catch (const UsageError&) {
+    } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
         return std::nullopt;
     }
 }
@@ -190,7 +196,7 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
     }
     std::vector<std::optional<Boundary>> found(changes.size());
     side_by_side(std::vector<double>(changes.size(), 1), jobs, console, "boundaries", [&](std::size_t i, Done&) {
-        const auto [low, high] = changes[i];
+        const JudgedPoint *low = changes[i].low, *high = changes[i].high;  // clang 14 captures no structured binding
         const MapAxis& axis = low->at.map->x;
         const Bracket b = bisect({number_of(low->at.x), number_of(high->at.x), low->tried.judgement.verdict, high->tried.judgement.verdict},
                                  low->at.map->refine, axis.whole, [&](double x) {

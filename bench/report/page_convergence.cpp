@@ -113,7 +113,7 @@ Section convergence_section(const Results& r) {
     for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k) {
         WorkPrecision own = w;
         own.cells = rows_where(w.cells, "problem", problems[k]);
-        c.twins.push_back({twin_file("convergence", problems[k], problems.size()),
+        c.twins.push_back({twin_file("convergence", problems[k], problems),
                            chart_of("convergence.json", filling_of(own, orders, problems[k]), Medium::print)});
     }
     s.charts.push_back(std::move(c));

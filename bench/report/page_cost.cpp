@@ -56,8 +56,8 @@ Chart scaling_chart(const Table& t, const std::vector<std::string>& whats) {
         for (const std::string& what : whats) {
             const Table own = rows_where(rows_where(t, "problem", problem), "what", what);
             if (own.rows.empty() || c.twins.size() >= most_twins) continue;
-            c.twins.push_back({twin_file("scaling-" + what, problem, problems.size()),
-                               chart_of("scaling.json", filling(own, problem, what), Medium::print)});
+            c.twins.push_back(
+                {twin_file("scaling-" + what, problem, problems), chart_of("scaling.json", filling(own, problem, what), Medium::print)});
         }
     return c;
 }
@@ -79,7 +79,7 @@ Chart element_chart(const Table& t) {
             problem_menu(problems),
             {}};
     for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k)
-        c.twins.push_back({twin_file("elements", problems[k], problems.size()),
+        c.twins.push_back({twin_file("elements", problems[k], problems),
                            chart_of("elements.json", filling(rows_where(t, "problem", problems[k]), problems[k]), Medium::print)});
     return c;
 }

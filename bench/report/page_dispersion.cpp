@@ -48,7 +48,7 @@ Section dispersion_section(const Results& r) {
     c.spec = chart_of("dispersion.json", filling_of(rows, problems.front(), rates.front()), Medium::page);
     for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k) {
         const Table own = rows_where(rows, "problem", problems[k]);
-        c.twins.push_back({twin_file("dispersion", problems[k], problems.size()),
+        c.twins.push_back({twin_file("dispersion", problems[k], problems),
                            chart_of("dispersion.json", filling_of(own, problems[k], own.at(0, "rate")), Medium::print)});
     }
     s.charts.push_back(std::move(c));

@@ -75,7 +75,7 @@ Json panels_of(Json chart) {  // for papers: every scheme side by side
     return chart;
 }
 
-Chart map_chart(const std::string& name, const Table& cells, const Table& boundaries) {
+Chart map_chart(const std::string& name, const std::vector<std::string>& names, const Table& cells, const Table& boundaries) {
     const auto series = distinct(cells, "series");
     Filling f{name, cells.at(0, "scene"), {}, {}, {}, {{"series_field", json_text(series.front())}}};
     add_axis(f.words, cells, "x");
@@ -88,7 +88,7 @@ Chart map_chart(const std::string& name, const Table& cells, const Table& bounda
     Menu menu{name + ": scheme", "series_field", {}};
     for (const std::string& s : series) menu.choices.emplace_back(json_text(s), s);
     c.menus.push_back(std::move(menu));
-    c.twins.push_back({"map-" + file_part(name) + ".svg", panels_of(on_frame(chart_of("map.json", f, Medium::print))).dump()});
+    c.twins.push_back({"map-" + file_part(name, names) + ".svg", panels_of(on_frame(chart_of("map.json", f, Medium::print))).dump()});
     return c;
 }
 }  // namespace
@@ -96,8 +96,9 @@ Chart map_chart(const std::string& name, const Table& cells, const Table& bounda
 Section map_section(const Results& r) {
     Section s{"maps", "Where methods fail"};
     if (r.maps.rows.empty()) return s;
-    for (const std::string& name : distinct(r.maps, "map"))
-        s.charts.push_back(map_chart(name, rows_where(r.maps, "map", name), rows_where(r.boundaries, "map", name)));
+    const auto names = distinct(r.maps, "map");
+    for (const std::string& name : names)
+        s.charts.push_back(map_chart(name, names, rows_where(r.maps, "map", name), rows_where(r.boundaries, "map", name)));
     s.notes = {"Each point is a run. Grey lines are boundaries found by bisection, broken ones what theory says."};
     if (!r.boundaries.rows.empty()) s.table = r.boundaries.only({r.boundaries.columns.begin() + 2, r.boundaries.columns.end()});
     return s;

@@ -22,7 +22,7 @@ Section cell_section(const Results&);
 std::vector<Menu> problem_menu(const std::vector<std::string>& problems);
 constexpr std::size_t most_twins = 12;
 // "dispersion.svg", with the problem in the name where there are several.
-std::string twin_file(const std::string& chart, const std::string& problem, std::size_t problems);
+std::string twin_file(const std::string& chart, const std::string& problem, const std::vector<std::string>& problems);
 Table rows_where(const Table&, const std::string& column, const std::string& text);
 Table without_names(const Table&);                // less problem and series, which stand for columns that are there anyway
 WorkPrecision work_precision_of(const Results&);  // of all problems

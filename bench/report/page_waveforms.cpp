@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report/page_sections.hpp"
+#include "bench/store/console.hpp"
 #include "bench/store/sound.hpp"
 
 namespace jvari {
@@ -62,7 +63,8 @@ std::vector<Track> tracks_of(const Results& r, bool several_problems) {
         if (is_reference(t, i)) name = "reference " + reference_name(r, t.at(i, "problem"));
         if (several_problems) detail += (detail.empty() ? "" : ", ") + t.at(i, "problem");
         const std::string& file = t.at(i, "file");
-        if (file.find("..") != std::string::npos) continue;  // not ours
+        if (const std::filesystem::path path = file; path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
+            throw UsageError(fmt::format("{}: found the file {}, expected one below the folder", (r.folder / "sounds.csv").string(), file));
         tracks.push_back({i, t.at(i, "problem"), name, detail, file, t.at(i, "reference_file"),
                           read_wav(r.folder / file, t.number(i, "peak")), place_of(t, i)});
     }

@@ -131,7 +131,7 @@ Section work_precision_section(const Results& r) {
         w.cells = rows_where(r.cells, "problem", problems[k]);
         w.errors = error_axes(w.cells, {""}, headline_of(r));
         if (problems.size() > 1) w.title = problems[k] + ": error and cost";
-        if (!w.errors.empty()) c.twins.push_back({twin_file("work_precision", problems[k], problems.size()), work_precision_spec(w)});
+        if (!w.errors.empty()) c.twins.push_back({twin_file("work_precision", problems[k], problems), work_precision_spec(w)});
     }
     s.charts.push_back(std::move(c));
     s.notes = {

@@ -17,8 +17,8 @@ std::vector<Menu> problem_menu(const std::vector<std::string>& problems) {
     return {m};
 }
 
-std::string twin_file(const std::string& chart, const std::string& problem, std::size_t problems) {
-    return chart + (problems > 1 ? "-" + file_part(problem) : "") + ".svg";
+std::string twin_file(const std::string& chart, const std::string& problem, const std::vector<std::string>& problems) {
+    return chart + (problems.size() > 1 ? "-" + file_part(problem, problems) : "") + ".svg";
 }
 
 Table rows_where(const Table& t, const std::string& column, const std::string& text) {

@@ -7,8 +7,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 
 #include "bench/store/cell_rows.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
 
@@ -17,13 +19,18 @@ namespace jvari {
 namespace fs = std::filesystem;
 
 namespace {
+constexpr std::size_t longest_part = 100;  // of a file's name
 using Json = nlohmann::ordered_json;
+
+std::string as_utf8(const std::string& bytes) {  // what is none becomes U+FFFD
+    return Json::parse(Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
 
 Table read_table(const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return {};
     try {
-        return read_csv(read_whole(path));
+        return read_csv(as_utf8(read_whole(path)));
     } catch (const UsageError&) {
         throw;
     } catch (const std::runtime_error& e) {
@@ -63,6 +70,7 @@ void read_manifest(Results& r) {
     const fs::path path = r.folder / "manifest.json";
     r.manifest = read_whole(path);
     try {
+        refuse_deep(r.manifest);
         const Json m = Json::parse(r.manifest);
         r.about = m.value("date", "");
         if (!m.contains("scene")) {  // of a suite
@@ -80,7 +88,7 @@ void read_manifest(Results& r) {
         for (const Json& tap : scene.at("taps")) r.taps.push_back(tap.at("name"));
         for (const auto& [name, value] : m.at("noise_floor").items())
             if (value.is_number()) r.floors.emplace_back(name, value.get<double>());
-    } catch (const Json::exception& e) {
+    } catch (const std::exception& e) {  // Json::exception, what refuse_deep() throws
         throw UsageError(fmt::format("{}: {}", path.string(), e.what()));
     }
 }
@@ -114,15 +122,25 @@ std::vector<std::string> distinct(const Table& t, const std::string& column) {
     return texts;
 }
 
+namespace {
 std::string file_part(const std::string& text) {
     std::string part;
+    bool between = false;
     for (const char c : text) {
-        const bool kept = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
+        const bool kept = std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_.+-").find(c) != std::string_view::npos;
+        if (kept && between && !part.empty()) part += '-';
+        between = !kept;
         if (kept) part += c;
-        else if (!part.empty() && part.back() != '-') part += '-';
     }
-    while (!part.empty() && part.back() == '-') part.pop_back();
-    return part.substr(0, 100);
+    return part.substr(0, longest_part);
+}
+}  // namespace
+
+std::string file_part(const std::string& text, const std::vector<std::string>& all) {
+    const std::string part = file_part(text);
+    const auto meets = [&](const std::string& other) { return other != text && file_part(other) == part; };
+    if (std::none_of(all.begin(), all.end(), meets)) return part;
+    return part.substr(0, longest_part - 17) + "-" + hash_of(text).substr(0, 16);
 }
 
 }  // namespace jvari

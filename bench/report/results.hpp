@@ -27,6 +27,7 @@ Results read_results(const std::filesystem::path&);
 // A problem is a scene at one point of what is swept; runs of different problems are not compared. A series is a scheme with its options,
 // and with its modes where the table has it with several at one rate.
 std::vector<std::string> distinct(const Table&, const std::string& column);  // its texts, in the order in which they first come up
-std::string file_part(const std::string& text);                              // fit to stand in a file's name
+// `text` fit to stand in a file's name, which is that of no other of `all`.
+std::string file_part(const std::string& text, const std::vector<std::string>& all);
 
 }  // namespace jvari

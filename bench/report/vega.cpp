@@ -35,13 +35,18 @@ std::optional<std::string> whole(const fs::path& path) {
     return text.str();
 }
 
+fs::path temporary() {
+    const char* set = std::getenv("TMPDIR");
+    return set && *set ? set : "/tmp";
+}
+
 struct Scratch {  // a folder of our own, gone at the end
     Scratch() = default;
     ~Scratch() { remove(); }
     Scratch(const Scratch&) = delete;
     Scratch& operator=(const Scratch&) = delete;
     const fs::path path = [] {
-        std::string name = (fs::temp_directory_path() / "jvari-XXXXXX").string();
+        std::string name = (temporary() / "jvari-XXXXXX").string();
         return mkdtemp(name.data()) ? fs::path(name) : fs::path();
     }();
 
@@ -68,7 +73,12 @@ int spawn(std::vector<std::string> words, const fs::path& output) {
     sigset_t none;
     sigemptyset(&none);
     posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    sigset_t held;  // and what this program holds as errors of writing (console.hpp) are signals to it
+    sigemptyset(&held);
+    sigaddset(&held, SIGPIPE);
+    sigaddset(&held, SIGXFSZ);
+    posix_spawnattr_setsigdefault(&attributes, &held);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
     const int failed = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), environ);
     posix_spawnattr_destroy(&attributes);
@@ -113,7 +123,7 @@ std::optional<std::string> svg_of(const Vega& v, const std::string& spec, std::s
     const Scratch scratch;
     const fs::path in = scratch.path / "spec.vl.json", out = scratch.path / "out.svg", said = scratch.path / "said";
     if (scratch.path.empty() || !(std::ofstream(in, std::ios::binary) << spec)) {
-        why = "no picture: cannot write to " + fs::temp_directory_path().string();
+        why = "no picture: cannot write to " + temporary().string();
         return std::nullopt;
     }
     const int code = spawn({"node", (fs::path(v.folder) / ".bin/vl2svg").string(), in.string(), out.string()}, said);

@@ -1,9 +1,13 @@
 #include "bench/store/console.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 #include "scenes/wording.hpp"
 
@@ -11,24 +15,37 @@ namespace jvari {
 
 namespace {
 void clear_line() {
-    fmt::print(stderr, "\r\033[K");
+    std::fputs("\r\033[K", stderr);
+}
+
+void put(const std::string& text) {
+    const std::string line = text + "\n";
+    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
+        throw Unwritable(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
 }  // namespace
 
+void hold_standard_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) != stream) _exit(run_failed);
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+void tell(const std::string& line) {
+    std::fputs((line + "\n").c_str(), stderr);
+}
+
 void Console::note(const std::string& text) const {
-    if (!quiet_) fmt::print(stderr, "{}\n", text);
+    if (!quiet_) tell(text);
 }
 
 void Console::print(const std::string& text) const {
-    if (json_) return;
-    fmt::print(stdout, "{}\n", text);
-    std::fflush(stdout);
+    if (!json_) put(text);
 }
 
 void Console::print_json(const std::string& text) const {
-    if (!json_) return;
-    fmt::print(stdout, "{}\n", text);
-    std::fflush(stdout);
+    if (json_) put(text);
 }
 
 Console::Progress::Progress(const Console& console, std::string label)
@@ -48,7 +65,7 @@ void Console::Progress::show(double fraction, const std::string& what) {
     last_ = now;
     const Undisturbed line;
     if (!shown_) shown_.emplace(clear_line);
-    fmt::print(stderr, "\r\033[K{} {:3.0f} % {}", label_, 100 * fraction, what);
+    std::fputs(fmt::format("\r\033[K{} {:3.0f} % {}", label_, 100 * fraction, what).c_str(), stderr);
     std::fflush(stderr);
 }
 

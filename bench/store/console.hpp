@@ -18,13 +18,24 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// What was to be written could not be: a full disk, a reader that went away.
+struct Unwritable : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// Before any file is opened: none takes the number of a standard stream that the caller closed; and what cannot be written, to a pipe that
+// nobody reads or past a limit of file size, is an error of writing (Unwritable) where by default it would be a signal and the end.
+void hold_standard_streams();
+// A line to standard error. That it could not be written is nowhere to be told.
+void tell(const std::string& line);
+
 class Console {
 public:
     Console(bool json, bool quiet) : json_(json), quiet_(quiet) {}
     bool json() const { return json_; }
     void note(const std::string&) const;        // standard error, unless --quiet
-    void print(const std::string&) const;       // standard output, unless --json: the result as text
-    void print_json(const std::string&) const;  // standard output, with --json only: one object
+    void print(const std::string&) const;       // standard output, unless --json: the result as text; throws Unwritable
+    void print_json(const std::string&) const;  // standard output, with --json only: one object; throws Unwritable
 
     // Shows how far a job of several parts is, on a terminal and once it has taken 2 s.
     class Progress {

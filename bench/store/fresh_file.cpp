@@ -2,12 +2,16 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "bench/store/console.hpp"
 
@@ -15,8 +19,34 @@ namespace jvari {
 
 namespace fs = std::filesystem;
 
-void must_be_writable(const fs::path& path) {
+namespace {
+constexpr const char* part = "part";  // a file on its way: .NAME.PROCESS.part
+constexpr auto forsaken = std::chrono::hours(1);
+
+fs::path behind_links(fs::path path) {
     std::error_code error;
+    for (int k = 0; k < 40 && fs::is_symlink(path, error); ++k) {
+        const fs::path to = fs::read_symlink(path, error);
+        path = to.is_absolute() ? to : path.parent_path() / to;
+    }
+    return path;
+}
+
+pid_t process_of(const fs::path& file) {  // that was writing this part; 0: it is none
+    const std::string name = file.filename().string();
+    const fs::path stem = file.stem();
+    const std::string process = stem.extension().string();
+    pid_t id = 0;
+    if (name.front() != '.' || file.extension() != std::string(".") + part || process.size() < 2) return 0;
+    const auto [end, error] = std::from_chars(process.data() + 1, process.data() + process.size(), id);
+    return error == std::errc() && end == process.data() + process.size() && id > 0 ? id : 0;
+}
+}  // namespace
+
+void must_be_writable(const fs::path& named) {
+    const fs::path path = behind_links(named);
+    std::error_code error;
+    if (fs::is_symlink(path, error)) throw UsageError(fmt::format("cannot write {}: its links lead in a circle", named.string()));
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!path.has_filename() || fs::is_directory(path, error))
         throw UsageError(fmt::format("cannot write {}: it is a folder", path.string()));
@@ -27,10 +57,10 @@ void must_be_writable(const fs::path& path) {
         throw UsageError(fmt::format("cannot write {}: something that is no file stands there", path.string()));
 }
 
-FreshFile::FreshFile(fs::path path) : path_(std::move(path)) {
+FreshFile::FreshFile(fs::path path) : path_(behind_links(std::move(path))) {
     must_be_writable(path_);
     beside_ = path_;
-    beside_.replace_filename(fmt::format(".{}.{}.part", path_.filename().string(), getpid()));
+    beside_.replace_filename(fmt::format(".{}.{}.{}", path_.filename().string(), getpid(), part));
 }
 
 FreshFile::~FreshFile() {
@@ -43,10 +73,10 @@ void FreshFile::keep() {
     const bool synced = file >= 0 && fsync(file) == 0;
     const int reason = errno;
     if (file >= 0) close(file);
-    if (!synced) throw UsageError(fmt::format("cannot write {}: {}", path_.string(), std::strerror(reason)));
+    if (!synced) throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), std::strerror(reason)));
     std::error_code error;
     fs::rename(beside_, path_, error);
-    if (error) throw UsageError(fmt::format("cannot write {}: {}", path_.string(), error.message()));
+    if (error) throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), error.message()));
     kept_ = true;
 }
 
@@ -55,8 +85,20 @@ void write_fresh(const fs::path& path, const std::string& content) {
     std::ofstream stream(file.path(), std::ios::binary);
     stream << content;
     stream.close();
-    if (!stream) throw UsageError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+    if (!stream) throw Unwritable(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
     file.keep();
+}
+
+void sweep_parts(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> parts;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const pid_t process = process_of(entry.path());
+        if (process == 0 || kill(process, 0) == 0 || errno != ESRCH) continue;
+        const auto written = fs::last_write_time(entry.path(), error);
+        if (!error && fs::file_time_type::clock::now() - written > forsaken) parts.push_back(entry.path());
+    }
+    for (const fs::path& file : parts) fs::remove(file, error);
 }
 
 std::string read_whole(const fs::path& path) {

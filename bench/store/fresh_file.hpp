@@ -1,4 +1,4 @@
-// Files appear whole or not at all: written beside their place, then renamed onto it.
+// Files appear whole or not at all: written beside their place, then renamed onto it. Where a link stands there, its target is written.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ public:
     FreshFile(const FreshFile&) = delete;
     FreshFile& operator=(const FreshFile&) = delete;
     const std::filesystem::path& path() const { return beside_; }  // write here
-    void keep();                                                   // flushes to the disk and renames
+    void keep();                                                   // flushes to the disk and renames; throws Unwritable
 
 private:
     Undisturbed writing_;  // an interruption leaves no part behind
@@ -23,10 +23,14 @@ private:
     bool kept_ = false;
 };
 
-void write_fresh(const std::filesystem::path&, const std::string& content);
-std::string read_whole(const std::filesystem::path&);  // throws UsageError
+void write_fresh(const std::filesystem::path&, const std::string& content);  // throws UsageError, Unwritable
+std::string read_whole(const std::filesystem::path&);                        // throws UsageError
 
 // Throws UsageError where no file could be written there, before an hour of work is spent on it.
 void must_be_writable(const std::filesystem::path&);
+
+// Removes from a folder of ours what killed programs left: parts of files of processes that are no more, and that nobody has written to for
+// an hour (a process of another machine or container is not seen from here).
+void sweep_parts(const std::filesystem::path& folder);
 
 }  // namespace jvari

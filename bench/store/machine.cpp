@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "bench/commit.hpp"  // written at build time by commit.cmake
+#include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/records.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 namespace jvari {
 
@@ -27,12 +27,6 @@ std::string options_text(const Options& options) {
     std::string text;
     for (const auto& [name, value] : options) text += (text.empty() ? "" : " ") + name + "=" + value;
     return text;
-}
-
-std::string hash_of(const std::string& text) {
-    std::uint64_t h = 0xcbf29ce484222325;
-    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3;
-    return fmt::format("{:016x}", h);
 }
 
 int Table::column(const std::string& name) const {
@@ -61,7 +55,15 @@ Table Table::only(const std::vector<std::string>& names) const {
     return part;
 }
 
-std::string quoted(const std::string& field) {
+namespace {
+bool is_marked(const std::string& field) {  // in a file: "'=1+1"
+    return field.size() > 1 && field[0] == '\'' && std::string_view("=+-@'\t").find(field[1]) != std::string_view::npos;
+}
+}  // namespace
+
+std::string quoted(const std::string& plain) {
+    const bool mark = is_marked("'" + plain) && std::isnan(number_of(plain));
+    const std::string field = mark ? "'" + plain : plain;
     if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
     std::string text = "\"";
     for (char c : field) text += c == '"' ? "\"\"" : std::string(1, c);
@@ -86,6 +88,8 @@ Table read_csv(const std::string& text) {
     int line = 1;
     const auto end_row = [&] {
         if (!begun) return;  // an empty line
+        for (std::string& field : fields)
+            if (is_marked(field)) field.erase(0, 1);
         if (table.columns.empty()) {
             table.columns = fields;
         } else if (fields.size() != table.columns.size()) {

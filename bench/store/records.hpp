@@ -1,4 +1,5 @@
-// Results are rows: a table of text with named columns, and CSV (RFC 4180) to and fro.
+// Results are rows: a table of text with named columns, and CSV (RFC 4180) to and fro. A text that a spreadsheet would take for a formula,
+// because it begins with = + - @ and is no number, has an apostrophe in front in the file; so has one that begins with an apostrophe.
 #pragma once
 
 #include <string>
@@ -10,8 +11,6 @@ namespace jvari {
 // A number as the shortest text that reads back as itself; "" for NaN, "inf" for an infinity.
 std::string text_of(double);
 double number_of(const std::string&);  // NaN for "" and for what is no number
-
-std::string hash_of(const std::string&);  // 16 hexadecimal digits (FNV-1a)
 
 using Options = std::vector<std::pair<std::string, std::string>>;  // of a scheme: name, value
 std::string options_text(const Options&);                          // "control=none tolerance=1e-9"

@@ -29,7 +29,7 @@ Json json_of(const Table& table) {
 }  // namespace
 
 std::string rows_json(const Table& cells) {
-    return json_of(cells).dump();
+    return json_of(cells).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace jvari

@@ -4,9 +4,12 @@
 #include <sndfile.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
 #include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -41,7 +44,7 @@ void write_csv(const std::filesystem::path& path, const Trace& trace) {
     }
     stream.write(text.data(), static_cast<std::streamsize>(text.size()));
     stream.close();
-    if (!stream) throw UsageError("cannot write " + path.string());
+    if (!stream) throw std::runtime_error(std::strerror(errno));
 }
 
 int sndfile_format(const std::string& name) {
@@ -66,7 +69,7 @@ std::string write_wav(const std::filesystem::path& path, const std::string& form
     info.channels = trace.taps();
     info.format = SF_FORMAT_WAV | sndfile_format(format);
     SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
-    if (!file) throw UsageError("cannot write " + path.string() + ": " + sf_strerror(nullptr));
+    if (!file) throw std::runtime_error(sf_strerror(nullptr));
     sf_command(file, SFC_SET_CLIPPING, nullptr, SF_TRUE);
     std::vector<double> frame(trace.taps());
     bool good = true;
@@ -74,8 +77,28 @@ std::string write_wav(const std::filesystem::path& path, const std::string& form
         for (int k = 0; k < trace.taps(); ++k) frame[k] = gain[k] * trace.column(k)[n];
         good = sf_writef_double(file, frame.data(), 1) == 1;
     }
-    if (sf_close(file) != 0 || !good) throw UsageError("cannot write " + path.string());
+    const int reason = errno;
+    if (sf_close(file) != 0 || !good) throw std::runtime_error(std::strerror(good ? errno : reason));
     return said;
+}
+
+void check_wav(const std::string& out, const std::string& format, const Scene& scene, double tap_rate) {
+    constexpr std::size_t most_channels = 1024;  // of libsndfile
+    constexpr double most_bytes = 4e9;           // a .wav counts its bytes in 32 bits
+    if (tap_rate != std::round(tap_rate) || tap_rate > 2e9)
+        throw UsageError(fmt::format("{}: a .wav needs a whole number of rows per second, not {}", out, tap_rate));
+    if (scene.taps.empty()) throw UsageError(fmt::format("{}: a .wav has a channel per tap, and scene {} has no tap", out, scene.name));
+    if (scene.taps.size() > most_channels)
+        throw UsageError(fmt::format("{}: a .wav has a channel per tap, at most {}; scene {} has {} taps. A .csv or .h5 holds them", out,
+                                     most_channels, scene.name, scene.taps.size()));
+    const double bytes = scene.duration * tap_rate * static_cast<double>(scene.taps.size()) *
+                         (format == "float32" ? 4
+                          : format == "pcm24" ? 3
+                          : format == "pcm16" ? 2
+                                              : 8);
+    if (bytes > most_bytes)
+        throw UsageError(
+            fmt::format("{}: a .wav holds at most {:.0e} bytes, this would be {:.1e}. A .csv or .h5 holds them", out, most_bytes, bytes));
 }
 }  // namespace
 
@@ -86,13 +109,15 @@ std::vector<std::string> trace_columns(const Trace& trace) {
     return columns;
 }
 
-void check(const TraceFile& file, double tap_rate) {
-    const std::string extension = file.path.extension().string();
+void check(const TraceFile& file, const Scene& scene, double tap_rate) {
+    const std::string extension = file.path.extension().string(), out = "--out " + file.path.string();
     if (extension != ".csv" && extension != ".wav" && extension != ".h5")
-        throw UsageError(fmt::format("--out {}: found the extension \"{}\", expected .csv, .wav or .h5", file.path.string(), extension));
+        throw UsageError(fmt::format("{}: found the extension \"{}\", expected .csv, .wav or .h5", out, extension));
     if (extension != ".wav" && !file.wav_format.empty()) throw UsageError("--wav-format goes with --out FILE.wav, not with " + extension);
-    if (extension == ".wav" && (tap_rate != std::round(tap_rate) || tap_rate > 2e9))
-        throw UsageError(fmt::format("--out {}: a .wav needs a whole number of rows per second, not {}", file.path.string(), tap_rate));
+    if (extension == ".wav") check_wav(out, file.wav_format, scene, tap_rate);
+    for (const Tap& tap : scene.taps)
+        if (extension == ".h5" && tap.name == ".")
+            throw UsageError(out + ": a .h5 has a dataset per tap, and none can be named \".\". A .csv holds it");
     must_be_writable(file.path);
 }
 
@@ -100,9 +125,13 @@ std::string write(const TraceFile& file, const Scene& scene, const Trace& trace)
     FreshFile fresh(file.path);
     std::string said;
     const std::string extension = file.path.extension().string();
-    if (extension == ".csv") write_csv(fresh.path(), trace);
-    else if (extension == ".wav") said = write_wav(fresh.path(), file.wav_format, trace);
-    else write_hdf5(fresh.path(), file.attributes, scene, trace);
+    try {
+        if (extension == ".csv") write_csv(fresh.path(), trace);
+        else if (extension == ".wav") said = write_wav(fresh.path(), file.wav_format, trace);
+        else write_hdf5(fresh.path(), file.attributes, scene, trace);
+    } catch (const std::runtime_error& why) {
+        throw Unwritable(fmt::format("cannot write {}: {}", file.path.string(), why.what()));
+    }
     fresh.keep();
     return said;
 }

@@ -17,10 +17,10 @@ struct TraceFile {
     std::vector<std::pair<std::string, std::string>> attributes;  // of the run as a whole (.h5)
 };
 
-// Throws UsageError for a path or a format that cannot be written; before the run, so that no work is lost.
-void check(const TraceFile&, double tap_rate);
+// Throws UsageError for a path that cannot be written and a trace that the format cannot hold; before the run, so that no work is lost.
+void check(const TraceFile&, const Scene&, double tap_rate);
 
-// Returns what the reader has to know of it ("" or a sentence), as that pcm channels were scaled.
+// Returns what the reader has to know of it ("" or a sentence), as that pcm channels were scaled. Throws Unwritable.
 std::string write(const TraceFile&, const Scene&, const Trace&);
 
 std::vector<std::string> trace_columns(const Trace&);  // time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J]

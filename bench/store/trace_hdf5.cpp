@@ -2,26 +2,33 @@
 
 #include <hdf5.h>
 
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
 #include "bench/store/console.hpp"
 #include "bench/store/records.hpp"
 
 namespace jvari {
 
 namespace {
-struct Handle {  // closes what was opened; every id is checked once, here
-    Handle(hid_t i, herr_t (*c)(hid_t)) : id(i), close(c) {
-        if (id < 0) throw UsageError("cannot write the HDF5 file");
-    }
-    ~Handle() { close(id); }
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-    hid_t id;
-    herr_t (*close)(hid_t);
-};
+constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
 
 void must(herr_t status) {
-    if (status < 0) throw UsageError("cannot write the HDF5 file");
+    if (status < 0) throw std::runtime_error(errno == ENOSPC || errno == EFBIG || errno == EDQUOT ? std::strerror(errno) : "HDF5 refuses");
 }
+
+struct Handle {  // closes what was opened; every id is checked once, here
+    Handle(hid_t i, herr_t (*c)(hid_t)) : id(i), closes(c) { must(id < 0 ? -1 : 0); }
+    ~Handle() {
+        if (id >= 0) closes(id);
+    }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    void close() { must(closes(std::exchange(id, -1))); }  // where it matters what that says
+    hid_t id;
+    herr_t (*closes)(hid_t);
+};
 
 void attribute(hid_t at, const std::string& name, const std::string& text) {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
@@ -39,9 +46,11 @@ void attribute(hid_t at, const std::string& name, double value) {
 
 void dataset(hid_t file, const std::string& name, std::span<const double> values, const std::string& unit) {
     const hsize_t size = values.size();
-    Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose),
+        how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     must(H5Pset_create_intermediate_group(links.id, 1));  // a tap may be named "left/nut"
-    Handle set(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space.id, links.id, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+    must(H5Pset_obj_track_times(how.id, false));
+    Handle set(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space.id, links.id, how.id, H5P_DEFAULT), H5Dclose);
     must(H5Dwrite(set.id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
     attribute(set.id, "unit", unit);
 }
@@ -49,6 +58,7 @@ void dataset(hid_t file, const std::string& name, std::span<const double> values
 
 void write_hdf5(const std::filesystem::path& path, const std::vector<std::pair<std::string, std::string>>& attributes, const Scene& scene,
                 const Trace& trace) {
+    H5dont_atexit();                              // a file that could not be closed would be flushed once more there, and crash
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // messages are ours
     Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
     attribute(file.id, "tap_rate", trace.tap_rate);
@@ -58,8 +68,9 @@ void write_hdf5(const std::filesystem::path& path, const std::vector<std::pair<s
         else attribute(file.id, name, text);
     }
     for (int k = 0; k < trace.taps(); ++k) dataset(file.id, trace.names[k], trace.column(k), unit_of(scene.taps[k].quantity));
-    constexpr const char* names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
-    for (int k = 0; k < 3 && !trace.energy.empty(); ++k) dataset(file.id, names[k], trace.energy_column(k), "J");
+    for (int k = 0; k < 3 && !trace.energy.empty(); ++k) dataset(file.id, energy_names[k], trace.energy_column(k), "J");
+    must(H5Fflush(file.id, H5F_SCOPE_GLOBAL));
+    file.close();
 }
 
 }  // namespace jvari

@@ -1,4 +1,5 @@
-// A trace as HDF5: one dataset per tap (attribute "unit"), the energy columns where probed, the run's facts as attributes of the file.
+// A trace as HDF5: one dataset per tap (attribute "unit"), the energy columns where probed, the run's facts as attributes of the file. No
+// time stamps: the same trace is the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +12,7 @@
 
 namespace jvari {
 
+// Throws std::runtime_error.
 void write_hdf5(const std::filesystem::path&, const std::vector<std::pair<std::string, std::string>>& attributes, const Scene&,
                 const Trace&);
 

@@ -49,9 +49,9 @@ struct Entry {  // a value and the way to it
         if (!(x > 0)) refuse("a number > 0");
         return x;
     }
-    int count(int most) const {
+    int count(int most, int least = 1) const {
         const auto* n = std::get_if<std::int64_t>(&value->content);
-        if (!n || *n < 1 || *n > most) refuse("a whole number from 1 to " + std::to_string(most));
+        if (!n || *n < least || *n > most) refuse("a whole number from " + std::to_string(least) + " to " + std::to_string(most));
         return static_cast<int>(*n);
     }
     bool truth() const {
@@ -106,7 +106,7 @@ Tap tap_of(const Entry& e) {
     const std::string quantity = e.need("quantity").word(quantities, "quantity");
     Tap t{e.need("name").text(), Quantity::displacement, std::nullopt, 0};
     t.quantity = static_cast<Quantity>(std::find(quantities.begin(), quantities.end(), quantity) - quantities.begin());
-    if (const auto x = e.at("string")) t.string = static_cast<int>(x->number(0));
+    if (const auto x = e.at("string")) t.string = x->count(1000, 0);
     if (const auto x = e.at("position")) t.position = x->number(0);
     return t;
 }

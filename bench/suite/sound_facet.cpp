@@ -2,8 +2,6 @@
 // there.
 #include "bench/suite/sound_facet.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstring>
 #include <deque>
@@ -11,6 +9,7 @@
 
 #include "bench/compare/errors.hpp"
 #include "bench/store/base64.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/store/sound.hpp"
 
 namespace jvari {
@@ -31,12 +30,6 @@ std::vector<std::int16_t> samples_of(const std::string& text) {
     for (std::size_t n = 0; n + 1 < bytes.size(); n += 2)
         samples.push_back(static_cast<std::int16_t>(static_cast<unsigned char>(bytes[n]) | static_cast<unsigned char>(bytes[n + 1]) << 8));
     return samples;
-}
-
-std::string digest(const std::string& text) {  // FNV-1a
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return fmt::format("{:016x}", hash);
 }
 }  // namespace
 
@@ -71,7 +64,7 @@ void write_sound_rows(const std::filesystem::path& folder, const Table& g) {
         if (const std::string& truth = g.at(i, "reference_samples"); !truth.empty()) {
             std::string& file = references[truth + g.at(i, "reference_peak")];
             if (file.empty()) {
-                file = "reference-" + digest(truth + g.at(i, "reference_peak"));
+                file = "reference-" + hash_of(truth + g.at(i, "reference_peak"));
                 NamedSound reference{own.who, file, own.tap, own.quantity, keep("reference_peak", "reference_samples"), ""};
                 for (const char* column : {"cell", "options", "rate"})
                     if (const int k = g.column(column); k >= 0) reference.who[static_cast<std::size_t>(k)].clear();

@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/records.hpp"
@@ -43,8 +45,9 @@ Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& 
     try {
         if (point.element) into.scene = without(*point.element, std::move(into.scene));
         into.scene = with_figure_taps(into.scene, point.set->figures);
+        Plan plan = plan_of(r, catalogue, into.scene);
         into.tap = tap_of(*point.set, into.scene);
-        return plan_of(r, catalogue, into.scene);
+        return plan;
     } catch (const UsageError& e) {
         throw UsageError(where + e.what());
     } catch (const Refusal& e) {
@@ -74,7 +77,7 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
         Json references = Json::array(), measure = Json::array();
         for (const ReferenceChoice& c : plan.references)
             references.push_back({{"name", c.scheme->name}, {"settings", settings_json(c.settings)}});
-        p.reference_key = hash + references.dump();
+        p.reference_key = hash + references.dump() + text_of(point.set->time_limit.value_or(HUGE_VAL));
         for (const Facet f : facets())
             if (point.set->measures(f)) measure.push_back(name_of(f));
         for (const Cell& cell : plan.cells) {

@@ -17,7 +17,7 @@ struct PlannedPoint {  // one scene at one point of the sweep, and who is its re
     std::vector<std::pair<std::string, std::string>> swept;  // key, value; the last may be "element", "-thread"
     std::optional<Element> element;                          // that the scene is without; the probe: that is on while it is timed
     std::vector<ReferenceChoice> references;
-    std::string reference_key;  // points that share it share the reference's run
+    std::string reference_key;  // points that share it share the reference's run and its time limit
     int tap = 0;                // of the spectrogram
 };
 
@@ -26,7 +26,7 @@ struct PlannedCell {
     const PlannedPoint* point;
     Cell cell;
     std::string identity;  // JSON: the scene's hash, the scheme, the settings, the program, what is measured
-    std::string id;        // 16 hexadecimal digits (FNV-1a) of it
+    std::string id;        // hash_of it
 };
 
 struct SuitePlan {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/compare_record.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 
 namespace jvari {
@@ -64,14 +65,14 @@ std::string json_of(const SuiteRecord& r, const std::string& identity) {
     j["levels"] = {{"frames", l.frames}, {"rows", l.rows},     {"start", l.start},
                    {"hop", l.hop},       {"row_hz", l.row_hz}, {"tenths_of_db", l.level}};
     for (const auto& [facet, table] : r.rows) j["rows"][name_of(facet)] = {{"columns", table.columns}, {"rows", table.rows}};
-    return j.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return sealed(j.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const std::string& identity) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
     try {
-        const Json j = Json::parse(read_whole(path));
+        const Json j = Json::parse(unsealed(read_whole(path)));
         if (j.at("cell") != Json::parse(identity)) return std::nullopt;
         SuiteRecord r;
         r.row.rows.emplace_back();
@@ -92,10 +93,11 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const 
                 if (const auto kept = j["rows"].find(name_of(facet)); kept != j["rows"].end())
                     r.rows[facet] = {kept->at("columns"), kept->at("rows")};
         if (r.levels.level.size() != static_cast<std::size_t>(r.levels.frames) * r.levels.rows) return std::nullopt;
+        for (const auto& [facet, table] : r.rows)
+            for (const auto& fields : table.rows)
+                if (fields.size() != table.columns.size()) return std::nullopt;
         return r;
-    } catch (const Json::exception&) {
-        return std::nullopt;
-    } catch (const UsageError&) {
+    } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
         return std::nullopt;
     }
 }

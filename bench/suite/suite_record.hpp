@@ -29,7 +29,7 @@ SuiteRecord record_of(const PlannedCell&, const Cell& measured, const Errors& fl
 void add_clock(SuiteRecord&, const PlannedCell&, const Cell& timed);
 
 std::string json_of(const SuiteRecord&, const std::string& identity);
-// Nothing where there is no such file, it is of another cell, or it cannot be read.
+// Nothing where there is no such file, it is of another cell, its checksum is not its own, or it cannot be read.
 std::optional<SuiteRecord> read_record(const std::filesystem::path&, const std::string& identity);
 
 // One row per cell in the order of the plan: which cell, scene, swept keys and options, then the columns of compare, the front aside.

@@ -1,16 +1,14 @@
 #include "bench/suite/suite_run.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <memory>
 #include <mutex>
 
 #include "bench/compare/cost.hpp"
+#include "bench/compare/time_limit.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/side_by_side.hpp"
 #include "bench/suite/row_facet.hpp"
@@ -18,14 +16,6 @@
 namespace jvari {
 
 namespace {
-struct PastItsLimit {};
-
-double processor_seconds() {  // of this thread: a limit that does not depend on what else the machine does
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 struct Truth {  // the run of a reference, made by the first cell that needs it, gone with the last
     std::once_flag once;
     std::unique_ptr<Reference> reference;
@@ -33,10 +23,10 @@ struct Truth {  // the run of a reference, made by the first cell that needs it,
     std::string refused;
     std::atomic<int> needed_by = 0;
 
-    void make(const PlannedPoint& p) {
+    void make(const PlannedPoint& p, double time_limit) {
         std::call_once(once, [&] {
             try {
-                reference = std::make_unique<Reference>(run_reference(p.references, p.scene, 1, Console(false, true)));
+                reference = std::make_unique<Reference>(run_reference(p.references, p.scene, 1, Console(false, true), time_limit));
                 floor = errors_of(reference->moved.trace, reference->run.trace);
             } catch (const std::exception& e) {
                 refused = e.what();
@@ -71,27 +61,27 @@ public:
 
 private:
     SuiteRecord cell(const PlannedCell& planned, Done& fraction) {
+        const double limit = planned.set->time_limit.value_or(HUGE_VAL);
         Truth* truth = nullptr;
         if (planned.set->measures(Facet::errors)) {
             truth = truths_.at(planned.point->reference_key).get();
-            truth->make(*planned.point);
+            truth->make(*planned.point, limit);
         }
         const bool known = truth && truth->reference;
         Cell cell = planned.cell;
         Trace trace;
         std::string status;
-        const double start = processor_seconds(), limit = planned.set->time_limit.value_or(HUGE_VAL);
+        const auto told = [&fraction](long done, long rows) {
+            fraction.store(static_cast<double>(done) / static_cast<double>(rows), std::memory_order_relaxed);
+        };
         try {
-            trace = measure(cell, planned.point->scene, known ? &truth->reference->run.trace : nullptr, [&](long done, long rows) {
-                fraction.store(static_cast<double>(done) / static_cast<double>(rows), std::memory_order_relaxed);
-                if (processor_seconds() - start > limit) throw PastItsLimit{};
-            });
+            trace = measure(cell, planned.point->scene, known ? &truth->reference->run.trace : nullptr, within(limit, told));
         } catch (const Refusal& e) {
             status = "refused";
             cell.reason = e.what();
-        } catch (const PastItsLimit&) {
+        } catch (const PastItsLimit& e) {
             status = "past_time_limit";
-            cell.reason = fmt::format("past its time limit of {} s", limit);
+            cell.reason = e.what();
         } catch (const std::exception& e) {
             status = "error";
             cell.reason = e.what();

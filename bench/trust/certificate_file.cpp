@@ -6,10 +6,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "bench/store/checksum.hpp"
 #include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/store/records.hpp"
+#include "bench/store/outcome_name.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari {
@@ -17,8 +18,7 @@ namespace jvari {
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int format = 1;  // of the file
-constexpr Outcome outcomes[] = {Outcome::ok, Outcome::diverged, Outcome::not_converged};
+constexpr int format = 2;  // of the file
 
 std::string window_name(std::size_t w) {
     return w + 1 < agreement_windows.size() ? fmt::format("{:.0f}ms", 1e3 * agreement_windows[w]) : "whole";
@@ -97,10 +97,7 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
         e.reason = j.at("reason");
         return e;
     }
-    bool known = false;
-    for (const Outcome o : outcomes)
-        if (status == name_of(o)) e.status.outcome = o, known = true;
-    if (!known) throw std::runtime_error("unknown status " + status);
+    e.status.outcome = outcome_named(status);
     e.status.step = j.value("failed_step", 0L);
     e.reached = j.at("reached_s");
     if (const auto estimate = j.find("estimate"); estimate != j.end())
@@ -134,20 +131,19 @@ std::string json_of(const KeptCertificate& kept) {
     Json entries = Json::array(), pairs = Json::array();
     for (const auto& e : c.entries) entries.push_back(entry_json(c, e));
     for (const auto& p : c.pairs) pairs.push_back({{"first", p.first}, {"second", p.second}, {"taps", taps_json(c, p.taps)}});
-    Json j{{"scene", c.scene},
-           {"scene_hash", kept.scene_hash},
-           {"key", kept.key},
-           {"program", "jvari " + machine().version},
-           {"format", format},
-           {"modes", c.modes},
-           {"tap_rate_hz", c.tap_rate},
-           {"duration_s", c.duration},
-           {"taps", c.taps},
-           {"entries", entries},
-           {"pairs", pairs},
-           {"noise_floor", taps_json(c, c.floor)}};
-    j["checksum"] = hash_of(j.dump());
-    return j.dump(1) + "\n";
+    const Json j{{"scene", c.scene},
+                 {"scene_hash", kept.scene_hash},
+                 {"key", kept.key},
+                 {"program", "jvari " + machine().version},
+                 {"format", format},
+                 {"modes", c.modes},
+                 {"tap_rate_hz", c.tap_rate},
+                 {"duration_s", c.duration},
+                 {"taps", c.taps},
+                 {"entries", entries},
+                 {"pairs", pairs},
+                 {"noise_floor", taps_json(c, c.floor)}};
+    return sealed(j.dump(1));
 }
 
 std::string cost_json_of(const KeptCertificate& kept) {
@@ -167,10 +163,7 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
         return std::nullopt;
     }
     try {
-        Json j = Json::parse(read_whole(path));
-        Json rest = j;
-        rest.erase("checksum");
-        if (j.at("checksum") != hash_of(rest.dump())) throw std::runtime_error("its checksum is not that of its content");
+        const Json j = Json::parse(unsealed(read_whole(path)));
         if (j.at("program") != "jvari " + machine().version || j.at("format") != format)
             throw std::runtime_error("it is of another version of the program, " + j.at("program").get<std::string>());
         KeptCertificate kept;
@@ -204,7 +197,9 @@ std::filesystem::path cost_path(const std::filesystem::path& certificate) {
 
 void read_costs(const std::filesystem::path& certificate, KeptCertificate& kept) {
     try {
-        const Json j = Json::parse(read_whole(cost_path(certificate)));
+        const std::string text = read_whole(cost_path(certificate));
+        refuse_deep(text);
+        const Json j = Json::parse(text);
         if (j.at("key") != kept.key || j.at("entries").size() != kept.certificate.entries.size()) return;
         for (std::size_t i = 0; i < kept.certificate.entries.size(); ++i)
             if (const Json& seconds = j.at("entries").at(i).at("wall_seconds"); seconds.is_number())

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "bench/store/console.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -16,9 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 using Json = nlohmann::ordered_json;
-constexpr int format = 1;                  // of the file
+constexpr int format = 2;                  // of the file: a checksum, a line of JSON, the columns as this machine holds them
 constexpr double worth_keeping = 0.5;      // [s] of stepping
-constexpr std::size_t checksum_size = 16;  // hexadecimal digits in front of the CBOR
+constexpr std::size_t checksum_size = 32;  // hexadecimal digits
 }  // namespace
 
 fs::path kept_runs_folder() {
@@ -41,53 +43,54 @@ bool keeps_runs(const std::string& commit) {
 }
 
 void write_run(const fs::path& path, const std::string& key, const Run& r) {
-    Json facts = Json::array(), columns = Json::array();
-    for (const Fact& f : r.facts) facts.push_back({f.name, f.value, f.unit});
-    for (int k = 0; k < r.trace.taps(); ++k) columns.push_back(std::vector<double>(r.trace.column(k).begin(), r.trace.column(k).end()));
-    const Json j{{"key", key},
-                 {"outcome", r.status.outcome},
-                 {"failed_step", r.status.step},
-                 {"dofs", r.dofs},
-                 {"steps", r.steps},
-                 {"wall_seconds", r.wall_seconds},
-                 {"facts", facts},
-                 {"worst_block", r.worst_block},
-                 {"tap_rate", r.trace.tap_rate},
-                 {"columns", columns},
-                 {"stride", r.trace.stride},
-                 {"rows", r.trace.rows},
-                 {"names", r.trace.names}};
-    std::string bytes;
-    Json::to_cbor(j, bytes);
-    write_fresh(path, hash_of(bytes) + bytes);
+    Json facts = Json::array();
+    for (const Fact& f : r.facts) facts.push_back({f.name, text_of(f.value), f.unit});
+    const Json head{{"key", key},
+                    {"outcome", name_of(r.status.outcome)},
+                    {"failed_step", r.status.step},
+                    {"dofs", r.dofs},
+                    {"steps", r.steps},
+                    {"wall_seconds", r.wall_seconds},
+                    {"facts", facts},
+                    {"worst_block", r.worst_block},
+                    {"tap_rate", r.trace.tap_rate},
+                    {"stride", r.trace.stride},
+                    {"rows", r.trace.rows},
+                    {"names", r.trace.names}};
+    std::string content = head.dump() + "\n";
+    for (int k = 0; k < r.trace.taps(); ++k)
+        content.append(reinterpret_cast<const char*>(r.trace.column(k).data()), r.trace.column(k).size_bytes());
+    write_fresh(path, hash_of(content) + content);
 }
 
 std::optional<Run> read_run(const fs::path& path, const std::string& key) noexcept {
     try {
         if (!fs::is_regular_file(path)) return std::nullopt;
-        const std::string file = read_whole(path), bytes = file.substr(std::min(checksum_size, file.size()));
-        if (!file.starts_with(hash_of(bytes))) return std::nullopt;
-        const Json j = Json::from_cbor(bytes);
+        const std::string file = read_whole(path), content = file.substr(std::min(checksum_size, file.size()));
+        const auto head_size = content.find('\n');
+        if (!file.starts_with(hash_of(content)) || head_size == std::string::npos) return std::nullopt;
+        const std::string head = content.substr(0, head_size);
+        refuse_deep(head);
+        const Json j = Json::parse(head);
         if (j.at("key") != key) return std::nullopt;
         Run r;
-        r.status = {j.at("outcome").get<Outcome>(), j.at("failed_step").get<long>()};
+        r.status = {outcome_named(j.at("outcome")), j.at("failed_step").get<long>()};
         r.dofs = j.at("dofs");
         r.steps = j.at("steps");
         r.wall_seconds = j.at("wall_seconds");
         r.worst_block = j.at("worst_block");
-        for (const Json& f : j.at("facts")) r.facts.push_back({f.at(0), f.at(1), f.at(2)});
+        for (const Json& f : j.at("facts")) r.facts.push_back({f.at(0), number_of(f.at(1)), f.at(2)});
         Trace& t = r.trace;
         t.tap_rate = j.at("tap_rate");
         t.rows = j.at("rows");
         t.stride = j.at("stride");
         t.names = j.at("names").get<std::vector<std::string>>();
-        if (t.rows < 0 || t.rows > t.stride || j.at("columns").size() != t.names.size()) return std::nullopt;
+        if (t.rows < 0 || t.rows > t.stride) return std::nullopt;
+        const std::size_t column = static_cast<std::size_t>(t.rows) * sizeof(double);
+        if (content.size() - head_size - 1 != column * t.names.size()) return std::nullopt;
         t.tap.assign(t.stride * t.names.size(), 0.0);
-        for (int k = 0; k < t.taps(); ++k) {
-            const auto column = j.at("columns").at(k).get<std::vector<double>>();
-            if (column.size() != static_cast<std::size_t>(t.rows)) return std::nullopt;
-            std::copy(column.begin(), column.end(), t.tap.begin() + k * t.stride);
-        }
+        for (int k = 0; k < t.taps(); ++k)
+            std::memcpy(t.tap.data() + k * t.stride, content.data() + head_size + 1 + static_cast<std::size_t>(k) * column, column);
         return r;
     } catch (const std::exception&) {
         return std::nullopt;
@@ -102,6 +105,7 @@ Run kept_run(const fs::path& folder, const std::string& key, const std::function
     if (r.wall_seconds < worth_keeping) return r;
     try {
         fs::create_directories(folder);
+        sweep_parts(folder);
         write_run(path, key, r);
     } catch (const std::exception&) {  // it is a convenience
     }

@@ -1,0 +1,59 @@
+#include "bench/store/checksum.hpp"
+
+#include <fmt/core.h>
+
+#define XXH_INLINE_ALL  // the header alone: nothing to link
+#include <xxhash.h>
+
+#include <stdexcept>
+#include <string_view>
+
+namespace jvari {
+
+namespace {
+constexpr std::size_t digits = 32;
+constexpr std::string_view before = ",\n \"checksum\": \"", after = "\"\n}\n";
+constexpr int deepest = 32;  // levels; certificates have six
+}  // namespace
+
+std::string hash_of(const std::string& text) {
+    const XXH128_hash_t h = XXH3_128bits(text.data(), text.size());
+    return fmt::format("{:016x}{:016x}", h.high64, h.low64);
+}
+
+std::string sealed(const std::string& object) {
+    std::string content = object.substr(0, object.rfind('}'));
+    content.resize(content.find_last_not_of(" \n") + 1);
+    return content + std::string(before) + hash_of(content) + std::string(after);
+}
+
+std::string unsealed(const std::string& file) {
+    constexpr std::size_t seal = before.size() + digits + after.size();
+    const std::size_t end = file.size() < seal ? 0 : file.size() - seal;
+    std::string content = file.substr(0, end);
+    if (file.substr(end) != std::string(before) + hash_of(content) + std::string(after))
+        throw std::runtime_error("its checksum is not that of its content");
+    content += "\n}";
+    refuse_deep(content);
+    return content;
+}
+
+void refuse_deep(const std::string& json) {
+    int level = 0;
+    bool text = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (text) {
+            if (c == '\\') ++i;
+            else if (c == '"') text = false;
+        } else if (c == '"') {
+            text = true;
+        } else if (c == '[' || c == '{') {
+            if (++level > deepest) throw std::runtime_error(fmt::format("it is nested deeper than {} levels", deepest));
+        } else if (c == ']' || c == '}') {
+            --level;
+        }
+    }
+}
+
+}  // namespace jvari

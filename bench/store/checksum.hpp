@@ -1,0 +1,22 @@
+// What a result is addressed by, and how a file that is read back is known to be as it was written: XXH3-128 (Y. Collet, xxhash.com).
+//
+// It finds what broke, was cut off or was edited. It is no defence against a forger.
+#pragma once
+
+#include <string>
+
+namespace jvari {
+
+std::string hash_of(const std::string&);  // 32 hexadecimal digits
+
+// The text of a JSON object with the checksum of all that stands before it as its last member.
+std::string sealed(const std::string& object);
+// That object without its checksum. Throws std::runtime_error where the checksum is not that of the content, before anything is parsed, and
+// where the content is nested too deep.
+std::string unsealed(const std::string& file);
+
+// Throws std::runtime_error for JSON nested deeper than any of ours: who copies or writes it calls himself once per level, to the stack's
+// end.
+void refuse_deep(const std::string& json);
+
+}  // namespace jvari

@@ -1,0 +1,83 @@
+// What a trace is written to: what each format does not hold is said before the run, and the same trace is the same bytes.
+#include <chrono>
+#include <thread>
+
+#include "command_line.hpp"
+
+namespace jvari::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string small_run = "$J run free_string --scheme modal_two_point --duration 0.05";
+
+TEST(TraceFile, ALinkStaysOneAndItsTargetIsWritten) {
+    const Scratch scratch;
+    fs::create_directory(scratch / "elsewhere");
+    fs::create_symlink("elsewhere/real.csv", scratch / "link.csv");  // to a file that is not there yet
+    fs::create_symlink("link.csv", scratch / "second.csv");
+    for (int n = 0; n < 2; ++n) {
+        ASSERT_EQ(shell(scratch, small_run + " --out second.csv").code, 0);
+        EXPECT_TRUE(fs::is_symlink(scratch / "second.csv"));
+        EXPECT_TRUE(fs::is_symlink(scratch / "link.csv"));
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(scratch / "elsewhere/real.csv")));
+    }
+    fs::create_symlink("circle.csv", scratch / "circle.csv");
+    EXPECT_EQ(shell(scratch, small_run + " --out circle.csv").code, 2);
+    EXPECT_TRUE(fs::is_symlink(scratch / "circle.csv"));
+}
+
+std::string scene_with(const std::string& taps) {
+    return "name = \"s\"\nsource = \"none\"\nduration = 0.01\n[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension = 50.0\n"
+           "[string.damping]\nlaw = \"none\"\n[string.initial]\nshape = \"triangle\"\nposition = 0.3\namplitude = 1e-3\n" +
+           taps;
+}
+std::string tap(const std::string& name) {
+    return "[[tap]]\nname = \"" + name + "\"\nquantity = \"nut_force\"\nstring = 0\n";
+}
+
+TEST(TraceFile, WhatOneDoesNotHoldIsSaidBeforeTheRun) {
+    std::string many;
+    for (int k = 0; k < 1025; ++k) many += tap("t" + std::to_string(k));
+    const struct {
+        std::string taps, file, expected;
+    } cases[] = {{"", "x.wav", "no tap"}, {many, "x.wav", "at most 1024"}, {tap("."), "x.h5", "none can be named"}};
+    for (const auto& c : cases) {
+        const Scratch scratch;
+        std::ofstream(scratch / "s.toml") << scene_with(c.taps);
+        const Outcome o = shell(scratch, "$J run s.toml --scheme modal_two_point --energy --duration 1e4 --out " + c.file);  // never run
+        EXPECT_EQ(o.code, 2) << c.expected << o.err;
+        EXPECT_NE(o.err.find("--out " + c.file), std::string::npos) << o.err;
+        EXPECT_NE(o.err.find(c.expected), std::string::npos) << o.err;
+        EXPECT_EQ(scratch.files(), 1);
+    }
+    const Scratch scratch;
+    const Outcome o = shell(scratch, "$J run free_string --scheme modal_two_point --duration 9000 --out x.wav");
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("at most 4e+09 bytes"), std::string::npos) << o.err;
+}
+
+TEST(TraceFile, EachHoldsWhatTheOthersDoNot) {
+    const Scratch scratch;
+    std::string many;
+    for (int k = 0; k < 1025; ++k) many += tap("t" + std::to_string(k));
+    std::ofstream(scratch / "many.toml") << scene_with(many);
+    std::ofstream(scratch / "none.toml") << scene_with("");
+    const std::string run = " --scheme modal_two_point --duration 0.001 --out ";
+    EXPECT_EQ(shell(scratch, "$J run many.toml" + run + "x.h5").code, 0);
+    EXPECT_EQ(shell(scratch, "$J run none.toml" + run + "x.h5").code, 0);
+    EXPECT_EQ(shell(scratch, "$J run none.toml" + run + "x.csv").code, 0);
+}
+
+TEST(TraceFile, Hdf5HasNoTimeStamps) {
+    const Scratch scratch;
+    std::ofstream(scratch / "s.toml") << scene_with(tap("nut") + tap(".."));
+    const std::string run = "$J run s.toml --scheme modal_two_point --out ";
+    ASSERT_EQ(shell(scratch, run + "x.h5").code, 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // stamps are whole seconds
+    ASSERT_EQ(shell(scratch, run + "y.h5").code, 0);
+    EXPECT_EQ(content(scratch / "x.h5"), content(scratch / "y.h5"));
+}
+
+}  // namespace
+}  // namespace jvari::test
