@@ -105,7 +105,7 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();
         } catch (const PastItsLimit& e) {
-            throw PastItsLimit(fmt::format("reference {}: {}", choice.name(), e.what()));
+            throw PastItsLimit(fmt::format("reference {}: {}", in_turn[k].name(), e.what()));
         }
     throw Refusal("reference: none represents scene " + scene.name + refusals);
 }
