@@ -8,6 +8,7 @@
 
 #include "bench/command/commands.hpp"
 #include "bench/command/compare_text.hpp"
+#include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
@@ -67,8 +68,8 @@ int compare_command(const CompareCall& r) {
                               c.reference_name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
                               c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
                               c.scene.taps.at(c.headline.bridge).name));
-    console.print(headline_text(cells, headline_error(c)) + "\n" + certificate_text(c) + "\n" + floor_text(c));
-    const Table cheapest = cheapest_of(cells, headline_error(c), c.scene.name);
+    console.print(headline_text(cells) + "\n" + certificate_text(c) + "\n" + floor_text(c));
+    const Table cheapest = cheapest_of(cells, c.scene.name);
     if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
     Json files = Json::array();
     if (!r.out.empty()) {
@@ -94,7 +95,7 @@ int compare_command(const CompareCall& r) {
                    : code == refused ? "refused"
                                      : "failed"},
         {"manifest", Json::parse(manifest)},
-        {"cells", Json::parse(rows_json(cells))},
+        {"cells", Json::parse(rows_json(with_bounds(cells)))},
         {"cheapest", Json::parse(rows_json(cheapest))},
         {"files", files}}.dump(2));
     return code;

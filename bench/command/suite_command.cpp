@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "bench/command/commands.hpp"
+#include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
@@ -61,8 +62,8 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
         const std::string options = options_text(c.cell.settings.options);
         text += fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}  {}\n", what,
                             c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
-                            row.at(0, "status"), error_text(row, 0, "error_l2_50ms", "{:.2e}"), short_text("cost_s_per_s", "{:.3g}"),
-                            row.at(0, "reason"));
+                            row.at(0, "status"), error_text(bound_of(row, 0, "error_l2_50ms"), "{:.2e}"),
+                            short_text("cost_s_per_s", "{:.3g}"), row.at(0, "reason"));
     }
     text = fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}\n", "scene", "scheme", "rate", "modes", "status", "L2 50ms",
                        "s per s") +
@@ -153,7 +154,7 @@ int suite_command(const SuiteRequest& r) {
         {"timed", run.timed},
         {"read_back", run.read_back},
         {"manifest", Json::parse(manifest)},
-        {"cells", Json::parse(rows_json(cells))},
+        {"cells", Json::parse(rows_json(with_bounds(cells)))},
         {"cheapest", Json::parse(rows_json(cheapest))},
         {"files", files}}.dump(2));
     return code;
