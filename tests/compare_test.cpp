@@ -6,6 +6,7 @@
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
+#include "bench/compare/compare_plan.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
 #include "bench/compare/pareto.hpp"
@@ -284,6 +285,44 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     EXPECT_DOUBLE_EQ(t.number(0, "certificate_l2_10ms"), 0.01);
     EXPECT_DOUBLE_EQ(t.number(0, "certificate_l2_50ms_bridge"), 0.031);
     EXPECT_DOUBLE_EQ(t.number(0, "certificate_l2_whole_thread"), 0.042);
+}
+
+// ---- Equal modes
+
+Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes, int modes = 0) {
+    CompareRequest r;
+    r.scene = scene;
+    r.schemes = schemes;
+    r.rates = {88200, 176400};
+    r.modes = modes;
+    static const Catalogue catalogue;
+    return plan_of(r, catalogue, load_scene(scene, {}, {}));
+}
+
+TEST(Plan, TheReferenceAndEveryCellCarryTheSameModes) {
+    for (const char* scene : {"two_point_bridge", "tanpura_c3_release"}) {
+        const Plan plan = plan_for(scene, {"modal_two_point", "modal_spatial_newton"});
+        const int modes = plan.references.front().settings.modes;
+        EXPECT_EQ(modes, scene == std::string("two_point_bridge") ? 94 : 133);
+        ASSERT_EQ(plan.cells.size(), 4u);
+        for (const Cell& c : plan.cells) {
+            EXPECT_EQ(c.settings.modes, modes) << scene << " " << c.scheme->name;
+            EXPECT_EQ(c.scheme->make(load_scene(scene, {}, {}), c.settings)->dofs() >= 2 * modes, true);
+        }
+        EXPECT_TRUE(plan.notes.empty());
+    }
+}
+
+TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSaysSo) {
+    const Plan plan = plan_for("sitar_parabola", {"modal_spatial_newton", "finite_difference_explicit"});
+    EXPECT_EQ(plan.references.front().settings.modes, 94);
+    for (const Cell& c : plan.cells) EXPECT_EQ(c.settings.modes, std::string("modal_spatial_newton") == c.scheme->name ? 0 : 94);
+    ASSERT_EQ(plan.notes.size(), 1u);
+    EXPECT_NE(plan.notes[0].find("modal_spatial_newton carries 421 modes"), std::string::npos) << plan.notes[0];
+    const Plan asked = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
+    EXPECT_TRUE(asked.notes.empty());
+    for (const Cell& c : asked.cells) EXPECT_EQ(c.settings.modes, 300);
+    EXPECT_EQ(asked.references.front().settings.modes, 300);
 }
 
 }  // namespace

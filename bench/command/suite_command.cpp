@@ -109,6 +109,7 @@ int suite_command(const SuiteRequest& r) {
     const Suite suite = read_suite(r.suite);
     const Catalogue catalogue(r.plugins);
     const SuitePlan plan = plan_of(suite, catalogue, r.plugins);
+    for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
     std::optional<WhenInterrupted> last_word;
     if (!r.out.empty()) {
