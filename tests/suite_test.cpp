@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "bench/compare/compare_record.hpp"
+#include "bench/store/machine.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/scene_file.hpp"
@@ -191,6 +192,44 @@ TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone
     EXPECT_EQ(resumed.ran, 4);
     EXPECT_EQ(makes, 4 * (1 + 2));
     EXPECT_EQ(csv(errors_only(table_of(plan, resumed.records))), whole);
+}
+
+TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
+    const Scratch scratch;
+    const Workshop w;
+    const SuitePlan plan = plan_of(parse_suite(counting_suite, "a.toml"), w.catalogue, {});
+    run_suite(plan, scratch.path, false, 2, w.console);
+    const std::string another = "0123456-another";
+    const auto recorded_by_another = [&](int cell, const std::string& what) {  // a file of this cell's name, of another program
+        const fs::path path = scratch.path / (plan.cells[cell].id + ".json");
+        std::string text = content(path);
+        const std::string own = nlohmann::json(what).dump();
+        const auto at = text.find(own, text.find("\"program\""));
+        ASSERT_NE(at, std::string::npos) << what;
+        std::ofstream(path) << text.replace(at, own.size(), nlohmann::json(another).dump());
+    };
+    recorded_by_another(1, machine().commit);
+    recorded_by_another(2, machine().build);
+    recorded_by_another(5, machine().version);
+    const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
+    EXPECT_EQ(resumed.ran, 3);
+    EXPECT_EQ(resumed.read_back, 5);
+}
+
+TEST(SuiteRun, TheIdentityOfAProgramIsItsVersionCommitBuildAndPlugins) {
+    const Scratch scratch;
+    const std::string own = program_identity({});
+    EXPECT_EQ(own, program_identity({}));
+    for (std::string Machine::*part : {&Machine::version, &Machine::commit, &Machine::build}) {
+        Machine other = machine();
+        other.*part += "x";
+        EXPECT_NE(program_identity({}, other), own);
+    }
+    std::ofstream(scratch / "plugin") << "a";
+    const std::string with_plugin = program_identity({scratch / "plugin"});
+    EXPECT_NE(with_plugin, own);
+    std::ofstream(scratch / "plugin") << "b";
+    EXPECT_NE(program_identity({scratch / "plugin"}), with_plugin);
 }
 
 TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {

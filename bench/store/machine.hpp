@@ -14,8 +14,8 @@ struct Machine {
 };
 const Machine& machine();
 
-// JSON: version, commit, build type, plugins by their contents.
-std::string program_identity(const std::vector<std::string>& plugins);
+// JSON: version, commit, build type, plugins by their contents. What was recorded by another is not this program's.
+std::string program_identity(const std::vector<std::string>& plugins, const Machine& = machine());
 
 std::string made_by();  // all of it and the date as a JSON object: what a manifest begins with
 std::string now_utc();  // "2016-05-04T12:00:00Z"
