@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "bench/compare/compare_record.hpp"
+#include "bench/report/spectrogram_chart.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
