@@ -300,7 +300,7 @@ Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes,
 }
 
 TEST(Plan, TheReferenceAndEveryCellCarryTheSameModes) {
-    for (const char* scene : {"two_point_bridge", "tanpura_c3_release"}) {
+    for (const char* scene : {"two_point_bridge", "tanpura_c3_release", "free_string"}) {
         const Plan plan = plan_for(scene, {"modal_two_point", "modal_spatial_newton"});
         const int modes = plan.references.front().settings.modes;
         EXPECT_EQ(modes, scene == std::string("two_point_bridge") ? 94 : 133);
