@@ -55,6 +55,32 @@ TEST(Charts, TheFrontIsOfSoundCellsAndOfEachChoice) {
     EXPECT_EQ(by_octaves, (std::vector<double>{0.01, 0.02}));
 }
 
+TEST(Charts, AnErrorStandsAtErrorAndCertificateTogetherAndWhatIsFlaggedIsHollow) {
+    WorkPrecision w = sample();
+    w.cells.columns.insert(w.cells.columns.end(), {"certificate_l2_50ms", "flags"});
+    for (auto& row : w.cells.rows) row.insert(row.end(), {"6e-4", ""});
+    w.cells.rows[2].back() = "adhesion";
+    const auto spec = nlohmann::json::parse(work_precision_spec(w));
+    const auto& cells = spec.at("datasets").at("cells");
+    EXPECT_EQ(cells[0].at("error_l2_50ms"), 1e-2);  // 6 %: as measured
+    EXPECT_EQ(cells[0].at("at_most"), "");
+    EXPECT_EQ(cells[1].at("error_l2_50ms"), 1.6e-3);
+    EXPECT_EQ(cells[1].at("at_most"), "error_l2_50ms");
+    EXPECT_EQ(cells[2].at("flags"), "adhesion");
+    for (const auto& f : spec.at("datasets").at("fronts")) {
+        EXPECT_EQ(f.at("key").get<std::string>().find("|b|"), std::string::npos) << f;
+        if (f.at("error") == "error_l2_50ms") {
+            EXPECT_NEAR(f.at("y").get<double>(), f.at("key").get<std::string>().ends_with("|44100") ? 1e-2 : 1.6e-3, 1e-12) << f;
+        }
+    }
+    bool hollow = false;
+    for (const auto& layer : spec.at("layer"))
+        for (const auto& step : layer.value("transform", nlohmann::json::array()))
+            hollow = hollow || (step.contains("filter") && step["filter"].is_string() &&
+                                step["filter"].get<std::string>().find("datum.flags != ''") != std::string::npos);
+    EXPECT_TRUE(hollow);
+}
+
 TEST(Charts, AxesAreOfferedOnlyWhereThereIsAFiniteValueAndTheHeadlineComesFirst) {
     const WorkPrecision w = sample();
     ASSERT_EQ(w.errors.size(), 2u);

@@ -233,6 +233,13 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
         EXPECT_EQ(cells.number(i, "modes"), 133);
         EXPECT_GT(cells.number(i, "cost_s_per_s"), 0);
     }
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (cells.at(i, "status") == "refused") continue;
+        EXPECT_LE(cells.number(i, "cost_lower"), cells.number(i, "cost_s_per_s")) << i;
+        EXPECT_LE(cells.number(i, "cost_s_per_s"), cells.number(i, "cost_upper")) << i;
+        EXPECT_LE(cells.number(i, "wall_seconds_lower"), cells.number(i, "wall_seconds")) << i;
+        EXPECT_LE(cells.number(i, "wall_seconds"), cells.number(i, "wall_seconds_upper")) << i;
+    }
     const Table errors = read_csv(content(out + "/errors.csv")), cost = read_csv(content(out + "/cost.csv"));
     for (const char* clock : {"wall_seconds", "ns_per_step", "times_real_time", "cost_s_per_s", "pareto"}) {
         EXPECT_LT(errors.column(clock), 0) << clock;

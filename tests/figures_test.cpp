@@ -5,6 +5,7 @@
 
 #include "bench/report/figure_chart.hpp"
 #include "bench/report/vega.hpp"
+#include "bench/suite/figure_rows.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/modes.hpp"
@@ -152,6 +153,25 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     const Table centroid = rows(Facet::centroid);
     ASSERT_EQ(centroid.rows.size(), 9u);
     for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(centroid.number(i, "centroid_hz"), f, 0.2);
+}
+
+TEST(FigureRows, TheExtentOfARampHasTheFirstAndTheLastRowOfEachInterval) {
+    const Scene scene = OneMode().scene;
+    const Catalogue catalogue;
+    Trace trace;
+    trace.tap_rate = 1000;
+    trace.rows = trace.stride = 100;
+    trace.names = {"nut"};
+    for (int n = 0; n < 100; ++n) trace.tap.push_back(n);
+    CellSet set;
+    set.figures.extent = ExtentRows{{"nut"}, 10};
+    const Table t = extent_rows({scene, catalogue.find("modal_two_point"), {}, trace, nullptr, 0, set});
+    ASSERT_EQ(t.rows.size(), 10u);
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_EQ(t.number(i, "low"), 10 * i);
+        EXPECT_EQ(t.number(i, "high"), 10 * i + 9);
+        EXPECT_NEAR(t.number(i, "time_s"), (i + 0.5) * 0.01, 1e-12);
+    }
 }
 
 TEST(FigureRows, ThePositionsOfAProfileAreNoTapsOfTheTableOfErrors) {

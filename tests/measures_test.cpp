@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/cheapest.hpp"
 #include "bench/compare/convergence_table.hpp"
 #include "bench/compare/summary.hpp"
 #include "bench/suite/dispersion_facet.hpp"
@@ -162,28 +161,6 @@ TEST(ConvergenceTable, ModesThatAreSweptAreSeriesOfTheirOwn) {
     ASSERT_EQ(t.rows.size(), 2u);
     EXPECT_NEAR(t.number(0, "order"), 1, 1e-9);
     EXPECT_NEAR(t.number(1, "order"), 2, 1e-9);
-}
-
-// ---- The cheapest
-
-TEST(Cheapest, IsTheLeastCostAmongTheSoundCellsThatAreAccurateEnough) {
-    const Table t = cheapest_of(cells_with({
-        {"1", "s", "a", "", "100", "10", "ok", "", "0.2", "", "", "0.5", "1", "0.9", "1.1"},
-        {"2", "s", "a", "", "200", "10", "ok", "", "0.009", "", "", "0.5", "3", "2.9", "3.1"},
-        {"3", "s", "b", "", "100", "10", "ok", "", "0.05", "", "", "4", "2", "1.9", "2.1"},
-        {"4", "s", "c", "", "100", "10", "ok", "adhesion", "0.0001", "", "", "0.1", "0.5", "0.4", "0.6"},  // pulls
-        {"5", "s", "d", "", "100", "10", "diverged", "", "inf", "", "", "inf", "0.1", "0.1", "0.1"},
-        {"6", "s", "e", "", "100", "10", "ok", "", "0.04", "", "", "4", "2.2", "2.05", "2.3"},  // touches b
-    }));
-    ASSERT_EQ(t.rows.size(), 5u);
-    EXPECT_EQ(t.at(0, "scheme"), "b");  // 10 %
-    EXPECT_EQ(t.at(0, "ties"), "e");
-    EXPECT_EQ(t.at(1, "scheme"), "a");  // 1 %
-    EXPECT_EQ(t.at(1, "rate"), "200");
-    EXPECT_EQ(t.at(2, "scheme"), "");   // 0.1 %
-    EXPECT_EQ(t.at(3, "scheme"), "a");  // 3 dB
-    EXPECT_EQ(t.at(3, "rate"), "100");
-    EXPECT_NE(cheapest_text(t).find("within 0.1 %   none"), std::string::npos) << cheapest_text(t);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "bench/compare/compare_record.hpp"
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/store/checksum.hpp"
+#include "bench/store/machine.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/scene_file.hpp"
@@ -262,6 +263,44 @@ TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures
     json["rows"]["sound"]["rows"][0] = nlohmann::ordered_json::array();
     std::ofstream(path) << sealed(json.dump());
     EXPECT_EQ(run_suite(plan, scratch.path, true, 1, w.console).ran, 1);
+}
+
+TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
+    const Scratch scratch;
+    const Workshop w;
+    const SuitePlan plan = plan_of(parse_suite(counting_suite, "a.toml"), w.catalogue, {});
+    run_suite(plan, scratch.path, false, 2, w.console);
+    const std::string another = "0123456-another";
+    const auto recorded_by_another = [&](int cell, const std::string& what) {  // a file of this cell's name, of another program
+        const fs::path path = scratch.path / (plan.cells[cell].id + ".json");
+        std::string text = unsealed(content(path));
+        const std::string own = nlohmann::json(what).dump();
+        const auto at = text.find(own, text.find("\"program\""));
+        ASSERT_NE(at, std::string::npos) << what;
+        std::ofstream(path) << sealed(text.replace(at, own.size(), nlohmann::json(another).dump()));
+    };
+    recorded_by_another(1, machine().commit);
+    recorded_by_another(2, machine().build);
+    recorded_by_another(5, machine().version);
+    const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
+    EXPECT_EQ(resumed.ran, 3);
+    EXPECT_EQ(resumed.read_back, 5);
+}
+
+TEST(SuiteRun, TheIdentityOfAProgramIsItsVersionCommitBuildAndPlugins) {
+    const Scratch scratch;
+    const std::string own = program_identity({});
+    EXPECT_EQ(own, program_identity({}));
+    for (std::string Machine::*part : {&Machine::version, &Machine::commit, &Machine::build}) {
+        Machine other = machine();
+        other.*part += "x";
+        EXPECT_NE(program_identity({}, other), own);
+    }
+    std::ofstream(scratch / "plugin") << "a";
+    const std::string with_plugin = program_identity({scratch / "plugin"});
+    EXPECT_NE(with_plugin, own);
+    std::ofstream(scratch / "plugin") << "b";
+    EXPECT_NE(program_identity({scratch / "plugin"}), with_plugin);
 }
 
 TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {

@@ -8,6 +8,7 @@
 
 #include "bench/command/commands.hpp"
 #include "bench/command/compare_text.hpp"
+#include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
@@ -64,7 +65,7 @@ int compare_command(const CompareCall& r) {
     const Table cells = cells_of(c);
     const std::string manifest = manifest_of(c, r);
 
-    const Table cheapest = cheapest_of(cells, headline_error(c), c.scene.name);
+    const Table cheapest = cheapest_of(cells, c.scene.name);
     Json files = Json::array();
     if (!r.out.empty()) {
         const fs::path folder = r.out;
@@ -86,7 +87,7 @@ int compare_command(const CompareCall& r) {
                               c.reference_name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
                               c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
                               c.scene.taps.at(c.headline.bridge).name));
-    console.print(headline_text(cells, headline_error(c)) + "\n" + certificate_text(c) + "\n" + floor_text(c));
+    console.print(headline_text(cells) + "\n" + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = exit_code(c);
@@ -96,7 +97,7 @@ int compare_command(const CompareCall& r) {
                                             : code == refused ? "refused"
                                                               : "failed"},
                                  {"manifest", Json::parse(manifest)},
-                                 {"cells", Json::parse(rows_json(cells))},
+                                 {"cells", Json::parse(rows_json(with_bounds(cells)))},
                                  {"cheapest", Json::parse(rows_json(cheapest))},
                                  {"files", files}}));
     return code;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/compare/compare_record.hpp"
+#include "bench/compare/bound.hpp"
 
 namespace jvari {
 
@@ -23,7 +23,7 @@ std::string spread_text(const Table& t, std::size_t row) {
 }
 }  // namespace
 
-std::string headline_text(const Table& t, const std::string& error_column) {
+std::string headline_text(const Table& t) {
     static const std::string certificate = "(reference certain to)";
     std::size_t width = certificate.size();
     for (std::size_t i = 0; i < t.rows.size(); ++i) width = std::max(width, t.at(i, "scheme").size());
@@ -31,7 +31,7 @@ std::string headline_text(const Table& t, const std::string& error_column) {
         fmt::format("  {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n", "scheme", width, "rate",
                     "modes", "L2 10ms", "L2 50ms", "L2 whole", "horizon", "1/3 oct", "residual", "s per s", "", "real time", "ns/step");
     const auto figure = [&t](const char* column) {
-        const double x = t.rows.empty() ? std::nan("") : certificate_of(t, 0, column);
+        const double x = t.rows.empty() ? std::nan("") : bound_of(t, 0, column).certificate;
         return std::isnan(x) ? "-" : fmt::format("{:.2e}", x);
     };
     text += fmt::format("  {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}\n", certificate, width, "", "", figure("error_l2_10ms"),
@@ -49,15 +49,26 @@ std::string headline_text(const Table& t, const std::string& error_column) {
                                    t.at(i, "flags"), cell_text(t, i, facts::smallest_contact_force.name, "{:.2g} N"),
                                    cell_text(t, i, "energy_residual_accumulated", "{:.1e}"));
         text += fmt::format("{} {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n",
-                            t.at(i, "pareto") == "1" ? "*" : " ", t.at(i, "scheme"), width, rate, t.at(i, "modes"),
-                            error_text(t, i, "error_l2_10ms", "{:.2e}"), error_text(t, i, "error_l2_50ms", "{:.2e}"),
-                            error_text(t, i, "error_l2_whole", "{:.2e}"), cell_text(t, i, "horizon_s", "{:.4f} s"),
-                            cell_text(t, i, "third_octave_db", "{:.2f} dB"), cell_text(t, i, "energy_residual_accumulated", "{:.1e}"),
-                            cell_text(t, i, "cost_s_per_s", "{:.3g}"), spread_text(t, i), cell_text(t, i, "times_real_time", "{:.3g}"),
-                            cell_text(t, i, "ns_per_step", "{:.1f}"));
+                            t.at(i, "pareto") == "1"    ? "*"
+                            : !t.at(i, "flags").empty() ? "!"
+                                                        : " ",
+                            t.at(i, "scheme"), width, rate, t.at(i, "modes"), error_text(bound_of(t, i, "error_l2_10ms"), "{:.2e}"),
+                            error_text(bound_of(t, i, "error_l2_50ms"), "{:.2e}"), error_text(bound_of(t, i, "error_l2_whole"), "{:.2e}"),
+                            cell_text(t, i, "horizon_s", "{:.4f} s"), cell_text(t, i, "third_octave_db", "{:.2f} dB"),
+                            cell_text(t, i, "energy_residual_accumulated", "{:.1e}"), cell_text(t, i, "cost_s_per_s", "{:.3g}"),
+                            spread_text(t, i), cell_text(t, i, "times_real_time", "{:.3g}"), cell_text(t, i, "ns_per_step", "{:.1f}"));
     }
-    text += fmt::format("* on the Pareto front of {} and cost; +- is half the distance of the quartiles", error_column);
-    if (!flagged.empty()) text += "\nnot to be trusted, whatever the error says\n" + flagged.substr(0, flagged.size() - 1);
+    text += fmt::format("* on the Pareto front of {} and cost; +- is half the distance of the quartiles", headline_error(t, all_rows(t)));
+    const auto says = [&t](Bound::Says what) {
+        for (std::size_t i = 0; i < t.rows.size(); ++i)
+            for (const char* column : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"})
+                if (bound_of(t, i, column).says() == what) return true;
+        return false;
+    };
+    if (says(Bound::Says::at_most))
+        text += "\n\u2264 error and what the reference is certain to, together, where that is more than a tenth of the error";
+    if (says(Bound::Says::unknown)) text += "\nnot known: together they reach 1";
+    if (!flagged.empty()) text += "\n! not to be trusted, whatever the error says\n" + flagged.substr(0, flagged.size() - 1);
     return missing.empty() ? text : text + "\nfailed or refused\n" + missing.substr(0, missing.size() - 1);
 }
 

@@ -7,6 +7,6 @@
 
 namespace jvari {
 
-std::string headline_text(const Table& cells, const std::string& error_column);  // the front marked
+std::string headline_text(const Table& cells);  // the front marked, and what is not to be trusted
 
 }  // namespace jvari

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "bench/command/commands.hpp"
+#include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
@@ -62,8 +63,8 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
         const std::string options = options_text(c.cell.settings.options);
         text += fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}  {}\n", what,
                             c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
-                            row.at(0, "status"), error_text(row, 0, "error_l2_50ms", "{:.2e}"), short_text("cost_s_per_s", "{:.3g}"),
-                            row.at(0, "reason"));
+                            row.at(0, "status"), error_text(bound_of(row, 0, "error_l2_50ms"), "{:.2e}"),
+                            short_text("cost_s_per_s", "{:.3g}"), row.at(0, "reason"));
     }
     text = fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}\n", "scene", "scheme", "rate", "modes", "status", "L2 50ms",
                        "s per s") +
@@ -111,6 +112,7 @@ int suite_command(const SuiteRequest& r) {
     const Catalogue catalogue(r.plugins);
     note_slow_plugins(console);
     const SuitePlan plan = plan_of(suite, catalogue, r.plugins);
+    for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
     std::optional<WhenInterrupted> last_word;
     if (!r.out.empty()) {
@@ -155,7 +157,7 @@ int suite_command(const SuiteRequest& r) {
                                  {"timed", run.timed},
                                  {"read_back", run.read_back},
                                  {"manifest", Json::parse(manifest)},
-                                 {"cells", Json::parse(rows_json(cells))},
+                                 {"cells", Json::parse(rows_json(with_bounds(cells)))},
                                  {"cheapest", Json::parse(rows_json(cheapest))},
                                  {"files", files}}));
     return code;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "bench/compare/bound.hpp"
 #include "bench/store/cell_rows.hpp"
 
 namespace jvari {
@@ -15,54 +17,78 @@ struct Target {
     double most;
 };
 constexpr Target targets[] = {{true, 0.1}, {true, 0.01}, {true, 0.001}, {false, 3}, {false, 1}};
+struct Goal {
+    std::string measure;
+    double most;
+    bool met(const Table& cells, std::size_t i) const { return bound_of(cells, i, measure).most() <= most; }
+    bool undecided(const Table& cells, std::size_t i) const { return !met(cells, i) && bound_of(cells, i, measure).least() <= most; }
+};
+
+// Names of the other schemes of those rows, each once.
+template <class Which>
+std::string other_schemes(const Table& cells, const Rows& rows, const std::string& best, Which which) {
+    std::string names;
+    for (const std::size_t i : rows)
+        if (const std::string& name = cells.at(i, "scheme");
+            name != best && which(i) && (" " + names + " ").find(" " + name + " ") == std::string::npos)
+            names += (names.empty() ? "" : " ") + name;
+    return names;
+}
+
+// From `status` on.
+std::vector<std::string> fields_of(const Table& cells, const Rows& rows, const Goal& goal) {
+    std::optional<std::size_t> best;
+    for (const std::size_t i : rows)
+        if (goal.met(cells, i) && (!best || cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s"))) best = i;
+    const auto undecided = [&](std::size_t i) { return goal.undecided(cells, i); };
+    if (!best) {
+        const bool open = std::any_of(rows.begin(), rows.end(), undecided);
+        return {open ? "not_known" : "none", "", "", "", "", "", "", "", "", open ? other_schemes(cells, rows, "", undecided) : ""};
+    }
+    const std::string& scheme = cells.at(*best, "scheme");
+    const Bound b = bound_of(cells, *best, goal.measure);
+    return {"found",
+            scheme,
+            cells.at(*best, "options"),
+            cells.at(*best, "rate"),
+            cells.at(*best, "modes"),
+            text_of(b.error),
+            std::isnan(b.certificate) ? "" : text_of(b.most()),
+            cells.at(*best, "cost_s_per_s"),
+            other_schemes(
+                cells, rows, scheme,
+                [&](std::size_t i) { return goal.met(cells, i) && cells.number(i, "cost_lower") <= cells.number(*best, "cost_upper"); }),
+            other_schemes(cells, rows, scheme, [&](std::size_t i) {
+                return undecided(i) && cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s");
+            })};
+}
 }  // namespace
 
-Table cheapest_of(const Table& cells, const std::string& waveform, const std::string& scene) {
+Table cheapest_of(const Table& cells, const std::string& scene) {
     const std::vector<std::string> swept = swept_keys(cells);
     Table t;
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
-    for (const char* name : {"measure", "target", "scheme", "options", "rate", "modes", "error", "cost_s_per_s", "ties"})
+    for (const char* name :
+         {"measure", "target", "status", "scheme", "options", "rate", "modes", "error", "bound", "cost_s_per_s", "ties", "perhaps"})
         t.columns.push_back(name);
     std::vector<std::string> naming = swept;
     naming.insert(naming.begin(), "scene");
     for (const Rows& group : alike(cells, all_rows(cells), naming)) {
         Rows rows;
         for (const std::size_t i : group)
-            if (cells.at(i, "status") == "ok" && cells.at(i, "flags").empty() && cells.number(i, "cost_s_per_s") > 0) rows.push_back(i);
+            if (trusted(cells, i) && cells.number(i, "cost_s_per_s") > 0) rows.push_back(i);
         if (rows.empty()) continue;  // nothing was timed
         std::vector<std::string> key{cells.column("scene") < 0 ? scene : cells.at(rows.front(), "scene")};
         for (const std::string& name : swept) key.push_back(cells.at(rows.front(), name));
-        const auto known = [&](const std::string& measure) {
-            return std::any_of(rows.begin(), rows.end(), [&](std::size_t i) { return std::isfinite(cells.number(i, measure)); });
-        };
-        std::string window = waveform;
-        for (const char* shorter : {"error_l2_10ms", "error_l2_whole"})
-            if (!known(window)) window = shorter;
         for (const Target& target : targets) {
-            const std::string measure = target.waveform ? window : "third_octave_db";
-            if (!known(measure)) continue;  // the run is too short for it
-            const auto meets = [&](std::size_t i) { return cells.number(i, measure) <= target.most; };
-            std::size_t best = cells.rows.size();
-            for (const std::size_t i : rows)
-                if (meets(i) && (best == cells.rows.size() || cells.number(i, "cost_s_per_s") < cells.number(best, "cost_s_per_s")))
-                    best = i;
+            const Goal goal{target.waveform ? headline_error(cells, rows) : "third_octave_db", target.most};
+            if (std::none_of(rows.begin(), rows.end(), [&](std::size_t i) { return std::isfinite(cells.number(i, goal.measure)); }))
+                continue;  // the run is too short for it
             auto& row = t.rows.emplace_back(key);
-            row.push_back(measure);
-            row.push_back(text_of(target.most));
-            if (best == cells.rows.size()) {
-                row.resize(t.columns.size());
-                continue;
-            }
-            std::string ties;
-            for (const std::size_t i : rows)
-                if (meets(i) && cells.at(i, "scheme") != cells.at(best, "scheme") &&
-                    cells.number(i, "cost_lower") <= cells.number(best, "cost_upper") &&
-                    (" " + ties + " ").find(" " + cells.at(i, "scheme") + " ") == std::string::npos)
-                    ties += (ties.empty() ? "" : " ") + cells.at(i, "scheme");
-            for (const std::string& field : {cells.at(best, "scheme"), cells.at(best, "options"), cells.at(best, "rate"),
-                                             cells.at(best, "modes"), cells.at(best, measure), cells.at(best, "cost_s_per_s"), ties})
-                row.push_back(field);
+            row.push_back(goal.measure);
+            row.push_back(text_of(goal.most));
+            for (const std::string& field : fields_of(cells, rows, goal)) row.push_back(field);
         }
     }
     return t;
@@ -82,11 +108,14 @@ std::string cheapest_text(const Table& t) {
         if (scene != last) text += fmt::format("{}the cheapest scheme on {}\n", text.empty() ? "" : "\n", scene);
         last = scene;
         text += fmt::format("  {:<16} within {:<6}  ", t.at(i, "measure"), goal_name(t, i));
-        if (t.at(i, "scheme").empty()) text += "none\n";
+        const std::string& perhaps = t.at(i, "perhaps");
+        if (t.at(i, "status") == "not_known") text += "not known: the reference is not certain enough to tell\n";
+        else if (t.at(i, "status") == "none") text += "none\n";
         else
-            text += fmt::format("{}{} at {} Hz, {:.3g} s per s{}\n", t.at(i, "scheme"),
+            text += fmt::format("{}{} at {} Hz, {:.3g} s per s{}{}\n", t.at(i, "scheme"),
                                 t.at(i, "options").empty() ? "" : " " + t.at(i, "options"), t.at(i, "rate"), t.number(i, "cost_s_per_s"),
-                                t.at(i, "ties").empty() ? "" : "; a tie with " + t.at(i, "ties"));
+                                t.at(i, "ties").empty() ? "" : "; a tie with " + t.at(i, "ties"),
+                                perhaps.empty() ? "" : "; perhaps for less " + perhaps);
     }
     if (!text.empty()) text.pop_back();
     return text;

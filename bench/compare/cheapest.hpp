@@ -5,11 +5,14 @@
 
 namespace jvari {
 
-// From the rows of cells.csv. Columns scene, <swept keys>, measure (a column of cells.csv), target, scheme, options, rate, modes, error,
-// cost_s_per_s, ties: the other schemes with a cell that meets the target and whose quartiles touch. A row per scene and target; empty from
-// `scheme` on where no cell gets there. Only cells that are ok, timed, and have no flags against them count. `waveform`: which window;
-// where a scene has none of it the next shorter one, else the whole run.
-Table cheapest_of(const Table& cells, const std::string& waveform = "error_l2_50ms", const std::string& scene = "");
+// From the rows of cells.csv. Columns scene, <swept keys>, measure (a column of cells.csv), target, status, scheme, options, rate, modes,
+// error, bound, cost_s_per_s, ties, perhaps. A row per scene and target.
+//   A cell meets a target where error and certificate together (bound.hpp) do; third octaves have no certificate and count as measured.
+//   status:  found; none; not_known: no cell meets it, and of some neither that it does nor that it does not is certain.
+//   ties:    other schemes with a cell that meets the target and whose quartiles of cost touch.
+//   perhaps: other schemes with a cheaper cell (not_known: any cell) of which it is not certain.
+// Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene.
+Table cheapest_of(const Table& cells, const std::string& scene = "");
 
 std::string goal_name(const Table& cheapest, std::size_t row);  // "10 %", "3 dB"
 std::string cheapest_text(const Table& cheapest);               // for the terminal; "" without rows

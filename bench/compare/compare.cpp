@@ -68,7 +68,8 @@ void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene, c
 
 std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
     std::string text = "jvari certify " + r.scene;
-    if (r.modes > 0 || c.reference_settings.modes > 0) text += fmt::format(" --modes {}", c.reference_settings.modes);
+    const int modes = c.reference_settings.modes;
+    if (modes > 0 && modes != modes_for(c.scene.strings.at(0), {0, 0, 0, {}})) text += fmt::format(" --modes {}", modes);
     if (r.duration) text += fmt::format(" --duration {:.6g}", *r.duration);
     if (c.reference_settings.tap_rate != 44100) text += fmt::format(" --tap-rate {:.12g}", c.reference_settings.tap_rate);
     for (const std::string& set : r.set) text += " --set " + set;

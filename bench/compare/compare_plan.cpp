@@ -1,5 +1,6 @@
-// Modes: every cell and the reference carry the same ones. Below 20 kHz they do so by themselves, each scheme taking its own default; where
-// the lowest rate is below 40 kHz the number of modes below half of it is set for all.
+// Modes: every cell and the reference carry as many, those below 20 kHz and below half the lowest rate, or as many as are asked for. Two
+// kinds of schemes do not: a grid takes its nodes from the rate, and one whose points of contact are nodes of its modes may need more of
+// them than that, which a note says. Several strings have each as many as lie below 20 kHz.
 #include "bench/compare/compare_plan.hpp"
 
 #include <fmt/core.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/compare/summary.hpp"
 #include "bench/store/rates.hpp"
 #include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
@@ -29,7 +31,8 @@ double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
 }
 
 int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
-    if (r.modes > 0 || lowest_rate >= 40e3) return r.modes;
+    if (r.modes > 0) return r.modes;
+    if (lowest_rate >= 40e3) return scene.strings.size() == 1 ? modes_below(scene.strings.front(), 20e3) : 0;
     int fewest = 0;
     for (const String& s : scene.strings) {
         const int n = modes_below(s, 0.5 * lowest_rate);
@@ -48,6 +51,43 @@ OptionValues options_for(const CompareRequest& r, const Descriptor& d, std::vect
         options.emplace_back(o.name, o.value);
     }
     return options;
+}
+
+struct Made {
+    bool refused = false;
+    int modes = 0;     // 0: a grid, or it does not say
+    int contacts = 0;  // points of contact
+};
+Made made(const Descriptor& d, const Scene& scene, const Settings& settings) {
+    try {
+        const auto scheme = d.make(scene, settings);
+        const std::vector<Fact> facts = scheme->facts();
+        const auto count = [&facts](const char* name) {
+            const double n = fact(facts, name);
+            return n > 0 ? static_cast<int>(n) : 0;
+        };
+        return {false, count("interior_nodes"), count("contact_points")};
+    } catch (const std::exception&) {  // the cell will tell
+        return {true};
+    }
+}
+
+// The modes that all carry, or 0, its own default, where the scheme has to have others: its points of contact are nodes of its modes, and
+// with those of all there are fewer of them, or none.
+int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, Settings settings, std::vector<std::string>& notes) {
+    const int all = settings.modes;
+    const bool contact = std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return !s.barriers.empty(); });
+    if (r.modes > 0 || all == 0 || !contact) return all;
+    const Made equal = made(d, scene, settings);
+    if (equal.modes == 0 && !equal.refused) return all;
+    settings.modes = 0;
+    const Made own = made(d, scene, settings);
+    if (own.refused || own.modes == 0 || own.modes == all || (!equal.refused && equal.contacts >= own.contacts)) return all;
+    notes.push_back(
+        fmt::format("{} carries {} modes on scene {}, reference and other schemes {}: its points of contact are nodes of its modes, "
+                    "and it needs as many; --modes sets one number for all",
+                    d.name, own.modes, scene.name, all));
+    return 0;
 }
 
 std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
@@ -121,6 +161,9 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
     for (const Descriptor* d : schemes) {
         Cell cell{d, settings, false, {}, {}, {}, {}};
         cell.settings.options = options_for(r, *d, used);
+        Settings at_lowest = cell.settings;
+        at_lowest.sample_rate = rates.front();
+        if (d->clock != Clock::continuous) cell.settings.modes = modes_of(*d, scene, r, at_lowest, plan.notes);
         if (d->clock == Clock::continuous) {  // no rate to vary
             cell.settings.sample_rate = 0;
             plan.cells.push_back(cell);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "bench/compare/bound.hpp"
 #include "bench/compare/pareto.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
@@ -57,20 +58,6 @@ std::string ties_of(const Comparison& c, const Cell& cell) {
     return ties;
 }
 
-std::vector<bool> front_of(const Comparison& c) {
-    const std::string column = headline_error(c);
-    std::vector<Point> points;
-    for (const Cell& cell : c.cells)
-        for (std::size_t k = 0; k < measures().size(); ++k) {
-            if (measures()[k].column != column) continue;
-            const int tap = c.headline.tap(measures()[k]);
-            const bool sound = !cell.refused && cell.summary.status.outcome == Outcome::ok;
-            points.push_back({sound ? cell.wall.median : nan, cell.wall.lower, cell.wall.upper,
-                              sound ? std::fmax(error_in(cell, tap, static_cast<int>(k)), c.floor[tap][k]) : nan});
-        }
-    return pareto_front(points);
-}
-
 // What a run's own figures say against it, whatever its error: balance is necessary, never sufficient.
 std::string flags_of(const Summary& s) {
     std::string flags;
@@ -99,7 +86,7 @@ private:
     bool first_;
 };
 
-void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front, const std::vector<std::string>& facts) {
+void add_row(Table& table, const Comparison& c, const Cell& cell, const std::vector<std::string>& facts) {
     Row row(table, table.rows.empty());
     const Summary& s = cell.summary;
     const bool ran = !cell.refused, failed = ran && s.status.outcome != Outcome::ok;
@@ -121,7 +108,7 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, bool on_front,
     row.number("times_real_time", seconds / wall);
     row.number("worst_block_of_deadline", ran ? cell.worst_block : nan);
     row.count("repeats", cell.wall.count, ran);
-    row.text("pareto", on_front ? "1" : "0");
+    row.text("pareto", "");  // once all rows are there
     row.text("below_floor", ties_of(c, cell));
     for (std::size_t k = 0; k < measures().size(); ++k)
         if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column, c.floor[c.headline.tap(measures()[k])][k]);
@@ -166,32 +153,13 @@ Json certificate_json(const Comparison& c) {
 }
 }  // namespace
 
-double certificate_of(const Table& cells, std::size_t row, const std::string& error_column) {
-    const std::string error = "error_l2_";
-    if (error_column.rfind(error, 0) != 0) return nan;
-    return cells.number(row, "certificate_l2_" + error_column.substr(error.size()));
-}
-
-std::string error_text(const Table& cells, std::size_t row, const std::string& column, const char* format) {
-    const double x = cells.number(row, column), certificate = certificate_of(cells, row, column);
-    if (std::isnan(x)) return "-";
-    return x < certificate ? "\u2264" + fmt::format(fmt::runtime(format), certificate) : fmt::format(fmt::runtime(format), x);
-}
-
-std::string headline_error(const Comparison& c) {
-    for (const char* column : {"error_l2_50ms", "error_l2_10ms", "error_l2_whole"})
-        for (std::size_t k = 0; k < measures().size(); ++k)
-            if (measures()[k].column == column)
-                for (const Cell& cell : c.cells)
-                    if (std::isfinite(error_in(cell, c.headline.tap(measures()[k]), static_cast<int>(k)))) return column;
-    return "error_l2_whole";
-}
-
 Table cells_of(const Comparison& c) {
     Table table;
-    const auto front = front_of(c);
     const auto facts = fact_names(c);
-    for (std::size_t i = 0; i < c.cells.size(); ++i) add_row(table, c, c.cells[i], front[i], facts);
+    for (const Cell& cell : c.cells) add_row(table, c, cell, facts);
+    const Rows rows = all_rows(table);
+    const auto front = pareto_front(table, rows, headline_error(table, rows), "cost_s_per_s");
+    for (const std::size_t i : rows) table.rows[i][table.column("pareto")] = front[i] ? "1" : "0";
     return table;
 }
 
@@ -209,6 +177,7 @@ Table cost_only(const Table& cells) {
 }
 
 std::string manifest_of(const Comparison& c, const CompareRequest& r) {
+    const Table cells = cells_of(c);
     Json facts = Json::object(), floor = Json::object(), taps = Json::array(), schemes = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
     facts[facts::smallest_contact_force.name] = c.reference_summary.smallest_contact_force;
@@ -245,7 +214,7 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                      {"headline",
                       {{"nut", c.scene.taps.at(c.headline.nut).name},
                        {"bridge", c.scene.taps.at(c.headline.bridge).name},
-                       {"error", headline_error(c)}}},
+                       {"error", headline_error(cells, all_rows(cells))}}},
                      {"noise_floor", floor}});
     return indented(manifest);
 }

@@ -22,12 +22,4 @@ void write_sounds(const Comparison&, const std::filesystem::path& folder);
 Table errors_only(const Table& cells);
 Table cost_only(const Table& cells);
 
-// The measure that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else the whole run.
-std::string headline_error(const Comparison&);
-
-// The figure that goes with an error column: what the reference itself is certain to. NaN where it has none.
-double certificate_of(const Table& cells, std::size_t row, const std::string& error_column);
-// The error, or "\u2264" and the certificate's figure where that is larger; "-" where there is no error.
-std::string error_text(const Table& cells, std::size_t row, const std::string& column, const char* format);
-
 }  // namespace jvari

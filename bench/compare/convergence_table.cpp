@@ -5,6 +5,7 @@
 #include <set>
 
 #include "analysis/convergence.hpp"
+#include "bench/compare/bound.hpp"
 #include "bench/store/cell_rows.hpp"
 
 namespace jvari {
@@ -39,8 +40,8 @@ Table convergence_of(const Table& cells, const std::string& scene) {
                 std::vector<double> rate, error;
                 std::set<std::string> modes;
                 for (const std::size_t i : rows) {
-                    const double r = cells.number(i, "rate"), e = cells.number(i, column), floor = cells.number(i, "floor_" + column);
-                    if (cells.at(i, "status") != "ok" || !(r > 0) || !(e > 0) || !(e < 1) || e <= floor) continue;
+                    const double r = cells.number(i, "rate"), e = cells.number(i, column);
+                    if (cells.at(i, "status") != "ok" || !(r > 0) || !(e < 1) || !bound_of(cells, i, column).decides()) continue;
                     rate.push_back(r);
                     error.push_back(e);
                     modes.insert(cells.at(i, "modes"));

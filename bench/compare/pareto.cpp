@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "bench/compare/bound.hpp"
 
 namespace jvari {
 
@@ -14,7 +17,19 @@ bool tie(const Point& a, const Point& b) {
 }
 bool beats(const Point& a, const Point& b) {
     if (!sound(a)) return false;
-    return a.error < b.error ? a.cost <= b.cost || tie(a, b) : a.error == b.error && a.cost < b.cost && !tie(a, b);
+    if (a.error + a.certificate < b.error - b.certificate) return a.cost <= b.cost || tie(a, b);
+    return a.error <= b.error && a.cost < b.cost && !tie(a, b);
+}
+
+Point point_of(const Table& cells, std::size_t row, const std::string& error, const std::string& cost) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const Bound b = bound_of(cells, row, error);
+    const bool known = trusted(cells, row) && b.says() != Bound::Says::unknown;
+    const bool clock = cost == "cost_s_per_s" || cost == "ns_per_step";  // quartiles are those of the cost per second of sound
+    const double median = cells.number(row, "cost_s_per_s"), c = known ? cells.number(row, cost) : nan;
+    return {c, clock ? c * cells.number(row, "cost_lower") / median : c, clock ? c * cells.number(row, "cost_upper") / median : c,
+            std::isnan(b.error) ? nan : std::fmax(b.error, std::fmax(b.floor, b.certificate)),
+            std::isnan(b.certificate) ? 0 : b.certificate};
 }
 }  // namespace
 
@@ -23,6 +38,12 @@ std::vector<bool> pareto_front(std::span<const Point> points) {
     for (const Point& p : points)
         front.push_back(sound(p) && std::none_of(points.begin(), points.end(), [&p](const Point& other) { return beats(other, p); }));
     return front;
+}
+
+std::vector<bool> pareto_front(const Table& cells, const Rows& rows, const std::string& error, const std::string& cost) {
+    std::vector<Point> points;
+    for (const std::size_t row : rows) points.push_back(point_of(cells, row, error, cost));
+    return pareto_front(points);
 }
 
 }  // namespace jvari

@@ -4,15 +4,22 @@
 #include <span>
 #include <vector>
 
+#include "bench/store/cell_rows.hpp"
+
 namespace jvari {
 
 struct Point {
     double cost, cost_lower, cost_upper;  // median and quartiles; all the same for a cost that does not scatter
-    double error;                         // brought up to its noise floor by the caller: what lies below it is a tie
+    double error;                         // brought up to its noise floor and certificate by the caller: what lies below is a tie
+    double certificate = 0;               // the error is known to so much
 };
 
-// A point is on the front where no other is surely better: another with less error at a cost that is less or a tie, or the same error at a
-// cost that is surely less. A point without a finite cost and error is never on it.
+// A point is on the front where no other is surely better: another whose error is less by more than both certificates at a cost that is
+// less or a tie, or with an error no larger at a cost that is surely less. A point without a finite cost and error is never on it.
 std::vector<bool> pareto_front(std::span<const Point>);
+
+// Which of the rows of cells.csv are on the front of an error column and a cost column: of those that are trusted and whose error is
+// known.
+std::vector<bool> pareto_front(const Table& cells, const Rows&, const std::string& error, const std::string& cost);
 
 }  // namespace jvari

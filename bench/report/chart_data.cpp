@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bench/compare/bound.hpp"
 #include "bench/compare/errors.hpp"
 #include "bench/compare/pareto.hpp"
 #include "bench/store/rates.hpp"
@@ -21,21 +22,6 @@ std::string rate_label(double rate, double lowest, bool multiples) {
     if (std::isnan(rate)) return "";
     if (multiples) return fmt::format("\u00d7{}", std::lround(rate / lowest));
     return fmt::format("{:.4g}k", rate / 1000);
-}
-
-std::vector<Point> points_of(const WorkPrecision& w, const std::string& problem, const Axis& error, const Axis& cost) {
-    const Table& t = w.cells;
-    const bool clock = cost.column == "cost_s_per_s" || cost.column == "ns_per_step";
-    const double floor = floor_of(w, problem, error.column);
-    std::vector<Point> points;
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        const bool competes = problem_of(t, i) == problem && t.at(i, "status") == "ok";
-        const double c = competes ? t.number(i, cost.column) : std::nan(""), median = t.number(i, "cost_s_per_s");
-        const double lower = clock ? t.number(i, "cost_lower") / median : 1, upper = clock ? t.number(i, "cost_upper") / median : 1;
-        const double e = t.number(i, error.column);
-        points.push_back({c, c * lower, c * upper, std::isnan(e) ? e : std::fmax(e, floor)});
-    }
-    return points;
 }
 
 std::map<std::string, double> lowest_rates(const Table& t) {  // of each problem
@@ -53,12 +39,6 @@ const std::string& problem_of(const Table& cells, std::size_t row) {
 }
 const std::string& series_of(const Table& cells, std::size_t row) {
     return cells.at(row, cells.column("series") < 0 ? "scheme" : "series");
-}
-
-double floor_of(const WorkPrecision& w, const std::string& problem, const std::string& error) {
-    for (const Band& b : w.bands)
-        if (b.problem == problem && b.error == error) return b.floor;
-    return std::nan("");
 }
 
 std::vector<std::string> drawn_series(const Table& cells) {
@@ -91,12 +71,19 @@ std::string chart_cells(const WorkPrecision& w) {
                {"status", t.at(i, "status")},
                {"reason", t.at(i, "reason")},
                {"label", rate_label(rate, lowest.at(problem), multiples[problem])},
+               {"flags", t.at(i, "flags")},
                {"below", t.at(i, "below_floor")}};
-        for (const auto* axes : {&w.errors, &w.costs})
-            for (const Axis& a : *axes) {  // not finite: null; seven digits are enough for a point
-                const double x = t.number(i, a.column);
-                j[a.column] = std::isfinite(x) ? number_of(fmt::format("{:.7g}", x)) : std::nan("");
-            }
+        const auto add = [&j](const std::string& column, double x) {  // not finite: null; seven digits are enough for a point
+            j[column] = std::isfinite(x) ? number_of(fmt::format("{:.7g}", x)) : std::nan("");
+        };
+        std::string at_most;
+        for (const Axis& a : w.errors) {
+            const Bound b = bound_of(t, i, a.column);
+            add(a.column, b.shown());
+            if (b.says() == Bound::Says::at_most || b.says() == Bound::Says::unknown) at_most += (at_most.empty() ? "" : " ") + a.column;
+        }
+        for (const Axis& a : w.costs) add(a.column, t.number(i, a.column));
+        j["at_most"] = at_most;
         rows.push_back(std::move(j));
     }
     return rows.dump();
@@ -104,25 +91,22 @@ std::string chart_cells(const WorkPrecision& w) {
 
 std::string chart_fronts(const WorkPrecision& w) {
     const Table& t = w.cells;
-    std::vector<std::string> problems;
-    for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (std::find(problems.begin(), problems.end(), problem_of(t, i)) == problems.end()) problems.push_back(problem_of(t, i));
     Json rows = Json::array();
-    for (const std::string& problem : problems)
+    for (const Rows& problem : alike(t, all_rows(t), {"problem"}))
         for (const Axis& error : w.errors)
             for (const Axis& cost : w.costs) {
-                const auto points = points_of(w, problem, error, cost);
-                const auto front = pareto_front(points);
-                for (std::size_t i = 0; i < front.size(); ++i) {
-                    if (!front[i]) continue;
+                const auto front = pareto_front(t, problem, error.column, cost.column);
+                for (std::size_t k = 0; k < front.size(); ++k) {
+                    if (!front[k]) continue;
+                    const std::size_t i = problem[k];
                     const double rate = t.number(i, "rate");
-                    const std::string key = fmt::format("{}|{}|{}|{}|{}", problem, error.column, cost.column, series_of(t, i),
+                    const std::string key = fmt::format("{}|{}|{}|{}|{}", problem_of(t, i), error.column, cost.column, series_of(t, i),
                                                         std::isnan(rate) ? "null" : fmt::format("{}", rate));
-                    rows.push_back({{"problem", problem},
+                    rows.push_back({{"problem", problem_of(t, i)},
                                     {"error", error.column},
                                     {"cost", cost.column},
-                                    {"x", points[i].cost},
-                                    {"y", t.number(i, error.column)},
+                                    {"x", t.number(i, cost.column)},
+                                    {"y", bound_of(t, i, error.column).shown()},
                                     {"key", key}});
                 }
             }

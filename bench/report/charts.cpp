@@ -50,7 +50,8 @@ Encodings encodings_of(const WorkPrecision& w) {
             {{"condition", {{"test", {{"and", {{{"param", "pick"}}, "brought_out == '' || brought_out == datum.series"}}}}, {"value", 1}}},
              {"value", 0.12}},
             Json::array({column("series", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
-                         column("y", "error", ".3e"), column("x", "cost", ",.3~r"), column("below", "below floor")}),
+                         column("error_text", "error"), column("x", "cost", ",.3~r"), column("below", "below floor"),
+                         column("flags", "not to be trusted")}),
             Json::array({column("series", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
                          column("x", "cost", ",.3~r"), column("reason", "reason")}),
             series.size()};
@@ -60,6 +61,8 @@ Json chosen(const char* condition) {  // x and y of the columns that are chosen,
     return Json::array({{{"filter", "datum.problem == problem_field"}},
                         {{"calculate", "datum[cost_field]"}, {"as", "x"}},
                         {{"calculate", "datum[error_field]"}, {"as", "y"}},
+                        {{"calculate", "(indexof(split(datum.at_most, ' '), error_field) < 0 ? '' : '\u2264 ') + format(datum.y, '.3e')"},
+                         {"as", "error_text"}},
                         {{"filter", condition}}});
 }
 constexpr const char* sound = "isValid(datum.x) && isValid(datum.y) && datum.x > 0 && datum.y > 0 && datum.status == 'ok'";
@@ -114,6 +117,9 @@ void add_schemes(Json& layers, const Encodings& e) {
          {"params",
           Json::array({{{"name", "pick"}, {"select", {{"type", "point"}, {"fields", Json::array({"series"})}}}, {"bind", "legend"}}})},
          {"encoding", {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"shape", e.shape}, {"opacity", e.faint}, {"tooltip", e.of_point}}}});
+    layers.push_back({{"transform", chosen(fmt::format("{} && datum.flags != ''", sound).c_str())},  // hollow: not to be trusted
+                      {"mark", {{"type", "point"}, {"filled", true}, {"size", 28}, {"color", "white"}, {"opacity", 1}}},
+                      {"encoding", {{"x", e.x}, {"y", e.y}, {"tooltip", e.of_point}}}});
     Json labelled = chosen(sound);
     if (e.series > direct_labels) {
         labelled.push_back(

@@ -51,7 +51,10 @@ Json table_json(Section s) {
             fmt::format("The table holds the first {} of {} rows; all are in the csv file beside the page.", rows, s.table.rows.size()));
         s.table.rows.resize(rows);
     }
-    return {{"columns", s.table.columns}, {"rows", s.table.rows}, {"first", s.first_columns}, {"left_out", s.left_out}};
+    Json shown = Json::object();
+    for (const Shown& f : s.shown)
+        if (f.row < s.table.rows.size() && s.table.column(f.column) >= 0) shown[f.column][std::to_string(f.row)] = f.text;
+    return {{"columns", s.table.columns}, {"rows", s.table.rows}, {"first", s.first_columns}, {"shown", shown}, {"left_out", s.left_out}};
 }
 
 Json json_of(const Section& s, bool drawn) {

@@ -38,6 +38,11 @@ struct Heard {
     std::string wav;             // of the file
 };
 
+struct Shown {  // what stands in a field of a table in place of its number
+    std::size_t row;
+    std::string column, text;
+};
+
 struct Section {
     std::string id, heading;
     std::vector<std::string> notes{};  // sentences above the charts
@@ -47,6 +52,7 @@ struct Section {
     std::vector<std::string> left_out{};  // sentences: what is not there for the page's size
     Table table{};
     std::vector<std::string> first_columns{};  // shown before "every column" is asked for; empty: all
+    std::vector<Shown> shown{};
 };
 
 struct Page {

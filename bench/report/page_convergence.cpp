@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/convergence.hpp"
+#include "bench/compare/bound.hpp"
 #include "bench/report/chart_data.hpp"
 #include "bench/report/page_sections.hpp"
 
@@ -41,10 +42,10 @@ std::vector<Observed> observed_in(const WorkPrecision& w) {
             std::vector<double> rates, errors;
             for (const std::size_t i : lines[key]) {
                 rates.push_back(w.cells.number(i, "rate"));
-                const double e = w.cells.number(i, a.column);
+                const Bound b = bound_of(w.cells, i, a.column);
                 // a tie with the truth has no order, and one that is all wrong is not on its way to it
-                const bool says = !(e <= floor_of(w, key.first, a.column)) && !(a.column.starts_with("error_l2_") && e >= 1);
-                errors.push_back(says ? e : std::nan(""));
+                const bool says = b.decides() && !(a.column.starts_with("error_l2_") && b.error >= 1);
+                errors.push_back(says ? b.error : std::nan(""));
             }
             if (const Order o = observed_order(rates, errors); o.points >= 2) all.push_back({key.first, key.second, a.column, o});
         }

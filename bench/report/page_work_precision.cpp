@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/report/chart_data.hpp"
 #include "bench/report/page_sections.hpp"
@@ -15,14 +16,11 @@ namespace jvari {
 namespace {
 constexpr std::size_t most_cells_with_taps = 600;  // beyond, the headline errors alone can be chosen: the page stays small
 
-// What the reference is certain to, of error_l2_50ms_nut: certificate_l2_50ms_nut. It goes with the scene and the modes: the largest
-// stands.
+// What the reference is certain to. It goes with the scene and the modes: the largest stands.
 double certificate_of(const Table& t, const std::string& problem, const std::string& error) {
-    if (error.rfind("error_", 0) != 0) return std::nan("");
-    const std::string column = "certificate_" + error.substr(6);
     double largest = std::nan("");
-    for (std::size_t i = 0; t.column(column) >= 0 && i < t.rows.size(); ++i)
-        if (problem_of(t, i) == problem) largest = std::fmax(largest, t.number(i, column));
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (problem_of(t, i) == problem) largest = std::fmax(largest, bound_of(t, i, error).certificate);
     return largest;
 }
 
@@ -33,15 +31,6 @@ double known_floor(const Results& r, const std::string& problem, const std::stri
     for (std::size_t i = 0; r.cells.column(column) >= 0 && i < r.cells.rows.size(); ++i)
         if (const double floor = r.cells.number(i, column); problem_of(r.cells, i) == problem && !std::isnan(floor)) return floor;
     return std::nan("");
-}
-
-// Of a suite, whose cells do not say it: the first of these that has a finite value.
-std::string headline_of(const Results& r) {
-    if (!r.headline.empty()) return r.headline;
-    for (const char* column : {"error_l2_50ms", "error_l2_10ms"})
-        for (std::size_t i = 0; i < r.cells.rows.size(); ++i)
-            if (std::isfinite(r.cells.number(i, column))) return column;
-    return "error_l2_whole";
 }
 
 // Of a suite: every text behind error_l2_whole_ in the columns.
@@ -64,16 +53,17 @@ std::string goal_text(const Table& cheapest, std::size_t row) {
 }
 
 // The goals that some cells of the problem reach and some do not, so that they lie among the points.
-std::vector<Goal> goals_of(const Results& r, const std::string& headline) {
+std::vector<Goal> goals_of(const Results& r) {
     std::vector<Goal> goals;
     for (const std::string& problem : distinct(r.cells, "problem")) {
-        const Table own = rows_where(r.cells, "problem", problem), cheapest = cheapest_of(without_names(own), headline, r.name);
+        const Table own = rows_where(r.cells, "problem", problem), cheapest = cheapest_of(without_names(own), r.name);
         for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
             const std::string& error = cheapest.at(i, "measure");
             const double most = cheapest.number(i, "target");
             bool missed = false;
             for (std::size_t k = 0; k < own.rows.size(); ++k)
-                missed = missed || (own.at(k, "status") == "ok" && std::isfinite(own.number(k, error)) && own.number(k, error) > most);
+                missed =
+                    missed || (own.at(k, "status") == "ok" && std::isfinite(own.number(k, error)) && bound_of(own, k, error).most() > most);
             if (missed && !cheapest.at(i, "scheme").empty()) goals.push_back({problem, error, most, goal_text(cheapest, i)});
         }
     }
@@ -98,7 +88,7 @@ WorkPrecision work_precision_of(const Results& r) {
     w.cells = r.cells;
     w.title = r.name + ": error and cost";
     w.subtitle = r.floors.empty() ? r.source : r.about.substr(0, r.about.rfind(';'));
-    w.errors = error_axes(r.cells, taps_of(r), headline_of(r));
+    w.errors = error_axes(r.cells, taps_of(r), headline_error(r.cells, all_rows(r.cells)));
     for (const Axis& a : cost_axes())
         if (any_finite(r.cells, a.column)) w.costs.push_back(a);
     for (const std::string& problem : distinct(r.cells, "problem"))
@@ -113,7 +103,7 @@ Section work_precision_section(const Results& r) {
     Section s{"work-precision", "Error and cost"};
     WorkPrecision w = work_precision_of(r);
     if (w.errors.empty() || w.costs.empty()) return s;
-    w.goals = goals_of(r, headline_of(r));
+    w.goals = goals_of(r);
     const auto problems = distinct(r.cells, "problem");
     Chart c{"error against cost of each scheme at each rate", "", false, problem_menu(problems), {}};
     c.menus.push_back(axis_menu("error", "error_field", w.errors));
@@ -129,17 +119,22 @@ Section work_precision_section(const Results& r) {
     const std::string title = w.title;
     for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k) {
         w.cells = rows_where(r.cells, "problem", problems[k]);
-        w.errors = error_axes(w.cells, {""}, headline_of(r));
+        w.errors = error_axes(w.cells, {""}, headline_error(w.cells, all_rows(w.cells)));
         if (problems.size() > 1) w.title = problems[k] + ": error and cost";
         if (!w.errors.empty()) c.twins.push_back({twin_file("work_precision", problems[k], problems), work_precision_spec(w)});
     }
     s.charts.push_back(std::move(c));
+    const int flags = r.cells.column("flags");
     s.notes = {
         "Down is more accurate, left is cheaper. The grey track is the Pareto front; crosses at the upper edge are runs that failed. "
         "Numbers at the points are rates: \u00d71 is the lowest. Dotted lines are accuracies, with the cheapest that gets there."};
+    if (std::any_of(r.cells.rows.begin(), r.cells.rows.end(), [&](const auto& row) { return flags >= 0 && !row[flags].empty(); }))
+        s.notes.emplace_back("Hollow points are not to be trusted: the run's own figures speak against it. They are on no front.");
     if (!w.bands.empty())
         s.notes.emplace_back(
-            "What lies in a grey band is a tie (the reference's own sensitivity), in a blue one below what the reference is certain to.");
+            "What lies in a grey band is a tie (the reference's own sensitivity), in a blue one below what the reference is certain to. "
+            "Where "
+            "that is more than a tenth of an error the point stands at both together: no more is known than that it is not above.");
     return s;
 }
 
@@ -154,11 +149,18 @@ Section cell_section(const Results& r) {
     s.table = r.cells.only(columns);
     const int from = s.table.column("scene"), to = s.table.column("scheme");
     if (from >= 0) s.first_columns.assign(s.table.columns.begin() + from, s.table.columns.begin() + to);
-    for (const char* name : {"scheme", "options", "rate", "modes", "status", "error_l2_10ms", "error_l2_50ms", "error_l2_whole",
+    for (const char* name : {"scheme", "options", "rate", "modes", "status", "flags", "error_l2_10ms", "error_l2_50ms", "error_l2_whole",
                              "horizon_s", "third_octave_db", "stft_db", "cost_s_per_s", "times_real_time", "ns_per_step",
                              "energy_residual_accumulated", facts::smallest_contact_force.name, facts::deepest_penetration.name, "reason"})
         if (s.table.column(name) >= 0) s.first_columns.emplace_back(name);
     if (s.table.rows.empty()) s.table = {};
+    for (const std::string& name : s.table.columns) {
+        if (!name.starts_with("error_")) continue;
+        for (std::size_t i = 0; i < s.table.rows.size(); ++i) {
+            const Bound b = bound_of(r.cells, i, name);
+            if (b.says() == Bound::Says::at_most || b.says() == Bound::Says::unknown) s.shown.push_back({i, name, error_text(b, "{:.2e}")});
+        }
+    }
     return s;
 }
 

@@ -81,7 +81,6 @@ void read_manifest(Results& r) {
         const Json &scene = m.at("scene"), &headline = m.at("headline");
         r.name = scene.at("name");
         r.source = scene.at("source");
-        r.headline = headline.at("error");
         r.about = fmt::format("against {}, {} s; nut tap {}, bridge tap {}; {}", m.at("reference").at("name").get<std::string>(),
                               scene.at("duration").get<double>(), headline.at("nut").get<std::string>(),
                               headline.at("bridge").get<std::string>(), r.about);

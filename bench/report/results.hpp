@@ -15,7 +15,6 @@ struct Results {
     std::string manifest;  // JSON
     std::string name, source, about;
     std::vector<std::string> taps;                       // of compare's scene
-    std::string headline;                                // error column
     std::vector<std::pair<std::string, double>> floors;  // noise floor of an error column, where the manifest holds them
     // Empty where the file is absent. Each row has the columns `problem` and `series` in front (below).
     Table cells, dispersion, convergence, scaling, maps, boundaries, sounds;

@@ -34,8 +34,8 @@ const Machine& machine() {
     return m;
 }
 
-std::string program_identity(const std::vector<std::string>& plugins) {
-    nlohmann::ordered_json program{"jvari", machine().version, machine().commit, machine().build};
+std::string program_identity(const std::vector<std::string>& plugins, const Machine& m) {
+    nlohmann::ordered_json program{"jvari", m.version, m.commit, m.build};
     for (const std::string& path : plugins) program.push_back(hash_of(read_whole(path)));
     return program.dump();
 }

@@ -14,8 +14,8 @@ struct Machine {
 };
 const Machine& machine();
 
-// JSON: version, commit, build type, plugins by their contents.
-std::string program_identity(const std::vector<std::string>& plugins);
+// JSON: version, commit, build type, plugins by their contents. What was recorded by another is not this program's.
+std::string program_identity(const std::vector<std::string>& plugins, const Machine& = machine());
 
 // All of it, the date and the plugins loaded (file, hash, compiler, flags) as a JSON object: what a manifest begins with.
 std::string made_by();

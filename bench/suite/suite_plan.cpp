@@ -73,6 +73,8 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
         }
         if (p.element) p.swept.emplace_back("element", change_of(*p.element));
         p.references = plan.references;
+        for (const std::string& note : plan.notes)
+            if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end()) all.notes.push_back(note);
         const std::string hash = scene_hash(p.scene);
         Json references = Json::array(), measure = Json::array();
         for (const ReferenceChoice& c : plan.references)

@@ -32,6 +32,7 @@ struct PlannedCell {
 struct SuitePlan {
     std::deque<PlannedPoint> points;  // does not move what it holds
     std::vector<PlannedCell> cells;   // each identity once, in the order of the file
+    std::vector<std::string> notes;   // of compare's planner, each once
 };
 
 // `plugins` are files whose contents count as part of the program. Throws UsageError, SceneFileError, BadScene, Refusal.

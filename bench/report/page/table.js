@@ -14,12 +14,13 @@ function table_of(table, caption) {
   const head = element("thead"), body = element("tbody");
   let sorted = null, downward = false;
 
-  const certificate = (row, name) => name.startsWith("error_l2_") ? number(row[at[name.replace("error", "certificate")]]) : NaN;
+  const place = new Map(table.rows.map((row, k) => [row, k]));
+  const shown = (row, name) => table.shown?.[name]?.[place.get(row)];  // a bound, in place of what was measured
   function written(row, name) {
     const text = row[at[name]];
     if (texts.has(name) || text === "") return text;
-    const x = number(text), known = certificate(row, name);
-    if (x < known) return "\u2264" + known.toExponential(2);  // the reference is not certain to less
+    const x = number(text), bound = shown(row, name);
+    if (bound) return bound;
     if (!Number.isFinite(x)) return x > 0 ? "\u221e" : "\u2212\u221e";
     if (Number.isInteger(x) && Math.abs(x) < 1e9) return String(x);
     return Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6 ? x.toExponential(2) : String(Number(x.toPrecision(4)));
@@ -44,10 +45,10 @@ function table_of(table, caption) {
     const rows = sorted ? [...table.rows].sort(compare) : table.rows;
     body.replaceChildren(...rows.map(row => {
       const status = row[at.status];
-      const tr = element("tr", {className: row[at.pareto] === "1" ? "front" : status === undefined || status === "ok" ? "" : "bad"});
+      const tr = element("tr", {className: row[at.pareto] === "1" ? "front" : (status === undefined || status === "ok") && !row[at.flags] ? "" : "bad"});
       for (const name of names) {
         const td = element("td", {className: (texts.has(name) ? "text " : "") + name}, written(row, name));
-        if (!texts.has(name)) td.title = row[at[name]] + (certificate(row, name) ? `; reference certain to ${certificate(row, name)}` : "");
+        if (!texts.has(name)) td.title = (shown(row, name) ? "measured: " : "") + row[at[name]];
         tr.append(td);
       }
       return tr;

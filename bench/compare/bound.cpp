@@ -1,0 +1,84 @@
+#include "bench/compare/bound.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace jvari {
+
+namespace {
+constexpr double small_share = 0.1;     // a certificate of a tenth of the error leaves its first digit
+constexpr double nothing_is_right = 1;  // relative L2 of silence
+constexpr const char* relative_l2[] = {"error_l2_50ms", "error_l2_10ms", "error_l2_whole"};  // the headline first
+
+std::string column_of(const char* what, const std::string& error_column) {  // error_l2_50ms_nut: certificate_l2_50ms_nut
+    return what + error_column.substr(std::min(error_column.size(), std::string("error").size()));
+}
+}  // namespace
+
+double Bound::most() const {
+    return std::isnan(certificate) ? error : error + certificate;
+}
+
+double Bound::least() const {
+    return std::isnan(certificate) ? error : std::fmax(0, error - certificate);
+}
+
+Bound::Says Bound::says() const {
+    if (std::isnan(error)) return Says::nothing;
+    if (std::isinf(error) || !(certificate > small_share * error)) return Says::measured;
+    return most() < nothing_is_right ? Says::at_most : Says::unknown;
+}
+
+double Bound::shown() const {
+    return says() == Says::measured ? error : most();
+}
+
+bool Bound::decides() const {
+    return error > 0 && !(error <= floor) && !(error <= certificate);
+}
+
+Bound bound_of(const Table& cells, std::size_t row, const std::string& error_column) {
+    Bound b;
+    b.error = cells.number(row, error_column);
+    b.floor = cells.number(row, "floor_" + error_column);
+    if (error_column.starts_with("error_l2_")) b.certificate = cells.number(row, column_of("certificate", error_column));
+    return b;
+}
+
+std::string error_text(const Bound& b, const char* format) {
+    switch (b.says()) {
+        case Bound::Says::nothing: return "-";
+        case Bound::Says::measured: return fmt::format(fmt::runtime(format), b.error);
+        case Bound::Says::at_most: return "\u2264" + fmt::format(fmt::runtime(format), b.most());
+        case Bound::Says::unknown: break;
+    }
+    return "not known";
+}
+
+bool trusted(const Table& cells, std::size_t row) {
+    return cells.at(row, "status") == "ok" && cells.at(row, "flags").empty();
+}
+
+std::string headline_error(const Table& cells, const Rows& rows) {
+    for (const char* column : relative_l2)
+        if (std::any_of(rows.begin(), rows.end(), [&](std::size_t i) { return std::isfinite(cells.number(i, column)); })) return column;
+    return "error_l2_whole";
+}
+
+Table with_bounds(Table cells) {
+    for (const char* column : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"}) {
+        std::vector<std::string> texts;
+        for (std::size_t i = 0; i < cells.rows.size(); ++i) {
+            const Bound b = bound_of(cells, i, column);
+            const bool known = !std::isnan(b.certificate) && b.says() != Bound::Says::unknown && b.says() != Bound::Says::nothing;
+            texts.push_back(known ? text_of(b.most()) : "");
+        }
+        cells.columns.push_back(column_of("bound", column));
+        for (std::size_t i = 0; i < cells.rows.size(); ++i) cells.rows[i].push_back(texts[i]);
+    }
+    return cells;
+}
+
+}  // namespace jvari
