@@ -60,7 +60,7 @@ struct Made {
 };
 Made made(const Descriptor& d, const Scene& scene, const Settings& settings) {
     try {
-        const auto scheme = d.make(scene, settings);
+        const auto scheme = make_scheme(d, scene, settings);
         const std::vector<Fact> facts = scheme->facts();
         const auto count = [&facts](const char* name) {
             const double n = fact(facts, name);
