@@ -97,6 +97,24 @@ TEST(KeptRun, IsNotBelievedWhereItsChecksumIsRightAndItsContentIsNot) {
     EXPECT_FALSE(believed(std::string(200000, '\x81')));
 }
 
+TEST(KeptRun, OfSizesThatCannotBeIsNotBelievedWhateverItsChecksum) {
+    const Scratch scratch;
+    const auto believed = [&](const std::string& dofs, const std::string& stride, const std::string& rows) {
+        const std::string content = R"({"key":"key","outcome":"ok","failed_step":0,"dofs":)" + dofs +
+                                    R"(,"steps":0,"wall_seconds":1,"facts":[],"worst_block":0,"tap_rate":44100,"stride":)" + stride +
+                                    R"(,"rows":)" + rows + R"(,"names":["a","b","c","d","e","f","g","h"]})" + "\n";
+        overwrite(scratch / "a.run", hash_of(content) + content);
+        return read_run(scratch / "a.run", "key").has_value();
+    };
+    EXPECT_TRUE(believed("4", "9", "0"));
+    EXPECT_FALSE(believed("4", "0", "0"));                                      // a run has its first row at least
+    EXPECT_FALSE(believed("4", "2305843009213693952", "2305843009213693952"));  // 2^61: eight columns of as many doubles are 0 bytes
+    EXPECT_FALSE(believed("4", "1000000000", "0"));                             // 64 GB of rows that were never made
+    EXPECT_FALSE(believed("1e300", "9", "0"));
+    EXPECT_FALSE(believed("2147483648", "9", "0"));
+    EXPECT_FALSE(believed("4", "9", "18446744073709551615"));
+}
+
 TEST(KeptRun, IsMadeOnceAndAgainWhereTheFileIsBroken) {
     const Scratch scratch;
     const fs::path folder = scratch / "runs";

@@ -16,6 +16,7 @@
 #include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/side_by_side.hpp"
+#include "bench/store/whole.hpp"
 
 namespace jvari {
 
@@ -56,14 +57,14 @@ std::optional<Tried> read_back(const fs::path& path, const std::string& identity
         const Json j = Json::parse(unsealed(read_whole(path)));
         if (j.at("point") != Json::parse(identity)) return std::nullopt;
         Tried t;
-        t.judgement = {verdict_named(j.at("outcome")), j.at("detail"), j.at("step")};
-        t.figures.status = {outcome_named(j.at("status")), j.at("step")};
+        t.judgement = {verdict_named(j.at("outcome")), j.at("detail"), whole<long>(j.at("step"))};
+        t.figures.status = {outcome_named(j.at("status")), whole<long>(j.at("step"))};
         t.figures.displacement = number_of(j.at("displacement"));
         t.figures.energy_gain = number_of(j.at("energy_gain"));
         t.figures.pull = number_of(j.at("pull"));
         t.figures.error = number_of(j.at("error"));
         t.reference = j.at("reference");
-        t.steps = j.at("steps");
+        t.steps = whole<long>(j.at("steps"));
         return t;
     } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
         return std::nullopt;

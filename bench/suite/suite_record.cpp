@@ -7,6 +7,7 @@
 #include "bench/compare/compare_record.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/whole.hpp"
 
 namespace jvari {
 
@@ -85,13 +86,15 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const 
         r.timed = j.at("timed");
         r.duration = j.at("duration");
         r.seconds = j.at("seconds");
-        r.steps = j.at("steps");
+        r.steps = whole<long>(j.at("steps"));
         const Json& l = j.at("levels");
-        r.levels = {l.at("frames"), l.at("rows"), l.at("start"), l.at("hop"), l.at("row_hz"), l.at("tenths_of_db")};
+        r.levels = {whole<int>(l.at("frames")), whole<int>(l.at("rows")), l.at("start"), l.at("hop"), l.at("row_hz"), {}};
+        for (const Json& tenths : l.at("tenths_of_db")) r.levels.level.push_back(whole<int>(tenths));
         if (j.contains("rows"))
             for (const Facet facet : facets())
                 if (const auto kept = j["rows"].find(name_of(facet)); kept != j["rows"].end())
                     r.rows[facet] = {kept->at("columns"), kept->at("rows")};
+        if (r.levels.frames < 0 || r.levels.rows < 0) return std::nullopt;
         if (r.levels.level.size() != static_cast<std::size_t>(r.levels.frames) * r.levels.rows) return std::nullopt;
         for (const auto& [facet, table] : r.rows)
             for (const auto& fields : table.rows)

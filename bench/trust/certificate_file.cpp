@@ -11,6 +11,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/outcome_name.hpp"
+#include "bench/store/whole.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari {
@@ -98,7 +99,7 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
         return e;
     }
     e.status.outcome = outcome_named(status);
-    e.status.step = j.value("failed_step", 0L);
+    if (const auto step = j.find("failed_step"); step != j.end()) e.status.step = whole<long>(*step);
     e.reached = j.at("reached_s");
     if (const auto estimate = j.find("estimate"); estimate != j.end())
         for (const std::string& name : c.taps) e.estimate.push_back(windows_of(estimate->at(name)));
@@ -171,13 +172,13 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
         kept.scene_hash = j.at("scene_hash");
         Certificate& c = kept.certificate;
         c.scene = j.at("scene");
-        c.modes = j.at("modes");
+        c.modes = whole<int>(j.at("modes"));
         c.tap_rate = j.at("tap_rate_hz");
         c.duration = j.at("duration_s");
         c.taps = j.at("taps").get<std::vector<std::string>>();
         for (const Json& e : j.at("entries")) c.entries.push_back(entry_of(c, e));
         for (const Json& p : j.at("pairs")) {
-            c.pairs.push_back({p.at("first"), p.at("second"), taps_of(c, p.at("taps"))});
+            c.pairs.push_back({whole<int>(p.at("first")), whole<int>(p.at("second")), taps_of(c, p.at("taps"))});
             for (const int entry : {c.pairs.back().first, c.pairs.back().second})
                 if (entry < 0 || entry >= static_cast<int>(c.entries.size()))
                     throw std::runtime_error("a pair of entries that are not there");

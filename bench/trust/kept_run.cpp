@@ -10,6 +10,7 @@
 #include "bench/store/machine.hpp"
 #include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/whole.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari {
@@ -20,6 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int format = 2;                  // of the file: a checksum, a line of JSON, the columns as this machine holds them
 constexpr double worth_keeping = 0.5;      // [s] of stepping
+constexpr long most_values = 1L << 26;     // of all columns: half a gigabyte
 constexpr std::size_t checksum_size = 32;  // hexadecimal digits
 }  // namespace
 
@@ -74,18 +76,19 @@ std::optional<Run> read_run(const fs::path& path, const std::string& key) noexce
         const Json j = Json::parse(head);
         if (j.at("key") != key) return std::nullopt;
         Run r;
-        r.status = {outcome_named(j.at("outcome")), j.at("failed_step").get<long>()};
-        r.dofs = j.at("dofs");
-        r.steps = j.at("steps");
+        r.status = {outcome_named(j.at("outcome")), whole<long>(j.at("failed_step"))};
+        r.dofs = whole<int>(j.at("dofs"));
+        r.steps = whole<long>(j.at("steps"));
         r.wall_seconds = j.at("wall_seconds");
         r.worst_block = j.at("worst_block");
         for (const Json& f : j.at("facts")) r.facts.push_back({f.at(0), number_of(f.at(1)), f.at(2)});
         Trace& t = r.trace;
         t.tap_rate = j.at("tap_rate");
-        t.rows = j.at("rows");
-        t.stride = j.at("stride");
+        t.rows = whole<long>(j.at("rows"));
+        t.stride = whole<long>(j.at("stride"));
         t.names = j.at("names").get<std::vector<std::string>>();
-        if (t.rows < 0 || t.rows > t.stride) return std::nullopt;
+        if (t.stride < 1 || t.rows < 0 || t.rows > t.stride) return std::nullopt;
+        if (!t.names.empty() && t.stride > most_values / static_cast<long>(t.names.size())) return std::nullopt;
         const std::size_t column = static_cast<std::size_t>(t.rows) * sizeof(double);
         if (content.size() - head_size - 1 != column * t.names.size()) return std::nullopt;
         t.tap.assign(t.stride * t.names.size(), 0.0);
