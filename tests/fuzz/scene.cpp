@@ -1,19 +1,14 @@
-// Whatever bytes come, a scene file is read or refused with SceneFileError; what is read is valid and survives being written.
-// Built here with scene_fuzz_driver.cpp. With libFuzzer:
-//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -I. tests/scene_fuzz.cpp scenes/*.cpp $(pkg-config --cflags --libs
-//   tomlplusplus gsl)
-//           -DJVARI_SOURCE_SCENES='"scenes"' -DJVARI_INSTALLED_SCENES='""' -o scene_fuzz && ./scene_fuzz corpus scenes
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <string>
+// Whatever bytes come, a scene file is read or refused with SceneFileError; what is read is valid, survives being written, and keeps its
+// hash.
 #include <vector>
 
+#include "fuzz.hpp"
 #include "scenes/columns.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/schema.hpp"
 
 using namespace jvari;
+using namespace jvari::test;
 
 // A text, then overrides, each after a zero byte.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -26,12 +21,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     parts.erase(parts.begin());
     try {
         const Scene scene = parse_scene(text, "no_such_directory/scene.toml", parts);
+        ++inputs_read;
         validate(scene);
-        const Scene again = parse_scene(write_scene(scene), "again.toml");
-        if (!(again == scene) || scene_hash(again) != scene_hash(scene)) {
-            std::fprintf(stderr, "written and read back differs:\n%s\n", write_scene(scene).c_str());
-            std::abort();
-        }
+        const std::string written = write_scene(scene);
+        const Scene again = parse_scene(written, "again.toml");
+        promise(again == scene, "written and read back is the same scene", written);
+        promise(scene_hash(again) == scene_hash(scene), "written and read back has the same hash", written);
+        promise(write_scene(again) == written, "written again is the same text", written);
+        needed_by(scene);
     } catch (const SceneFileError&) {
     }
     try {

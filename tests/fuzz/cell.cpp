@@ -1,0 +1,24 @@
+// Whatever the record of a cell holds under a checksum that is its own, it is read or not believed; what is read survives being written.
+//
+// The input is a record without the cell that it is of, which is put in front, and without its last brace.
+#include <nlohmann/json.hpp>
+
+#include "bench/store/checksum.hpp"
+#include "bench/suite/suite_record.hpp"
+#include "fuzz.hpp"
+
+using namespace jvari;
+using namespace jvari::test;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static OwnFile file("cell.json");
+    const std::string text = test::text_of(data, size), identity = R"({"scene":"a"})";
+    const auto record = read_record(file.holding(sealed("{\"cell\":" + identity + "," + text + "}")), identity);
+    if (!record) return 0;
+    ++inputs_read;
+    for (const std::string& name : record->row.columns) record->row.number(0, name);
+    const std::string written = json_of(*record, identity);
+    const auto again = read_record(file.holding(written), identity);
+    promise(again && json_of(*again, identity) == written, "written and read back is the same record", written);
+    return 0;
+}

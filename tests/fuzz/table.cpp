@@ -1,0 +1,45 @@
+// Whatever bytes come, a CSV table is read or refused with std::runtime_error; what is read survives being written. So do numbers, and
+// bytes as base64 text.
+#include <cmath>
+#include <stdexcept>
+
+#include "bench/store/base64.hpp"
+#include "bench/store/records.hpp"
+#include "fuzz.hpp"
+
+using namespace jvari;
+using namespace jvari::test;
+
+namespace {
+// A row of one empty field is an empty line, and that is no row.
+bool written_as_nothing(const Table& t) {
+    if (t.columns.size() != 1) return false;
+    for (const auto& row : t.rows)
+        if (row[0].empty()) return true;
+    return t.columns[0].empty();
+}
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text = test::text_of(data, size);
+    try {
+        const Table t = read_csv(text);
+        ++inputs_read;
+        for (std::size_t i = 0; i < t.rows.size(); ++i)
+            for (const std::string& name : t.columns) {
+                const double x = t.number(i, name);
+                promise(std::isnan(x) || number_of(jvari::text_of(x)) == x, "a number reads back as itself", t.at(i, name));
+            }
+        if (!t.columns.empty() && !written_as_nothing(t)) {
+            const Table again = read_csv(csv(t));
+            promise(again.columns == t.columns && again.rows == t.rows, "written and read back is the same table", csv(t));
+        }
+    } catch (const std::runtime_error&) {
+    }
+    promise(bytes_of_base64(base64(text)) == text, "bytes survive base64", text);
+    try {
+        bytes_of_base64(text);
+    } catch (const std::runtime_error&) {
+    }
+    return 0;
+}
