@@ -1,0 +1,196 @@
+#include "random_checks.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/energy.hpp"
+#include "bench/trust/certificate_library.hpp"
+#include "reference/oversampled.hpp"
+#include "reference/references.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari::test {
+
+namespace {
+double cpu_seconds() {
+    timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+std::string text(double x) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.3g", x);
+    return buffer;
+}
+
+// Published forms whose contact may pull: what they are kept for.
+bool may_pull(const Descriptor& d) {
+    const std::string name = d.name;
+    return name.ends_with("_raw") || name.ends_with("_constrained");
+}
+
+bool pulls_by_law(const Scene& scene) {  // k eta^a (1 + beta eta') is negative where the string leaves fast enough
+    return needed_by(scene).has(Feature::contact_loss);
+}
+
+Settings settings_for(const Descriptor& d, const RandomCase& c) {
+    Settings s = c.settings;
+    if (d.clock != Clock::continuous) return s;
+    s.sample_rate = 0;
+    if (needed_by(c.scene).has(Feature::profile_barrier)) s.options = {{"nodes", "6"}};  // what is owed does not depend on them
+    return s;
+}
+
+// ---- One run
+
+void check_ledger(const Descriptor& d, const Trace& t, const Finding& finding) {
+    for (const double x : t.energy)
+        if (!std::isfinite(x)) return finding(d.name, "an energy that is not finite");
+    if (d.balance == Balance::none) return;
+    const EnergyBalance b = energy_balance(t);
+    const bool exact = d.balance == Balance::exact;
+    if (b.step > (exact ? ledger_row : ledger_toleranced))
+        finding(d.name, "ledger open by " + text(b.step) + " in row " + std::to_string(b.step_row));
+    else if (b.accumulated > (exact ? ledger_sum : ledger_toleranced)) finding(d.name, "ledger open by " + text(b.accumulated) + " in all");
+}
+
+void check_pull(const Descriptor& d, const RandomCase& c, const Run& r, const Finding& finding) {
+    if (may_pull(d) || pulls_by_law(c.scene)) return;
+    double most = 0, least = 0;
+    for (int k = 0; k < r.trace.taps(); ++k)
+        if (c.scene.taps[static_cast<std::size_t>(k)].quantity == Quantity::bridge_force)
+            for (const double f : r.trace.column(k)) most = std::max(most, std::abs(f)), least = std::min(least, f);
+    const double rows = std::max(1.0, c.settings.sample_rate / c.settings.tap_rate);  // a row is a mean over its steps
+    for (const Fact& f : r.facts)
+        if (f.name == "smallest_contact_force") least = std::min(least, f.value / rows);
+    if (least < -pull * most) finding(d.name, "contact pulls by " + text(-least / most) + " of its largest force");
+}
+
+bool same_bits(const Trace& a, const Trace& b) {
+    const long rows = std::min(a.rows, b.rows);
+    for (int k = 0; k < a.taps(); ++k)
+        if (!std::equal(a.column(k).begin(), a.column(k).begin() + rows, b.column(k).begin())) return false;
+    for (int k = 0; k < 3 && !a.energy.empty() && !b.energy.empty(); ++k)
+        if (!std::equal(a.energy_column(k).begin(), a.energy_column(k).begin() + rows, b.energy_column(k).begin())) return false;
+    return true;
+}
+
+void check_run(const Descriptor& d, const RandomCase& c, Tally& tally, const Finding& finding) {
+    const Settings settings = settings_for(d, c);
+    const double start = cpu_seconds();
+    const Run r = run(d, c.scene, settings, {.energy = true, .block_rows = 64});
+    const double took = cpu_seconds() - start;
+    if (took > tally.slowest) tally.slowest = took, tally.slowest_at = std::string(d.name) + " on seed " + std::to_string(c.seed);
+    ++tally.runs;
+    const bool ok = r.status.outcome == Outcome::ok;
+    if (!ok) ++tally.failed;
+    if (r.trace.rows < 0 || r.trace.rows > r.trace.stride || (ok && r.trace.rows != r.trace.stride))
+        return finding(d.name, std::to_string(r.trace.rows) + " rows are valid of " + std::to_string(r.trace.stride));
+    for (int k = 0; k < r.trace.taps(); ++k)
+        for (const double x : r.trace.column(k))
+            if (!std::isfinite(x)) return finding(d.name, "a row that is not finite is called valid");
+    if (ok) {
+        check_ledger(d, r.trace, finding);
+        check_pull(d, c, r, finding);
+    }
+    const bool probed = c.seed % 2;
+    const Run again = run(d, c.scene, settings, {.energy = probed, .block_rows = probed ? 11 : 1000});
+    if (!same_bits(r.trace, again.trace)) finding(d.name, probed ? "the block size changes a bit" : "block size or probe change a bit");
+    // without the probe an energy out of its budget is not seen
+    if ((probed || ok) && (again.status.outcome != r.status.outcome || again.trace.rows != r.trace.rows))
+        finding(d.name, "block size or probe change the outcome");
+}
+}  // namespace
+
+void Tally::add(const Tally& t) {
+    scenes += t.scenes, runs += t.runs, refused += t.refused, failed += t.failed, claims += t.claims;
+    estimates += t.estimates, low_estimates += t.low_estimates;
+    worst_claim = std::max(worst_claim, t.worst_claim);
+    worst_estimate = std::max(worst_estimate, t.worst_estimate);
+    if (t.slowest > slowest) slowest = t.slowest, slowest_at = t.slowest_at;
+}
+
+void check_schemes(const RandomCase& c, Tally& tally, const Finding& finding, const std::function<void(const std::string&)>& at) {
+    for (const auto& table : {schemes(), references()})
+        for (const Descriptor& d : table) try {
+                at(d.name);
+                check_run(d, c, tally, finding);
+                if (!(needed_by(c.scene) - d.represents).empty()) finding(d.name, "runs a scene that it says it cannot represent");
+            } catch (const Refusal&) {
+                ++tally.refused;
+            } catch (const BadScene&) {
+                ++tally.refused;
+            } catch (const std::exception& e) {
+                finding(d.name, std::string("throws what is no refusal: ") + e.what());
+            }
+}
+
+// ---- Certificates
+
+namespace {
+struct Claim {  // of one tap, over the whole run
+    std::string tap;
+    double is, claimed;
+    double ratio() const { return is / claimed; }
+};
+
+// What is known of an error against what is claimed of it. Figures within the noise floor are left out: no two programs can agree better.
+std::vector<Claim> claims(const Trust& trust, const Trace& trace, const Trace& truth, const std::vector<double>& floor) {
+    std::vector<Claim> all;
+    for (std::size_t k = 0; k < trust.figure.size(); ++k) {
+        const double is = relative_difference(trace.column(static_cast<int>(k)), truth.column(static_cast<int>(k)));
+        if (const double claimed = trust.figure[k][2]; !std::isnan(claimed) && is > floor[k]) all.push_back({trace.names[k], is, claimed});
+    }
+    return all;
+}
+
+constexpr double above_floor = 3;      // the floor is of one rounding at the start, a run is made of many
+constexpr int stand_in_multiple = 64;  // as compare has it
+}  // namespace
+
+void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding, const std::function<void(const std::string&)>& at) try {
+    const Descriptor* best = best_reference(c.scene);
+    const Features needs = needed_by(c.scene);
+    if (!best || !needs.has(Feature::lumped_barrier) || needs.has(Feature::profile_barrier)) return;
+    at("certificate");
+    const double until = std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate;
+    const Certificate certificate = certify(c.scene, {c.settings.modes, c.settings.tap_rate, 0, {}, {}});
+    const Settings own{0, c.settings.tap_rate, certificate.modes, {}},
+        finer{0, c.settings.tap_rate, certificate.modes, {{"rtol", "1e-14"}}};
+    const Run r = run(*best, c.scene, own), truth = run(sundials, c.scene, finer);  // finer than any entry of the certificate
+    if (r.status.outcome != Outcome::ok || truth.status.outcome != Outcome::ok) return;
+    std::vector<double> floor;
+    for (const Agreement& a : certificate.floor) floor.push_back(above_floor * std::max(floor_displacement, a.relative_l2.back()));
+    const bool alone =
+        best->name == std::string("sundials");  // certified by another of its own settings, whose error adds to the difference
+    for (const Claim& x : claims(trust_of(KeptCertificate{"", "", certificate}, best->name, {}, until), r.trace, truth.trace, floor)) {
+        ++tally.claims;
+        tally.worst_claim = std::max(tally.worst_claim, x.ratio());
+        if (!(x.ratio() < (alone ? claim_allowed_alone : claim_allowed)))
+            finding(best->name, x.tap + ": error " + text(x.is) + ", certified to " + text(x.claimed));
+    }
+    const Descriptor* scheme = nullptr;
+    for (const Descriptor& d : schemes())
+        if (const std::string name = d.name; !scheme && (name == "modal_two_point" || name == "modal_spatial_newton"))
+            if ((needs - d.represents).empty()) scheme = &d;
+    if (!scheme) return;
+    at(std::string("oversampled ") + scheme->name);
+    const Oversampled o =
+        oversampled(*scheme, c.scene, {c.settings.tap_rate, c.settings.tap_rate, certificate.modes, {}}, stand_in_multiple);
+    if (o.run.status.outcome != Outcome::ok) return;
+    for (const Claim& x : claims(trust_of(o, until), o.run.trace, r.trace, floor)) {
+        ++tally.estimates;
+        tally.low_estimates += x.ratio() >= 1;
+        tally.worst_estimate = std::max(tally.worst_estimate, x.ratio());
+    }
+} catch (const Refusal&) {
+    ++tally.refused;
+} catch (const std::exception& e) {
+    finding("certificate", std::string("throws what is no refusal: ") + e.what());
+}
+
+}  // namespace jvari::test

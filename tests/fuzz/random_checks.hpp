@@ -1,0 +1,36 @@
+// What every run of every scheme owes, whatever the scene; and what a reference's certificate owes.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "random_scene.hpp"
+
+namespace jvari::test {
+
+// What no run may exceed, ordinary and extreme scenes alike.
+constexpr double ledger_row = 1e-9;         // of the largest stored energy, in one row, where the balance is promised to rounding
+constexpr double ledger_sum = 1e-8;         // the same, summed over the run
+constexpr double ledger_toleranced = 1e-5;  // both, where it is promised to a tolerance
+constexpr double claim_allowed = 1;         // true/claimed, where two references certify one another
+constexpr double claim_allowed_alone = 2;   // where one does so itself, at another accuracy
+constexpr double pull = 1e-6;               // of the largest contact force
+
+struct Tally {
+    long scenes = 0, runs = 0, refused = 0, failed = 0;  // failed: a run that says so itself
+    long claims = 0;                                     // figures of certificates that were compared with a truth
+    double worst_claim = 0;                              // true/claimed, the largest
+    long estimates = 0;                                  // the same of a stand-in's estimate of its own error, which is no bound:
+    long low_estimates = 0;                              // how many were below the true error is told, and asserted of none
+    double worst_estimate = 0;
+    double slowest = 0;  // CPU seconds of one run
+    std::string slowest_at;
+    void add(const Tally&);
+};
+
+using Finding = std::function<void(const std::string& scheme, const std::string& what)>;
+
+void check_schemes(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
+void check_certificate(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
+
+}  // namespace jvari::test

@@ -1,0 +1,136 @@
+// Random valid scenes through every scheme and every reference: random_scene.hpp draws them, random_checks.hpp says what is owed.
+//
+//   random_scenes COUNT SEED      COUNT scenes, seeds SEED and on
+//   random_scenes COUNT FILE      the first COUNT seeds that a file lists, one a line
+//   random_scenes show SEED       the scene of a seed, as TOML
+//
+// Each scene has a process of its own: a signal, a run without end or a memory that overflows is a finding with its seed, and the next
+// scene goes on. Prints a line per finding and a summary; ends with 1 where there was a finding.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "random_checks.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::test {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#elif defined(__has_feature)
+constexpr bool sanitized = __has_feature(address_sanitizer);
+#else
+constexpr bool sanitized = false;
+#endif
+constexpr rlim_t seconds_allowed = sanitized ? 600 : 120;  // of CPU, all runs of one scene together
+constexpr rlim_t memory_allowed = rlim_t{4} << 30;         // [bytes]; a sanitizer reserves more than there is
+constexpr std::uint64_t certified_every = 4;               // scenes
+
+// ---- In the process of a scene: lines to a pipe. "@what" is being done, "!finding", "=figures of the tally".
+void send(int pipe, const std::string& line) {
+    const std::string whole = line + "\n";
+    if (write(pipe, whole.data(), whole.size()) < 0) _exit(3);
+}
+
+[[noreturn]] void run_scene(std::uint64_t seed, int pipe) {
+    const rlimit time{seconds_allowed, seconds_allowed + 5}, memory{memory_allowed, memory_allowed}, none{0, 0};
+    setrlimit(RLIMIT_CPU, &time);
+    setrlimit(RLIMIT_CORE, &none);
+    if (!sanitized) setrlimit(RLIMIT_AS, &memory);
+    const auto at = [&](const std::string& what) { send(pipe, "@" + what); };
+    const auto finding = [&](const std::string& scheme, const std::string& what) { send(pipe, "!" + scheme + ": " + what); };
+    Tally t;
+    at("drawing the scene");
+    const RandomCase c = random_case(seed);
+    check_schemes(c, t, finding, at);
+    if (seed % certified_every == 0 && !c.extreme) check_certificate(c, t, finding, at);
+    std::ostringstream line;
+    line << "=" << t.runs << ' ' << t.refused << ' ' << t.failed << ' ' << t.claims << ' ' << t.worst_claim << ' ' << t.estimates << ' '
+         << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest << ' ' << t.slowest_at;
+    send(pipe, line.str());
+    _exit(0);
+}
+
+// ---- In the process that stays
+long take(std::uint64_t seed, Tally& tally) {
+    int ends[2];
+    if (pipe(ends) != 0) return std::perror("pipe"), 1;
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child < 0) return std::perror("fork"), 1;
+    if (child == 0) close(ends[0]), run_scene(seed, ends[1]);
+    close(ends[1]);
+    std::string said, line, doing;
+    char buffer[4096];
+    for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;) said.append(buffer, static_cast<std::size_t>(n));
+    close(ends[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    long findings = 0;
+    const auto report = [&](const std::string& what) {
+        std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), what.c_str());
+        ++findings;
+    };
+    std::istringstream lines(said);
+    while (std::getline(lines, line)) {
+        if (line[0] == '@') doing = line.substr(1);
+        if (line[0] == '!') report(line.substr(1));
+        if (line[0] != '=') continue;
+        Tally t;
+        t.scenes = 1;
+        std::istringstream in(line.substr(1));
+        in >> t.runs >> t.refused >> t.failed >> t.claims >> t.worst_claim >> t.estimates >> t.low_estimates >> t.worst_estimate >>
+            t.slowest >> std::ws;
+        std::getline(in, t.slowest_at);
+        tally.add(t);
+    }
+    if (WIFSIGNALED(status))
+        report(doing + (WTERMSIG(status) == SIGXCPU ? ": more than " + std::to_string(seconds_allowed) + " s of CPU for the scene"
+                                                    : std::string(": signal ") + strsignal(WTERMSIG(status))));
+    else if (WEXITSTATUS(status) != 0) report(doing + ": ended with " + std::to_string(WEXITSTATUS(status)));
+    return findings;
+}
+
+int all(const std::vector<std::uint64_t>& seeds) {
+    Tally tally;
+    long findings = 0;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+        findings += take(seeds[i], tally);
+        if ((i + 1) % 100 == 0) std::printf("%zu of %zu scenes\n", i + 1, seeds.size()), std::fflush(stdout);
+    }
+    std::printf("%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld refusals\n", tally.scenes, tally.runs,
+                tally.failed, tally.refused);
+    std::printf("%ld figures of certificates, true/claimed at most %.3g\n", tally.claims, tally.worst_claim);
+    std::printf("%ld estimates of stand-ins, %ld below the true error, true/estimate at most %.3g\n", tally.estimates, tally.low_estimates,
+                tally.worst_estimate);
+    std::printf("slowest run: %.3g s of CPU, %s\n%ld findings\n", tally.slowest, tally.slowest_at.c_str(), findings);
+    return findings > 0 || tally.scenes == 0;
+}
+}  // namespace
+}  // namespace jvari::test
+
+int main(int argc, char** argv) {
+    using namespace jvari::test;
+    if (argc == 3 && std::string(argv[1]) == "show") {
+        std::printf("%s", jvari::write_scene(random_case(std::strtoull(argv[2], nullptr, 10)).scene).c_str());
+        return 0;
+    }
+    if (argc != 3) return std::fprintf(stderr, "usage: random_scenes COUNT SEED | COUNT FILE | show SEED\n"), 2;
+    const std::size_t count = std::strtoull(argv[1], nullptr, 10);
+    std::vector<std::uint64_t> seeds;
+    if (std::ifstream file(argv[2]); file) {
+        for (std::string line; seeds.size() < count && std::getline(file, line);)
+            if (!line.empty() && line[0] != '#') seeds.push_back(std::strtoull(line.c_str(), nullptr, 10));
+    } else {
+        for (std::size_t i = 0; i < count; ++i) seeds.push_back(std::strtoull(argv[2], nullptr, 10) + i);
+    }
+    return all(seeds);
+}
