@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/compare/bound.hpp"
+#include "schemes/facts.hpp"
 
 namespace jvari {
 
