@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/store/checksum.hpp"
 #include "bench/store/records.hpp"
 
 namespace jvari::test {

@@ -307,7 +307,7 @@ TEST(Plan, TheReferenceAndEveryCellCarryTheSameModes) {
         ASSERT_EQ(plan.cells.size(), 4u);
         for (const Cell& c : plan.cells) {
             EXPECT_EQ(c.settings.modes, modes) << scene << " " << c.scheme->name;
-            EXPECT_EQ(c.scheme->make(load_scene(scene, {}, {}), c.settings)->dofs() >= 2 * modes, true);
+            EXPECT_EQ(make_scheme(*c.scheme, load_scene(scene, {}, {}), c.settings)->dofs() >= 2 * modes, true);
         }
         EXPECT_TRUE(plan.notes.empty());
     }

@@ -57,7 +57,7 @@ TEST(Unwritable, ASuiteIsKeptWhereNobodyReadsItsTable) {
 TEST(Unwritable, AResultThatDoesNotGetOutIsNoSuccess) {
     const Scratch scratch;
     for (const char* stream : {"> /dev/full", ">&-"})
-        for (const std::string command : {small_run, small_run + " --json", std::string("$J list"), std::string("$J --help")}) {
+        for (const std::string& command : {small_run, small_run + " --json", std::string("$J list"), std::string("$J --help")}) {
             const Outcome o = shell(scratch, command + " " + stream);
             EXPECT_EQ(o.code, 4) << command << stream;
             EXPECT_NE(o.err.find("cannot write to standard output"), std::string::npos) << command << stream << o.err;
