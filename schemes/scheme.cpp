@@ -61,7 +61,6 @@ Features approximated(const Descriptor& scheme) {
 }
 
 std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    validate(scene);
     refuse_missing(descriptor, scene);
     refuse_undeclared(descriptor, settings);
     auto scheme = heard("is made", [&] { return descriptor.make(descriptor, scene, settings); });

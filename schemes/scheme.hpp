@@ -157,7 +157,7 @@ struct Descriptor {
 
 Features approximated(const Descriptor&);
 
-// The only way to make a scheme: refuses a scene that cannot be, features that the scheme does not represent, options that it does not
+// The only way to make a scheme: refuses features that the scheme does not represent, options that it does not
 // declare and words that an option does not take, then calls `make`. Throws Refusal, BadScene, or BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
 

@@ -431,7 +431,7 @@ TEST(ModalSpatialNewton, WhatItCannotRepresentIsRefusedByName) {
     scene = two_point_bridge(0.01);
     scene.strings[0].barriers.push_back(scene.strings[0].barriers[0]);
     refuses(scene, 1001, "node 6");
-    refuses(tanpura(0.01), 133, "dense, restricted or dst", 44100, "form", "sparse");
+    refuses(tanpura(0.01), 133, "dense, restricted, dst", 44100, "form", "sparse");
     refuses(tanpura(0.01), 133, "unknown option", 44100, "gird", "auto");
     refuses(tanpura(0.01), 133, "whole multiple", 48000);
     scene = tanpura(0.01);

@@ -137,7 +137,7 @@ TEST(RunLoop, WhatASchemeCannotMeanIsASentence) {
 }
 
 TEST(Made, IsASchemeOrASentence) {
-    Descriptor d{"odd", "a test", {}, Balance::none, Clock::stepped, nullptr};
+    Descriptor d{"odd", "a test", needed_by(second()), Balance::none, Clock::stepped, nullptr};
     d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return nullptr; };
     EXPECT_THROW(make_scheme(d, second(), {1000, 1000, 0, {}}), BadScheme);
     d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw 42; };

@@ -124,7 +124,7 @@ TEST(Options, AnUndeclaredOneIsRefusedBeforeTheSchemeIsAsked) {
     careless.options = {&word, 1};
     EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "c"}})), Refusal);
     EXPECT_FALSE(asked);
-    make_scheme(careless, *scene, settings_for({{"word", "b"}}));
+    EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "b"}})), BadScheme);  // asked, it makes nothing
     EXPECT_TRUE(asked);
 }
 

@@ -12,6 +12,7 @@ namespace jvari {
 using std::numbers::pi;
 
 SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Settings& settings, const std::string& stiffness) {
+    validate(scene);
     const String& string = scene.strings.front();
     SitarString s;
     s.length = string.length;

@@ -265,6 +265,7 @@ constexpr Option form_option{"form",
 constexpr Option options[] = {form_option};
 
 std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
+    validate(scene);
     if (scene.strings.empty()) throw Refusal("modal_spatial_newton: scene " + scene.name + " has no string");
     if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
     Problem p;
