@@ -3,6 +3,8 @@
 // Exact modal frequencies and decay by the coefficients of eq 33; the thread eliminated by eqs 45-47; one barrier, whose force is the
 // two-point discrete gradient of eq 30. Starts from rest with q = 0 as in the paper: with losses that is not quite the true rest, a freely
 // decaying mode begins with a small phase offset (fact `start_phase_offset`); without losses free motion is exact to rounding.
+// Option `compliance` = own (default, the paper's scheme) | matched: what truncation and step take from the string's compliance stands in
+// series with barrier and thread (contact/compliance.hpp), and its part is added to displacement and nut force.
 // `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
 // Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
 #include <algorithm>
@@ -14,6 +16,7 @@
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal/modal_two_point_kernel.hpp"
 
@@ -37,6 +40,7 @@ Coefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i 
 class ModalTwoPoint final : public Scheme {
 public:
     ModalTwoPoint(const Descriptor& descriptor, const Scene& scene, const Settings& settings, Law law) {
+        const bool matched = choice_option(settings, compliance_option) == "matched";
         const String& s = scene.strings.front();
         m_.steps_per_row = steps_per_row(settings);
         m_.dt = 1 / settings.sample_rate;
@@ -138,8 +142,9 @@ public:
             }
         }
         m_.taps = taps_.data();
+        if (matched) put_in_series(descriptor, scene, modes, A);
         const ContactKind kind = !m_.g_b ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
-        advance_ = two_point_advance(kind, s.thread.has_value());
+        advance_ = two_point_advance(kind, m_.g_c != nullptr, matched ? Compliance::matched : Compliance::own);
         ModalTwoPoint::reset();
     }
 
@@ -147,6 +152,7 @@ public:
         std::copy_n(y0_, m_.size, m_.y);
         std::copy_n(u0_, m_.size, m_.u);
         m_.step = 0;
+        m_.series.Y_c = Y_c0_;
         m_.y_b = m_.g_b ? two_point_dot(m_.g_b, m_.y, m_.size) : 0;
         m_.u_b = m_.g_b ? two_point_dot(m_.g_b, m_.u, m_.size) : 0;
         m_.y_c = m_.g_c ? two_point_dot(m_.g_c, m_.y, m_.size) : 0;
@@ -161,8 +167,9 @@ public:
         std::vector<Fact> f = {{facts::start_phase_offset, offset_}};
         if (m_.g_b) {
             f.push_back({facts::smallest_contact_force, m_.least_force});
-            f.push_back({facts::deepest_penetration, m_.depth});
-            f.push_back({facts::static_compliance, compliance_});
+            const SeriesLaw& law = m_.series.law;
+            f.push_back({facts::deepest_penetration, law.S > 0 ? law.depth(m_.depth) : m_.depth});
+            f.push_back(law.S > 0 ? Fact{facts::series_compliance, law.S} : Fact{facts::static_compliance, compliance_});
         }
         if (m_.g_b && m_.barrier.alpha != 1) {
             f.push_back({facts::contact_iterations_mean, m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0});
@@ -188,7 +195,46 @@ private:
         return kept_.back().data();
     }
 
+    // docs/compliance-matching.md: the constants of the points' step, from C over barrier, thread and pluck.
+    void put_in_series(const Descriptor& descriptor, const Scene& scene, const Modes& modes, const std::vector<double>& A) {
+        std::vector<double> own;
+        for (const double Ai : A) own.push_back(m_.dt * m_.dt / (4 * modes.mass * Ai));  // (42) with s = 0
+        const ModalCompliance C = modal_compliance(descriptor, scene, modes, own);
+        for (std::size_t k = 0; k < taps_.size(); ++k) taps_[k].on_force = C.taps[k];
+        const SeriesPoints points(m_.g_b ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C.points);
+        TwoPointSeries& z = m_.series;
+        z.e = points.e;
+        z.C_cc = points.C_cc;
+        z.C_be = C.points.be;
+        z.C_ce = C.points.ce;
+        if (m_.g_c && points.r_c > 0) {
+            const double kappa = m_.k_c + 1 / z.C_cc, a = kappa * m_.dt / m_.r_c;
+            m_.r_c = 0.5 * kappa * m_.dt / std::tanh(0.5 * a);  // it relaxes by exp(-a) a step: exact, as eq 33 is for modes
+            z.inverse_r = 1 / (m_.r_c / m_.dt + m_.k_c / 2);
+            // The thread begins where the string is, at Y; scaled, so that the first step has the impulse of its exact relaxation.
+            const double Y = two_point_dot(m_.g_c, y0_, m_.size) - m_.h_c, steady = Y / (1 + m_.k_c * z.C_cc);
+            Y_c0_ = steady + (Y - steady) * 2 / a * std::tanh(0.5 * a);
+        }
+        if (m_.g_c) z.inverse_delta = 1 / (z.C_cc + 0.5 * m_.theta_cc + 0.5 * z.inverse_r);
+        z.relax = 0.5 * m_.k_c * z.inverse_r;
+        z.beta = (z.e * z.C_cc + 0.5 * m_.theta_bc) * z.inverse_delta;
+        z.w_v = m_.theta_bc - z.e * (z.inverse_r + m_.theta_cc);
+        z.w_Y = -z.e * m_.k_c * z.inverse_r;
+        if (m_.g_b) {
+            m_.theta = two_point_dot(m_.g_b, m_.g_b, m_.size) - z.beta * z.w_v - z.e * m_.theta_bc;
+            z.law = points.law;
+            if (m_.barrier.alpha == 1) m_.barrier = linear_in_series(m_.barrier.k, z.law.S);
+        }
+        if (m_.g_e) {
+            const Pluck& pluck = *scene.strings.front().pluck;
+            for (long n = m_.pluck_first; n <= m_.pluck_first + m_.pluck_steps; ++n) pluck_now_.push_back(force(pluck, n * m_.dt));
+            z.pluck = pluck_now_.data();
+        }
+    }
+
     TwoPoint m_;
+    double Y_c0_ = 0;  // of the thread at t = 0 less h_c [m], where C is in series
+    std::vector<double> pluck_now_;
     TwoPointAdvance advance_ = nullptr;
     double offset_ = 0;
     double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
@@ -212,6 +258,7 @@ extern const Descriptor modal_two_point = {.name = "modal_two_point",
                                            .balance = Balance::exact,
                                            .clock = Clock::stepped,
                                            .make = made<exact>,
+                                           .options = compliance_options,
                                            .stand_in_rank = 2};
 extern const Descriptor modal_two_point_trapezoidal = {
     .name = "modal_two_point_trapezoidal",
@@ -219,6 +266,7 @@ extern const Descriptor modal_two_point_trapezoidal = {
     .represents = modal_features,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<trapezoidal>};
+    .make = made<trapezoidal>,
+    .options = compliance_options};
 
 }  // namespace jvari

@@ -1,0 +1,213 @@
+// What stands in series with the contacts: the static deflection it is computed from, the contact law that it makes, and schemes that carry
+// it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "scenes/modes.hpp"
+#include "schemes/contact/compliance.hpp"
+#include "schemes/contact/series_contact.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
+#include "tests/c3.hpp"
+
+namespace jvari {
+namespace {
+
+const Descriptor& scheme(const std::string& name) {
+    return *std::find_if(schemes().begin(), schemes().end(), [&](const Descriptor& d) { return d.name == name; });
+}
+double fact(const std::vector<Fact>& facts, const std::string& name) {
+    return std::find_if(facts.begin(), facts.end(), [&](const Fact& f) { return f.name == name; })->value;
+}
+Settings at(double rate, int modes, std::vector<std::pair<std::string, std::string>> options = {{"compliance", "matched"}}) {
+    return {rate, 44100, modes, std::move(options)};
+}
+LumpedBarrier& bridge(Scene& scene) {
+    return std::get<LumpedBarrier>(scene.strings.front().barriers.front());
+}
+
+struct Ledger {
+    double worst_step = 0, accumulated = 0;  // relative to the largest stored energy
+};
+Ledger ledger(const Trace& t) {
+    const auto H = t.energy_column(0), P = t.energy_column(1), Q = t.energy_column(2);
+    const double largest = *std::max_element(H.begin(), H.end());
+    Ledger l;
+    double sum = 0;
+    for (long n = 1; n < t.rows; ++n) {
+        const double residual = H[n] - H[n - 1] - P[n] + Q[n];
+        sum += residual;
+        l.worst_step = std::max(l.worst_step, std::abs(residual) / largest);
+        l.accumulated = std::max(l.accumulated, std::abs(sum) / largest);
+    }
+    return l;
+}
+
+// ---- C_true
+
+double over_modes(const String& s, const Footprint& p, const Footprint& q) {
+    const Modes modes = modes_of(s, 200000);
+    const auto w = footprint_weights(modes, p.position, p.width), g = footprint_weights(modes, q.position, q.width);
+    double sum = 0;
+    for (int i = modes.count() - 1; i >= 0; --i) sum += w[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
+    return sum;
+}
+
+TEST(StaticDeflection, IsTheConvergedSumOverModes) {
+    const Footprint places[] = {{10e-3, 2e-3}, {5e-3, 1.2e-3}, {6e-3, 3e-3}, {0.3, 0}, {10.4e-3, 0}, {0.5, 1.0}, {0.997, 4e-3}};
+    for (const double EI : {0.0, 1e-9, 6.03e-5, 2e-2, 1e3}) {
+        String s = c3_free().strings.front();
+        s.bending_stiffness = EI;
+        for (const Footprint& p : places)
+            for (const Footprint& q : places) {
+                if (EI < 6e-5 && p.width + q.width == 0) continue;  // the sum over modes would not converge
+                const double sum = over_modes(s, p, q);
+                EXPECT_NEAR(static_deflection(s, p, q) / sum, 1, 1e-8) << EI << " N m^2, " << p.position << " " << q.position;
+                EXPECT_NEAR(static_deflection(s, p, q) / static_deflection(s, q, p), 1, 1e-12);
+            }
+    }
+}
+
+TEST(StaticDeflection, OfAPointOnAnIdealStringIsATriangle) {
+    String s = c3_free().strings.front();
+    s.bending_stiffness = 0;
+    EXPECT_NEAR(static_deflection(s, {0.2, 0}, {0.6, 0}) * s.tension, 0.2 * 0.4, 1e-15);
+    EXPECT_NEAR(static_nut_force(s, {0.6, 0.1}), 0.6, 1e-15);
+}
+
+TEST(StaticDeflection, OfMeasuredModesIsTheirSum) {
+    String s = c3_free().strings.front();
+    s.damping = TableDamping{"", {100, 210, 330}, {1, 1, 1}};
+    const Modes modes = modes_of(s, 3);
+    EXPECT_NEAR(static_deflection(s, {0.2, 0}, {0.2, 0}), static_compliance(modes, displacement_weights(modes, 0.2)), 1e-18);
+}
+
+// ---- A law in series
+
+TEST(SeriesContact, SolvesTheContactEquationAndNeverPulls) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int i = 0; i < 200000; ++i) {
+        const double alpha = i % 3 == 0 ? 1 : i % 3 == 1 ? 1.3 : 1 + 2 * std::abs(unit(random));
+        const SeriesLaw law{{std::pow(10, 8 + 4 * unit(random)), alpha}, std::pow(10, -5 + 2 * unit(random))};
+        const double theta = std::pow(10, -4 + 2 * unit(random)), size = std::pow(10, -6 + 3 * unit(random));
+        const double zeta = size * unit(random), b = size * unit(random) * (i % 2 ? 1 : 1e-5);
+        const ContactSolution s = solve_series_contact(law, zeta, b, theta);
+        ASSERT_TRUE(s.converged);
+        ASSERT_GE(s.force, 0);
+        ASSERT_NEAR(s.r + b, theta * s.force, 1e-12 * (std::abs(b) + theta * s.force));
+        const double gained = law.potential(zeta - s.r) - law.potential(zeta), scale = law.potential(zeta - s.r) + law.potential(zeta);
+        ASSERT_NEAR(gained, -s.force * s.r, 1e-9 * scale + 1e-12 * s.force * std::abs(zeta)) << alpha << " " << zeta << " " << b;
+    }
+}
+
+TEST(SeriesContact, WithExponent1IsTheLinearLawOfBothSprings) {
+    const SeriesLaw law{{1e8, 1}, 3e-5};
+    const ContactLaw both = linear_in_series(1e8, 3e-5);
+    for (const double zeta : {-1e-4, 1e-6, 1e-4})
+        for (const double b : {-3e-4, -1e-5, 1e-5, 3e-4}) {
+            const double a = solve_series_contact(law, zeta, b, 1e-4).force, c = solve_linear_contact(both.k, zeta, b, 1e-4).force;
+            EXPECT_NEAR(a, c, 1e-10 * (1e-3 + std::abs(c))) << zeta << " " << b;
+        }
+}
+
+// ---- Schemes that carry it
+
+class Matched : public testing::TestWithParam<const char*> {};
+
+// A string at rest on a raised bridge and a low thread: forces and shape follow from C_true alone.
+TEST_P(Matched, AStringAtRestYieldsByTheTrueCompliance) {
+    for (const double exponent : {1.0, 1.4}) {
+        Scene scene = c3_release();
+        String& s = scene.strings.front();
+        s.damping = PolynomialDamping{300, 0, 0};
+        s.initial.reset();
+        bridge(scene) = {10e-3, 2e-3, 1e-4, {exponent == 1 ? 1e5 : 3e6}, exponent, 0};
+        s.thread->height = -2e-5;
+        scene.duration = 0.25;
+        scene.taps.push_back({"near", Quantity::displacement, 0, 9.5e-3});
+        const auto r = run(scheme(GetParam()), scene, at(44100, 60));
+        ASSERT_EQ(r.status.outcome, Outcome::ok);
+        const Footprint b{10e-3, 2e-3}, c{5e-3, 1.2e-3};
+        const double C_bb = static_deflection(s, b, b), C_bc = static_deflection(s, b, c), C_cc = static_deflection(s, c, c);
+        const auto last = [&](int k) { return r.trace.column(k).back(); };
+        const double F_b = last(2), F_c = last(3), depth = std::pow(F_b / bridge(scene).stiffness.k, 1 / exponent);
+        ASSERT_GT(F_b, 0.1);
+        EXPECT_NEAR((C_bb * F_b + C_bc * F_c) / (1e-4 - depth), 1, 1e-10);
+        EXPECT_NEAR((C_bc * F_b + C_cc * F_c) / (-2e-5 - F_c / s.thread->stiffness), 1, 1e-9);
+        EXPECT_NEAR(last(0) / (static_nut_force(s, b) * F_b + static_nut_force(s, c) * F_c), 1, 1e-9);
+        for (const int k : {1, 4}) {
+            const Footprint x{scene.taps[k].position, 0};
+            EXPECT_NEAR(last(k) / (static_deflection(s, x, b) * F_b + static_deflection(s, x, c) * F_c), 1, 1e-9) << scene.taps[k].name;
+        }
+    }
+}
+
+TEST_P(Matched, ConservesEnergyWithoutLossesOverASecond) {
+    const auto r = run(scheme(GetParam()), lossless(c3_release()), at(44100, 133), {.energy = true});
+    EXPECT_LE(ledger(r.trace).worst_step, 1e-13);
+    EXPECT_LE(ledger(r.trace).accumulated, 1e-11);
+    for (const double lost : r.trace.energy_column(2)) ASSERT_EQ(lost, 0);
+}
+
+TEST_P(Matched, ClosesItsLedgerAndNeverPullsWhateverPartsThereAre) {
+    for (const double exponent : {1.0, 1.5})
+        for (const bool barrier : {true, false})
+            for (const bool thread : {true, false})
+                for (const bool pluck : {true, false}) {
+                    Scene scene = pluck ? c3_pluck() : c3_release();
+                    scene.duration = 0.06;
+                    String& s = scene.strings.front();
+                    bridge(scene).exponent = exponent;
+                    if (exponent != 1) bridge(scene).stiffness.k = 1e12;
+                    if (pluck) s.pluck = Pluck{-0.4, 20e-3, 30.0, 1e-3, 8e-3, 10e-3};  // close by, so that its part of C is not small
+                    if (!barrier) s.barriers.clear();
+                    if (!thread) s.thread.reset();
+                    std::erase_if(scene.taps, [&](const Tap& t) {
+                        return (!barrier && t.quantity == Quantity::bridge_force) || (!thread && t.quantity == Quantity::thread_force);
+                    });
+                    const auto r = run(scheme(GetParam()), scene, at(44100, 80), {.energy = true});
+                    ASSERT_EQ(r.status.outcome, Outcome::ok);
+                    EXPECT_LE(ledger(r.trace).worst_step, 1e-13) << exponent << barrier << thread << pluck;
+                    EXPECT_LE(ledger(r.trace).accumulated, 1e-11) << exponent << barrier << thread << pluck;
+                    for (const double lost : r.trace.energy_column(2)) ASSERT_GE(lost, 0);
+                    if (barrier) {
+                        EXPECT_GE(fact(r.facts, "smallest_contact_force"), 0);
+                        EXPECT_GT(fact(r.facts, "deepest_penetration"), 0);
+                    }
+                }
+}
+
+TEST_P(Matched, GivesTheSameBitsWhateverTheBlockAndTheProbe) {
+    for (Scene scene : {c3_release(), c3_pluck()}) {
+        scene.duration = 0.02;
+        const auto a = run(scheme(GetParam()), scene, at(88200, 90)), b = run(scheme(GetParam()), scene, at(88200, 90), {true, 7});
+        for (int k = 0; k < a.trace.taps(); ++k)
+            for (long n = 0; n < a.trace.rows; ++n) ASSERT_EQ(a.trace.column(k)[n], b.trace.column(k)[n]);
+    }
+}
+
+TEST_P(Matched, OwnIsWhatTheSchemeIsByDefault) {
+    Scene scene = c3_pluck();
+    scene.duration = 0.02;
+    const auto a = run(scheme(GetParam()), scene, at(44100, 90, {})),
+               b = run(scheme(GetParam()), scene, at(44100, 90, {{"compliance", "own"}}));
+    const auto c = run(scheme(GetParam()), scene, at(44100, 90));
+    bool differs = false;
+    for (int k = 0; k < a.trace.taps(); ++k)
+        for (long n = 0; n < a.trace.rows; ++n) {
+            ASSERT_EQ(a.trace.column(k)[n], b.trace.column(k)[n]);
+            differs = differs || a.trace.column(k)[n] != c.trace.column(k)[n];
+        }
+    EXPECT_TRUE(differs);
+    EXPECT_THROW(make_scheme(scheme(GetParam()), scene, at(44100, 90, {{"compliance", "both"}})), Refusal);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Matched, testing::Values("modal_two_point", "modal_two_point_trapezoidal"));
+
+}  // namespace
+}  // namespace jvari
