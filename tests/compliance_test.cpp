@@ -93,7 +93,7 @@ TEST(SeriesContact, SolvesTheContactEquationAndNeverPulls) {
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int i = 0; i < 200000; ++i) {
         const double alpha = i % 3 == 0 ? 1 : i % 3 == 1 ? 1.3 : 1 + 2 * std::abs(unit(random));
-        const SeriesLaw law{{std::pow(10, 8 + 4 * unit(random)), alpha}, std::pow(10, -5 + 2 * unit(random))};
+        const SeriesLaw law({std::pow(10, 8 + 4 * unit(random)), alpha}, std::pow(10, -5 + 2 * unit(random)));
         const double theta = std::pow(10, -4 + 2 * unit(random)), size = std::pow(10, -6 + 3 * unit(random));
         const double zeta = size * unit(random), b = size * unit(random) * (i % 2 ? 1 : 1e-5);
         const ContactSolution s = solve_series_contact(law, zeta, b, theta);
@@ -106,7 +106,7 @@ TEST(SeriesContact, SolvesTheContactEquationAndNeverPulls) {
 }
 
 TEST(SeriesContact, WithExponent1IsTheLinearLawOfBothSprings) {
-    const SeriesLaw law{{1e8, 1}, 3e-5};
+    const SeriesLaw law({1e8, 1}, 3e-5);
     const ContactLaw both = linear_in_series(1e8, 3e-5);
     for (const double zeta : {-1e-4, 1e-6, 1e-4})
         for (const double b : {-3e-4, -1e-5, 1e-5, 3e-4}) {

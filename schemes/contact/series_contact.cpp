@@ -10,9 +10,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_iterations = 100;
 }  // namespace
 
-double SeriesLaw::depth(double zeta) const {
-    if (zeta <= 0) return zeta;
-    if (law.alpha == 1) return zeta / (1 + S * law.k);
+double SeriesLaw::power_depth(double zeta) const {
     double eta = std::min(zeta, std::pow(zeta / (S * law.k), 1 / law.alpha));  // both are above the root, and the function is convex
     for (int i = 0; i < most_iterations; ++i) {
         const double load = S * law.k * std::pow(eta, law.alpha);

@@ -13,19 +13,30 @@ namespace jvari {
 
 struct SeriesLaw {
     ContactLaw law;
-    double S = 0;  // [m/N]
+    double S = 0;     // [m/N]
+    double both = 0;  // k' with exponent 1 [N/m]
 
-    double depth(double zeta) const;  // eta [m]; zeta itself where that is negative
+    SeriesLaw() = default;
+    SeriesLaw(const ContactLaw& l, double compliance) : law(l), S(compliance), both(l.alpha == 1 ? l.k / (1 + compliance * l.k) : 0) {}
+
+    double depth(double zeta) const {  // eta [m]; zeta itself where that is negative
+        return zeta <= 0 ? zeta : law.alpha == 1 ? both / law.k * zeta : power_depth(zeta);
+    }
+    double force(double zeta) const { return zeta <= 0 ? 0 : law.alpha == 1 ? both * zeta : law.force(power_depth(zeta)); }
     double potential(double zeta) const {
-        const double eta = depth(zeta), F = law.force(eta);
+        if (zeta <= 0) return 0;
+        if (law.alpha == 1) return 0.5 * both * zeta * zeta;
+        const double eta = power_depth(zeta), F = law.force(eta);
         return law.potential(eta) + 0.5 * S * F * F;
     }
-    double force(double zeta) const { return law.force(depth(zeta)); }
     double slope(double zeta) const {  // Phi''
         if (zeta <= 0) return 0;
         const double V = law.slope(depth(zeta));
         return V / (1 + S * V);
     }
+
+private:
+    double power_depth(double zeta) const;
 };
 
 inline ContactLaw linear_in_series(double k, double S) {  // exponent 1

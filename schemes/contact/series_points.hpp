@@ -19,9 +19,9 @@ struct MissingCompliance {                          // [m/N]; 0 where a part is 
 struct SeriesPoints {
     bool barrier = false, thread = false;
     SeriesLaw law;
-    double h_b = 0, h_c = 0;  // [m]
-    double k_c = 0, r_c = 0;  // of the thread's state; 0 where it has none
-    double e = 0, C_cc = 0;   // C_cc with the spring of a thread without state
+    double h_b = 0, h_c = 0;               // [m]
+    double k_c = 0, r_c = 0;               // of the thread's state; 0 where it has none
+    double e = 0, C_cc = 0, stiff_cc = 0;  // C_cc with the spring of a thread without state; stiff_cc its inverse
 
     SeriesPoints() = default;
     SeriesPoints(const ContactLaw* contact, double height_b, double thread_stiffness, double thread_damping, double height_c,
@@ -33,8 +33,9 @@ struct SeriesPoints {
         } else if (thread) {
             C_cc += 1 / thread_stiffness;
         }
-        if (thread && barrier) e = C.bc / C_cc;
-        if (barrier) law = {*contact, C.bb - e * C.bc};
+        if (thread) stiff_cc = 1 / C_cc;
+        if (thread && barrier) e = C.bc * stiff_cc;
+        if (barrier) law = SeriesLaw(*contact, C.bb - e * C.bc);
     }
 
     struct Forces {
@@ -45,20 +46,34 @@ struct SeriesPoints {
     double approach(double y_b, double y_c, double Y) const { return h_b - y_b - (thread ? e * stretch(y_c, Y) : 0); }
     Forces forces(double y_b, double y_c, double Y) const {
         const double F_b = barrier ? law.force(approach(y_b, y_c, Y)) : 0;
-        return {F_b, thread ? stretch(y_c, Y) / C_cc - e * F_b : 0};
+        return {F_b, thread ? stretch(y_c, Y) * stiff_cc - e * F_b : 0};
     }
     double energy(double y_b, double y_c, double Y) const {
         const double D = stretch(y_c, Y);
         return (barrier ? law.potential(approach(y_b, y_c, Y)) : 0) + (thread ? 0.5 * D * D / C_cc + 0.5 * k_c * Y * Y : 0);
     }
-    // Y after a time with the string held: exact while the contact neither closes nor opens and its law is linear, else of second order.
-    double relaxed(double y_b, double y_c, double Y, double time) const {
+    // Y after `time` with the string held: exact while the contact neither closes nor opens and its law is linear, else of second order.
+    double relaxed(double y_b, double y_c, double Y) const {
         if (r_c == 0) return Y;
-        const double zeta = barrier ? approach(y_b, y_c, Y) : 0, F_b = barrier ? law.force(zeta) : 0;
-        const double kappa = k_c + 1 / C_cc + (F_b > 0 ? e * e * law.slope(zeta) : 0);
-        const double pull = e * F_b - stretch(y_c, Y) / C_cc - k_c * Y;
-        return Y - pull / kappa * std::expm1(-kappa * time / r_c);
+        return relaxed(y_b, y_c, Y, barrier ? law.force(approach(y_b, y_c, Y)) : 0);
     }
+    double relaxed(double y_b, double y_c, double Y, double F_b) const {  // F_b: at Y
+        if (r_c == 0) return Y;
+        const double pull = e * F_b - stretch(y_c, Y) * stiff_cc - k_c * Y;
+        return Y + pull * (F_b <= 0 ? yield_out : law.law.alpha == 1 ? yield_in : yield(law.slope(approach(y_b, y_c, Y))));
+    }
+    void set_time(double t) {  // [s]
+        time = t;
+        yield_out = yield(0);
+        yield_in = law.law.alpha == 1 ? yield(law.slope(1)) : 0;
+    }
+
+private:
+    double yield(double slope) const {  // of Y in that time, per newton of pull [m/N]
+        const double kappa = k_c + 1 / C_cc + e * e * slope;
+        return r_c > 0 ? -std::expm1(-kappa * time / r_c) / kappa : 0;
+    }
+    double time = 0, yield_out = 0, yield_in = 0;
 };
 
 }  // namespace jvari
