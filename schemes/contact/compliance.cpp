@@ -102,28 +102,59 @@ double static_nut_force(const String& s, const Footprint& force) {
     return force.position / s.length;  // the balance of moments about the other end
 }
 
-std::vector<double> missing_compliance(const String& s, std::span<const Reading> readings, std::span<const Footprint> forces,
-                                       const std::function<double(int, int)>& own) {
-    std::vector<double> missing;
-    for (int r = 0; r < static_cast<int>(readings.size()); ++r)
-        for (int f = 0; f < static_cast<int>(forces.size()); ++f)
-            missing.push_back((readings[r].nut_force ? static_nut_force(s, forces[f]) : static_deflection(s, readings[r].at, forces[f])) -
-                              own(r, f));
-    return missing;
+Sites sites_of(const Scene& scene, int index) {
+    const String& s = scene.strings[index];
+    Sites all;
+    const auto add = [&all](int part, double position, double width) {
+        all.forces.push_back({position, width});
+        all.part.push_back(part);
+    };
+    if (!s.barriers.empty()) {
+        const auto& b = std::get<LumpedBarrier>(s.barriers.front());
+        add(0, b.position, b.width);
+    }
+    if (s.thread) add(1, s.thread->position, s.thread->width);
+    all.points = static_cast<int>(all.forces.size());
+    for (const Footprint& f : all.forces) all.readings.push_back({f});
+    if (s.pluck) add(2, s.pluck->position, s.pluck->width);
+    for (std::size_t k = 0; k < scene.taps.size(); ++k) {
+        const Tap& tap = scene.taps[k];
+        const bool nut = tap.quantity == Quantity::nut_force;
+        if ((!nut && tap.quantity != Quantity::displacement) || (tap.string && *tap.string != index)) continue;
+        all.readings.push_back({{tap.position, 0}, nut});
+        all.tap.push_back(k);
+    }
+    return all;
 }
 
-void refuse_soft(const std::string& who, std::span<const double> C, int n, int stride) {
-    std::vector<double> factor(n * n);
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j <= i; ++j) {
-            double sum = C[i * stride + j];
-            for (int k = 0; k < j; ++k) sum -= factor[i * n + k] * factor[j * n + k];
-            if (i == j && !(sum > 0))
-                throw Refusal(who + ": at its points the scheme's own string yields more than the true one (C_true - C_scheme = " +
-                              std::to_string(C[i * stride + i] * 1e6) + " um/N at point " + std::to_string(i + 1) +
-                              "), so nothing can stand in series; compliance=own, or a higher rate, has no such limit");
-            factor[i * n + j] = i == j ? std::sqrt(sum) : sum / factor[j * n + j];
+namespace {
+void refuse_soft(const std::string& who, double bb, double bc, double cc) {
+    const auto refuse = [&who](const char* where, double missing) {
+        throw Refusal(who + ": at the " + where + " its own string yields more than the true one, by " + std::to_string(-missing * 1e6) +
+                      " um/N, so nothing can stand in series there; compliance=own always can run, another rate or number of modes may");
+    };
+    if (!(bb >= 0)) refuse("barrier", bb);
+    if (!(cc >= 0)) refuse("thread", cc);
+    if (!(bb * cc >= bc * bc)) refuse("barrier and the thread together", bb - bc * bc / cc);
+}
+}  // namespace
+
+MissingCompliance missing_compliance(const std::string& who, const String& s, const Sites& sites, std::size_t taps,
+                                     const std::function<double(int, int)>& own) {
+    MissingCompliance C;
+    C.taps.resize(taps);
+    double* const cell[2][3] = {{&C.bb, &C.bc, &C.be}, {nullptr, &C.cc, &C.ce}};
+    for (int r = 0; r < static_cast<int>(sites.readings.size()); ++r)
+        for (int f = 0; f < static_cast<int>(sites.forces.size()); ++f) {
+            const Reading& reading = sites.readings[r];
+            const double truth =
+                reading.nut_force ? static_nut_force(s, sites.forces[f]) : static_deflection(s, reading.at, sites.forces[f]);
+            const double missing = truth - own(r, f);
+            if (r >= sites.points) C.taps[sites.tap[r - sites.points]][sites.part[f]] = missing;
+            else if (double* to = cell[sites.part[r]][sites.part[f]]) *to = missing;
         }
+    refuse_soft(who, C.bb, C.bc, C.cc);
+    return C;
 }
 
 }  // namespace jvari

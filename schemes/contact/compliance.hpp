@@ -10,8 +10,8 @@
 // averaged over cosine footprints (van Walstijn et al. 2016, eqs 5-6). Where modes are measured, it is the sum over all of them.
 #pragma once
 
+#include <array>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "schemes/scheme.hpp"
@@ -36,12 +36,24 @@ struct Reading {
     bool nut_force = false;  // the force on the nut, in place of the displacement at `at`
 };
 
-// C_true - C_scheme of readings (rows) under forces (columns), row-major. own(r, f): what the scheme's string makes of it.
-std::vector<double> missing_compliance(const String&, std::span<const Reading>, std::span<const Footprint> forces,
-                                       const std::function<double(int reading, int force)>& own);
+// Where one string of a scene, with at most one barrier, is pushed and read: forces are barrier, thread and pluck, as far as it has them;
+// readings are those of barrier and thread, then the taps of displacement and nut force.
+struct Sites {
+    std::vector<Footprint> forces;
+    std::vector<int> part;  // of each force: 0 barrier, 1 thread, 2 pluck
+    int points = 0;         // barrier and thread
+    std::vector<Reading> readings;
+    std::vector<std::size_t> tap;  // of the scene, for each reading after the points
+};
+Sites sites_of(const Scene&, int string);
 
-// Throws Refusal unless the symmetric n x n block at the head of C (row-major, `stride` columns) is positive definite: what is missing can
-// stand in series only where it is more than nothing. `who` opens the sentence.
-void refuse_soft(const std::string& who, std::span<const double> C, int n, int stride);
+struct MissingCompliance {                          // [m/N]; 0 where a part is absent
+    double bb = 0, bc = 0, cc = 0, be = 0, ce = 0;  // barrier, thread, pluck
+    std::vector<std::array<double, 3>> taps;        // per tap of the scene, of 1 N at each; 0 for what is no linear tap of this string
+};
+// own(r, f): what the scheme's string makes at reading r of 1 N of force f. Refuses a string that is too soft already, since what is
+// missing can stand in series only where it is more than nothing; `who` opens the sentence.
+MissingCompliance missing_compliance(const std::string& who, const String&, const Sites&, std::size_t taps,
+                                     const std::function<double(int reading, int force)>& own);
 
 }  // namespace jvari

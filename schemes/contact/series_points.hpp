@@ -8,13 +8,10 @@
 // A thread without damping has no state: its spring joins C_cc, and Y_c is its fixed end.
 #pragma once
 
+#include "schemes/contact/compliance.hpp"
 #include "schemes/contact/series_contact.hpp"
 
 namespace jvari {
-
-struct MissingCompliance {                          // [m/N]; 0 where a part is absent
-    double bb = 0, bc = 0, cc = 0, be = 0, ce = 0;  // barrier, thread, pluck
-};
 
 struct SeriesPoints {
     bool barrier = false, thread = false;

@@ -167,7 +167,7 @@ public:
         std::vector<Fact> f = {{facts::start_phase_offset, offset_}};
         if (m_.g_b) {
             f.push_back({facts::smallest_contact_force, m_.least_force});
-            const SeriesLaw& law = m_.series.law;
+            const SeriesLaw& law = m_.series.step.points.law;
             f.push_back({facts::deepest_penetration, law.S > 0 ? law.depth(m_.depth) : m_.depth});
             f.push_back(law.S > 0 ? Fact{facts::series_compliance, law.S} : Fact{facts::static_compliance, compliance_});
         }
@@ -199,31 +199,18 @@ private:
     void put_in_series(const Descriptor& descriptor, const Scene& scene, const Modes& modes, const std::vector<double>& A) {
         std::vector<double> own;
         for (const double Ai : A) own.push_back(m_.dt * m_.dt / (4 * modes.mass * Ai));  // (42) with s = 0
-        const ModalCompliance C = modal_compliance(descriptor, scene, modes, own);
+        const MissingCompliance C = modal_compliance(descriptor, scene, modes, own);
         for (std::size_t k = 0; k < taps_.size(); ++k) taps_[k].on_force = C.taps[k];
-        const SeriesPoints points(m_.g_b ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C.points);
+        const SeriesPoints points(m_.g_b ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C);
         TwoPointSeries& z = m_.series;
-        z.e = points.e;
-        z.C_cc = points.C_cc;
-        z.C_be = C.points.be;
-        z.C_ce = C.points.ce;
-        if (m_.g_c && points.r_c > 0) {
-            const double kappa = m_.k_c + 1 / z.C_cc, a = kappa * m_.dt / m_.r_c;
-            m_.r_c = 0.5 * kappa * m_.dt / std::tanh(0.5 * a);  // it relaxes by exp(-a) a step: exact, as eq 33 is for modes
-            z.inverse_r = 1 / (m_.r_c / m_.dt + m_.k_c / 2);
-            // The thread begins where the string is, at Y; scaled, so that the first step has the impulse of its exact relaxation.
-            const double Y = two_point_dot(m_.g_c, y0_, m_.size) - m_.h_c, steady = Y / (1 + m_.k_c * z.C_cc);
-            Y_c0_ = steady + (Y - steady) * 2 / a * std::tanh(0.5 * a);
-        }
-        if (m_.g_c) z.inverse_delta = 1 / (z.C_cc + 0.5 * m_.theta_cc + 0.5 * z.inverse_r);
-        z.relax = 0.5 * m_.k_c * z.inverse_r;
-        z.beta = (z.e * z.C_cc + 0.5 * m_.theta_bc) * z.inverse_delta;
-        z.w_v = m_.theta_bc - z.e * (z.inverse_r + m_.theta_cc);
-        z.w_Y = -z.e * m_.k_c * z.inverse_r;
+        z.step = SeriesStep(points, m_.g_b ? two_point_dot(m_.g_b, m_.g_b, m_.size) : 0, m_.theta_bc, m_.theta_cc, m_.dt);
+        z.C_be = C.be;
+        z.C_ce = C.ce;
+        m_.r_c = z.step.damping * m_.dt;
+        if (m_.g_c) Y_c0_ = z.step.start(two_point_dot(m_.g_c, y0_, m_.size));
         if (m_.g_b) {
-            m_.theta = two_point_dot(m_.g_b, m_.g_b, m_.size) - z.beta * z.w_v - z.e * m_.theta_bc;
-            z.law = points.law;
-            if (m_.barrier.alpha == 1) m_.barrier = linear_in_series(m_.barrier.k, z.law.S);
+            m_.theta = z.step.theta;
+            if (m_.barrier.alpha == 1) m_.barrier = linear_in_series(m_.barrier.k, points.law.S);
         }
         if (m_.g_e) {
             const Pluck& pluck = *scene.strings.front().pluck;

@@ -104,7 +104,7 @@ struct SeriesState {
     SeriesState(const TwoPoint& m, double F_e) {
         if constexpr (thread) D = m.series.Y_c + m.h_c - m.y_c - m.series.C_ce * F_e;
         if constexpr (barrier) zeta = m.h_b - m.y_b - m.series.C_be * F_e;
-        if constexpr (barrier && thread) zeta -= m.series.e * D;
+        if constexpr (barrier && thread) zeta -= m.series.step.points.e * D;
     }
 };
 
@@ -161,20 +161,20 @@ HWY_INLINE void step_matched(TwoPoint& m) {
         if constexpr (thread) u_c += m.theta_ce * F_e + s.C_ce * change;
     }
     const SeriesState<barrier, thread> now(m, F_now);
-    if constexpr (thread) v = (now.D - 0.5 * u_c - s.relax * s.Y_c) * s.inverse_delta;
+    if constexpr (thread) v = s.step.pull(now.D, u_c, s.Y_c);
     if constexpr (barrier) {
-        const double b = thread ? s.e * u_c - u_b - s.w_v * v - s.w_Y * s.Y_c : -u_b;
+        const double b = thread ? s.step.approach(u_b, u_c, v, s.Y_c) : -u_b;
         ContactSolution x;
         if constexpr (kind == ContactKind::linear) x = solve_linear_contact(m.barrier.k, now.zeta, b, m.theta);
-        else x = solve_series_contact(s.law, now.zeta, b, m.theta);
+        else x = solve_series_contact(s.step.points.law, now.zeta, b, m.theta);
         F_b = x.force;
         note<kind>(m, x, now.zeta);
     }
     double moved = 0;  // Y_c^{n+1} - Y_c^n
     if constexpr (thread) {
-        F_c = barrier ? v - s.beta * F_b : v;
+        F_c = barrier ? v - s.step.beta * F_b : v;
         m.impulse_c += F_c;
-        moved = -(F_c + m.k_c * s.Y_c) * s.inverse_r;
+        moved = s.step.moved(F_c, s.Y_c);
         m.series.Y_c += moved;
     }
     if constexpr (probe) {
@@ -235,8 +235,9 @@ double stored(const TwoPoint& m) {
     } else {
         const SeriesState<kind != ContactKind::none, thread> now(m, pluck_now(m));
         if constexpr (kind == ContactKind::linear) H += m.barrier.potential(now.zeta);
-        if constexpr (kind == ContactKind::power) H += m.series.law.potential(now.zeta);
-        if constexpr (thread) H += 0.5 * now.D * now.D / m.series.C_cc + 0.5 * m.k_c * m.series.Y_c * m.series.Y_c;
+        if constexpr (kind == ContactKind::power) H += m.series.step.points.law.potential(now.zeta);
+        if constexpr (thread)
+            H += 0.5 * now.D * now.D * m.series.step.points.stiff_cc + 0.5 * m.series.step.points.k_c * m.series.Y_c * m.series.Y_c;
     }
     return H;
 }
@@ -247,8 +248,8 @@ HWY_INLINE void forces_now(const TwoPoint& m, double (&force)[3]) {
     force[2] = pluck_now(m);
     const SeriesState<kind != ContactKind::none, thread> now(m, force[2]);
     if constexpr (kind == ContactKind::linear) force[0] = m.barrier.force(now.zeta);
-    if constexpr (kind == ContactKind::power) force[0] = m.series.law.force(now.zeta);
-    if constexpr (thread) force[1] = now.D / m.series.C_cc - m.series.e * force[0];
+    if constexpr (kind == ContactKind::power) force[0] = m.series.step.points.law.force(now.zeta);
+    if constexpr (thread) force[1] = now.D * m.series.step.points.stiff_cc - m.series.step.points.e * force[0];
 }
 
 HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {

@@ -13,7 +13,7 @@
 #include <array>
 #include <vector>
 
-#include "schemes/contact/series_contact.hpp"
+#include "schemes/contact/series_step.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -25,16 +25,12 @@ struct TwoPointTap {
     std::array<double, 3> on_force{};  // of barrier, thread and pluck at the instant: what is missing of a linear tap (series only)
 };
 
-// The string's points with the compliance C in series, barrier b and thread c. With e = C_bc/C_cc the state besides the modes is the
-// thread's own displacement Y_c, and the contact sees zeta = h_b - y_b - e (Y_c - y_c) through S = C_bb - e C_bc.
+// The string's points with the compliance C in series, and the pluck's part of C.
 struct TwoPointSeries {
-    SeriesLaw law;  // exponent 1: TwoPoint::barrier is the law in series already
-    double e = 0;
-    double C_cc = 0, C_be = 0, C_ce = 0;                           // [m/N]
-    double inverse_delta = 0, inverse_r = 0, relax = 0, beta = 0;  // relax = k_c/(2 r)
-    double w_v = 0, w_Y = 0;
+    SeriesStep step;                // exponent 1: TwoPoint::barrier is the law in series already
+    double C_be = 0, C_ce = 0;      // [m/N]
     const double* pluck = nullptr;  // force at the instant pluck_first + n, n <= pluck_steps [N]
-    double Y_c = 0;                 // less h_c [m]; changes from step to step
+    double Y_c = 0;                 // of the thread, less h_c [m]; changes from step to step
 };
 
 struct TwoPoint {

@@ -16,7 +16,7 @@ struct SeriesForce {
     static constexpr bool in_series = true;
     static constexpr int dofs = 0;
     SeriesPoints points;
-    ModalCompliance C;
+    MissingCompliance C;
     double limit = 0;  // [N/m]
 
     double Y = 0, Y_now = 0;              // the thread's state after half a step more, and at the step; less h_c [m]
@@ -32,8 +32,8 @@ struct SeriesForce {
     }
     void act(double b, double c, double pluck, bool at_start) {
         F_e = pluck;
-        y_b = b + C.points.be * pluck;
-        y_c = c + C.points.ce * pluck;
+        y_b = b + C.be * pluck;
+        y_c = c + C.ce * pluck;
         Y_now = at_start ? Y : points.relaxed(y_b, y_c, Y);
         force = points.forces(y_b, y_c, Y_now);
         const double after = points.relaxed(y_b, y_c, Y_now, force.b);
