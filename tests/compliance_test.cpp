@@ -8,6 +8,7 @@
 #include <random>
 
 #include "scenes/modes.hpp"
+#include "scenes/scene_file.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/contact/series_contact.hpp"
 #include "schemes/registry.hpp"
@@ -127,6 +128,7 @@ class Balanced : public testing::TestWithParam<const char*> {};
 // A string at rest on a raised bridge and a low thread: forces and shape follow from C_true alone.
 TEST_P(Matched, AStringAtRestYieldsByTheTrueCompliance) {
     for (const double exponent : {1.0, 1.4}) {
+        if (exponent != 1 && std::string(GetParam()) == "modal_quadratised") continue;  // its psi leaves sqrt(2 Phi) on the way
         Scene scene = c3_release();
         String& s = scene.strings.front();
         s.damping = PolynomialDamping{300, 0, 0};
@@ -181,7 +183,8 @@ TEST_P(Balanced, ClosesItsLedgerAndNeverPullsWhateverPartsThereAre) {
                     EXPECT_LE(ledger(r.trace).accumulated, 1e-11) << exponent << barrier << thread << pluck;
                     for (const double lost : r.trace.energy_column(2)) ASSERT_GE(lost, 0);
                     if (barrier) {
-                        EXPECT_GE(fact(r.facts, "smallest_contact_force"), 0);
+                        if (std::string(GetParam()) != "modal_quadratised_two_point_raw")  // which does pull
+                            EXPECT_GE(fact(r.facts, "smallest_contact_force"), 0);
                         EXPECT_GT(fact(r.facts, "deepest_penetration"), 0);
                     }
                 }
@@ -214,11 +217,13 @@ TEST_P(Balanced, OwnIsWhatTheSchemeIsByDefault) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Matched,
-                         testing::Values("modal_two_point", "modal_two_point_trapezoidal", "modal_strang", "modal_explicit_penalty",
-                                         "finite_difference_explicit", "finite_difference_theta", "finite_difference_hamiltonian"));
+                         testing::Values("modal_two_point", "modal_two_point_trapezoidal", "modal_quadratised", "modal_strang",
+                                         "modal_explicit_penalty", "finite_difference_explicit", "finite_difference_theta",
+                                         "finite_difference_hamiltonian"));
 INSTANTIATE_TEST_SUITE_P(, Balanced,
-                         testing::Values("modal_two_point", "modal_two_point_trapezoidal", "finite_difference_explicit",
-                                         "finite_difference_theta", "finite_difference_hamiltonian"));
+                         testing::Values("modal_two_point", "modal_two_point_trapezoidal", "modal_quadratised",
+                                         "modal_quadratised_two_point_raw", "finite_difference_explicit", "finite_difference_theta",
+                                         "finite_difference_hamiltonian"));
 
 double relative_l2(std::span<const double> got, std::span<const double> want) {
     return relative_difference(got, want);
@@ -248,6 +253,61 @@ TEST(ModalStrang, RunsWithFewModesAt441AndSaysWhereItCannot) {
     const auto all = run(scheme("modal_strang"), scene, at(44100, 133, {}), {.energy = true});
     EXPECT_LT(fact(all.facts, "stable_stiffness_limit"), 1 / fact(all.facts, "series_compliance"));
     EXPECT_EQ(all.status.outcome, Outcome::diverged);
+}
+
+// The truth here is the published scheme with 600 modes at 64 times the rate: it is within 6e-5 (nut), 3e-5 (y03), 3e-3 (bridge) and 4e-4
+// (thread) of the exact solution with 600 modes, which is itself within 1e-4 to 2e-3 of the one with 2400.
+const Trace& c3_truth() {
+    static const Trace truth = [] {
+        Scene scene = c3_release();
+        scene.duration = 0.05;
+        return run(scheme("modal_two_point"), scene, at(64 * 44100, 600, {})).trace;
+    }();
+    return truth;
+}
+std::vector<double> c3_errors(const std::string& name, double rate, int modes, Options options) {
+    Scene scene = c3_release();
+    scene.duration = 0.05;
+    const auto r = run(scheme(name), scene, at(rate, modes, std::move(options)));
+    std::vector<double> all;
+    for (int k = 0; k < r.trace.taps(); ++k) all.push_back(relative_l2(r.trace.column(k), c3_truth().column(k)));
+    return all;
+}
+
+TEST(Compliance, PutBackItMakesTheTwoPointSchemeTenfoldNearerTheScene) {
+    const auto own = c3_errors("modal_two_point", 44100, 133, {}),
+               back = c3_errors("modal_two_point", 44100, 133, {{"compliance", "matched"}});
+    EXPECT_LE(back[0], 2.5e-2);
+    EXPECT_LE(back[1], 6e-4);
+    EXPECT_LE(back[2], 3e-2);
+    EXPECT_LE(back[3], 8e-2);
+    EXPECT_GE(own[0] / back[0], 4);
+    EXPECT_GE(own[1] / back[1], 100);
+    EXPECT_GE(own[2] / back[2], 25);
+    EXPECT_GE(own[3] / back[3], 25);
+    const auto twice = c3_errors("modal_two_point", 88200, 133, {{"compliance", "matched"}});
+    for (const int k : {0, 2}) EXPECT_LE(twice[k], 0.5 * back[k]) << k;  // in y03 the truth itself is no nearer
+}
+
+TEST(Compliance, PutBackItMakesGridsTwentyfoldNearerTheSceneAtTheBridge) {
+    for (const char* name : {"finite_difference_explicit", "finite_difference_theta"}) {
+        const auto own = c3_errors(name, 44100, 0, {}), back = c3_errors(name, 44100, 0, {{"compliance", "matched"}});
+        EXPECT_GE(own[2] / back[2], 20) << name;
+        EXPECT_GE(own[1] / back[1], 15) << name;
+    }
+}
+
+TEST(Compliance, PutBackEightyModesAt64kHzFollowTheTwoPointBridge) {
+    Scene scene = read_scene("two_point_bridge");
+    scene.duration = 0.05;
+    const auto truth = run(scheme("modal_spatial_newton"), scene, {128 * 64000, 64000, 1001, {}});
+    const Options back{{"compliance", "matched"}};
+    const auto few = run(scheme("modal_two_point"), scene, {64000, 64000, 80, back});
+    const auto more = run(scheme("modal_two_point"), scene, {128000, 64000, 166, back});
+    EXPECT_LE(relative_l2(few.trace.column(1), truth.trace.column(1)), 1e-3);
+    EXPECT_LE(relative_l2(few.trace.column(2), truth.trace.column(2)), 3.5e-2);
+    EXPECT_LE(relative_l2(more.trace.column(1), truth.trace.column(1)), 2e-4);
+    EXPECT_LE(relative_l2(more.trace.column(2), truth.trace.column(2)), 1.2e-2);
 }
 
 TEST(Compliance, SchemesThatAreTooSoftSaySo) {
