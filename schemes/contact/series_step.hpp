@@ -5,8 +5,8 @@
 //     F_b = -[Phi(zeta^{n+1}) - Phi(zeta^n)]/(...),  F_c = mean(Y_c - y_c)/C_cc - e F_b,  r (Y_c^{n+1} - Y_c^n) = -F_c - k_c (Y_c - h_c).
 // The last two give F_c = v - beta F_b, and the first the scalar equation of contact.hpp with
 //     b = -(w of F_b = 0),  theta = theta_bb - beta w_v - e theta_bc.
-// The damper takes the value that lets Y_c relax as in continuous time, exp(-kappa span/r_c) a step with kappa = k_c + 1/C_cc and the
-// string held, as eq 33 replaces the coefficients of the modes.
+// The damper takes the value that lets Y_c relax by exp(-kappa span/r_c) a step, as in continuous time and as eq 33 replaces the coefficients
+// of the modes; kappa = k_c + 1/(C_cc + theta_cc/2), the string giving way as it does within a step.
 #pragma once
 
 #include "schemes/contact/series_points.hpp"
@@ -24,7 +24,7 @@ struct SeriesStep {
     SeriesStep() = default;
     SeriesStep(const SeriesPoints& p, double theta_bb, double bc, double cc, double span) : points(p), theta_bc(bc), theta_cc(cc) {
         if (p.thread && p.r_c > 0) {
-            const double kappa = p.k_c + p.stiff_cc, a = kappa * span / p.r_c;
+            const double kappa = p.k_c + 1 / (p.C_cc + 0.5 * cc), a = kappa * span / p.r_c;
             damping = 0.5 * kappa / std::tanh(0.5 * a);
             inverse_r = 1 / (damping + 0.5 * p.k_c);
             fresh = 2 / a * std::tanh(0.5 * a);

@@ -3,12 +3,12 @@
 
 #include <span>
 
-#include "scenes/modes.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/modal/effective_modes.hpp"
 
 namespace jvari {
 
 // own: what the scheme makes of 1 N of steady modal force on each mode [m/N].
-MissingCompliance modal_compliance(const Descriptor&, const Scene&, const Modes&, std::span<const double> own);
+MissingCompliance modal_compliance(const Descriptor&, const Scene&, const ModeBasis&, std::span<const double> own);
 
 }  // namespace jvari

@@ -279,7 +279,7 @@ Made made(const Descriptor& descriptor, const Scene& scene, const Settings& sett
         QuadratisedTwoPoint::Missing missing;
         if (matched)
             missing = [&](std::span<const double> own) {
-                return modal_compliance(descriptor, scene, modes_of(scene.strings.front(), string.count), own);
+                return modal_compliance(descriptor, scene, ModeBasis(scene.strings.front(), string.count, 0), own);
             };
         return std::make_unique<QuadratisedTwoPoint>(string, variant, missing);
     }
