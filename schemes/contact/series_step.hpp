@@ -5,8 +5,8 @@
 //     F_b = -[Phi(zeta^{n+1}) - Phi(zeta^n)]/(...),  F_c = mean(Y_c - y_c)/C_cc - e F_b,  r (Y_c^{n+1} - Y_c^n) = -F_c - k_c (Y_c - h_c).
 // The last two give F_c = v - beta F_b, and the first the scalar equation of contact.hpp with
 //     b = -(w of F_b = 0),  theta = theta_bb - beta w_v - e theta_bc.
-// The damper takes the value that lets Y_c relax by exp(-kappa span/r_c) a step, as in continuous time and as eq 33 replaces the coefficients
-// of the modes; kappa = k_c + 1/(C_cc + theta_cc/2), the string giving way as it does within a step.
+// The damper takes the value that lets Y_c relax by exp(-kappa span/r_c) a step, as in continuous time and as eq 33 replaces the
+// coefficients of the modes; kappa = k_c + 1/(C_cc + theta_cc/2), the string giving way as it does within a step.
 #pragma once
 
 #include "schemes/contact/series_points.hpp"
