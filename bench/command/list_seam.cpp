@@ -116,7 +116,7 @@ Listing list_options(const Catalogue& catalogue) {
         const Option& o = *l.option;
         json.push_back(
             {{"name", o.name}, {"default", o.fallback}, {"meaning", o.meaning}, {"choices", words_of(o)}, {"schemes", l.schemes}});
-        text += fmt::format("  {:<14}{:<10}{}\n  {:<24}{}\n", o.name, o.fallback, meaning_of(o), "", joined(l.schemes));
+        text += fmt::format("  {:<16}{:<10}{}\n  {:<26}{}\n", o.name, o.fallback, meaning_of(o), "", joined(l.schemes));
         std::vector<std::string> quoted;
         for (const std::string& name : l.schemes) quoted.push_back("`" + name + "`");
         markdown += fmt::format("| `{}` | {} | {} | {} |\n", o.name, o.fallback, meaning_of(o), joined(quoted));
