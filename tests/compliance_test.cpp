@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "ledger.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/contact/compliance.hpp"
@@ -33,23 +34,6 @@ Settings matched(const std::string& name, double rate, int modes) {  // some sch
 }
 LumpedBarrier& bridge(Scene& scene) {
     return std::get<LumpedBarrier>(scene.strings.front().barriers.front());
-}
-
-struct Ledger {
-    double worst_step = 0, accumulated = 0;  // relative to the largest stored energy
-};
-Ledger ledger(const Trace& t) {
-    const auto H = t.energy_column(0), P = t.energy_column(1), Q = t.energy_column(2);
-    const double largest = *std::max_element(H.begin(), H.end());
-    Ledger l;
-    double sum = 0;
-    for (long n = 1; n < t.rows; ++n) {
-        const double residual = H[n] - H[n - 1] - P[n] + Q[n];
-        sum += residual;
-        l.worst_step = std::max(l.worst_step, std::abs(residual) / largest);
-        l.accumulated = std::max(l.accumulated, std::abs(sum) / largest);
-    }
-    return l;
 }
 
 // ---- C_true

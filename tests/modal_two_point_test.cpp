@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ledger.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -19,23 +20,6 @@ const Descriptor& scheme(const std::string& name) {
 }
 double fact(const std::vector<Fact>& facts, const std::string& name) {
     return std::find_if(facts.begin(), facts.end(), [&](const Fact& f) { return f.name == name; })->value;
-}
-
-struct Ledger {
-    double worst_step = 0, accumulated = 0;  // relative to the largest stored energy
-};
-Ledger ledger(const Trace& t) {
-    const auto H = t.energy_column(0), P = t.energy_column(1), Q = t.energy_column(2);
-    const double largest = *std::max_element(H.begin(), H.end());
-    Ledger l;
-    double sum = 0;
-    for (long n = 1; n < t.rows; ++n) {
-        const double residual = H[n] - H[n - 1] - P[n] + Q[n];
-        sum += residual;
-        l.worst_step = std::max(l.worst_step, std::abs(residual) / largest);
-        l.accumulated = std::max(l.accumulated, std::abs(sum) / largest);
-    }
-    return l;
 }
 
 TEST(ModalTwoPoint, ConservesEnergyWithoutLossesOverASecond) {
