@@ -38,9 +38,7 @@ long first_unsound_row(const Trace& t, long from, long to, double& given) {
     }
     return to;
 }
-}  // namespace
 
-namespace {
 using Steady = std::chrono::steady_clock;
 constexpr auto patience = std::chrono::milliseconds(20);  // between two calls of progress
 constexpr double most_rows = 1L << 40;
@@ -98,17 +96,23 @@ void check(const Status& status, long first, const Block& block, double steps) {
                         std::to_string(first) + " to " + std::to_string(std::lround(last)));
 }
 
+// The window of a trace that begins at a row and has this many, or those that are left before `end`.
+Block block_at(Trace& trace, long row, int rows, long end) {
+    Block block;
+    block.rows = static_cast<int>(std::min<long>(rows, end - row));
+    block.taps = trace.taps();
+    block.stride = trace.stride;
+    block.tap = trace.tap.data() + row;
+    block.energy = trace.energy.empty() ? nullptr : trace.energy.data() + row;
+    return block;
+}
+
 // Steps the scheme once more to the end of the rows that are sound: what a block went on to do beyond them is in none of its facts, which
 // would else be a matter of how long the block was.
 void replay(Scheme& scheme, Trace& trace, int block_rows, Teller& teller) {
     scheme.reset();
     for (long row = 0; row < trace.rows; row += block_rows) {
-        Block block;
-        block.rows = static_cast<int>(std::min<long>(block_rows, trace.rows - row));
-        block.taps = trace.taps();
-        block.stride = trace.stride;
-        block.tap = trace.tap.data() + row;
-        block.energy = trace.energy.empty() ? nullptr : trace.energy.data() + row;
+        Block block = block_at(trace, row, block_rows, trace.rows);
         teller.into(block);
         scheme.advance(block);
         teller.rethrow();
@@ -146,12 +150,7 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
     const bool listened = options.progress || options.slow;
     int rows = listened ? 1 : options.block_rows;  // of the next block
     while (trace.rows < trace.stride && result.status.outcome == Outcome::ok) {
-        Block block;
-        block.rows = static_cast<int>(std::min<long>(rows, trace.stride - trace.rows));
-        block.taps = trace.taps();
-        block.stride = trace.stride;
-        block.tap = trace.tap.data() + trace.rows;
-        block.energy = options.energy ? trace.energy.data() + trace.rows : nullptr;
+        Block block = block_at(trace, trace.rows, rows, trace.stride);
         teller.into(block);
         const auto start = Steady::now();
         result.status = scheme.advance(block);
