@@ -65,7 +65,7 @@ Regime regime(const Modes& m, const std::vector<double>& g, Real k, Real height,
 
 struct Seen {
     int events = 0;
-    Real nearest = HUGE_VALL;  // least |gap| where it turned [m]
+    Real nearest = HUGE_VALL;  // least |gap| where it turned, on either side [m]
 };
 
 // Where f changes its sign between a and b, by the Illinois rule.
@@ -96,6 +96,7 @@ Seen scan(const Regime& apart, const Regime& touching, const std::vector<double>
     const auto slope = [&](const Vector& z) { return (in ? -1 : 1) * reading(z, M); };
     in = reading(x, 0) < height;
     seen.events = in;
+    Real largest = 0;  // gap since the last event
     for (Real t = 0; t < duration;) {
         const Regime& now = in ? touching : apart;
         const Real dt = std::min(now.length, duration - t);
@@ -108,6 +109,7 @@ Seen scan(const Regime& apart, const Regime& touching, const std::vector<double>
             if (least < 0) high = turn;
         }
         if (high < 0) {
+            largest = std::max(largest, gap(next));
             x = next;
             t += dt;
             continue;
@@ -116,6 +118,12 @@ Seen scan(const Regime& apart, const Regime& touching, const std::vector<double>
         if (!(gap(x) > 0))  // it starts on the surface
             for (low = high / 2; low > 1e-12L * high && !(gap(now.after(x, low)) > 0);) low /= 2;
         high = root(low, high, gap(now.after(x, low)), gap(now.after(x, high)), [&](Real c) { return gap(now.after(x, c)); });
+        if (slope(x) > 0) {
+            const Real turn = root(low, high, slope(x), slope(now.after(x, high)), [&](Real c) { return slope(now.after(x, c)); });
+            largest = std::max(largest, gap(now.after(x, turn)));
+        }
+        seen.nearest = std::min(seen.nearest, std::max(largest, gap(x)));
+        largest = 0;
         x = now.after(x, high);
         t += high;
         in = !in;
