@@ -98,6 +98,23 @@ void check(const Status& status, long first, const Block& block, double steps) {
                         std::to_string(first) + " to " + std::to_string(std::lround(last)));
 }
 
+// Steps the scheme once more to the end of the rows that are sound: what a block went on to do beyond them is in none of its facts, which
+// would else be a matter of how long the block was.
+void replay(Scheme& scheme, Trace& trace, int block_rows, Teller& teller) {
+    scheme.reset();
+    for (long row = 0; row < trace.rows; row += block_rows) {
+        Block block;
+        block.rows = static_cast<int>(std::min<long>(block_rows, trace.rows - row));
+        block.taps = trace.taps();
+        block.stride = trace.stride;
+        block.tap = trace.tap.data() + row;
+        block.energy = trace.energy.empty() ? nullptr : trace.energy.data() + row;
+        teller.into(block);
+        scheme.advance(block);
+        teller.rethrow();
+    }
+}
+
 long rows_of(const Scene& scene, const Settings& settings) {
     const double intervals = std::round(scene.duration * settings.tap_rate);
     if (!(intervals >= 0 && intervals < most_rows))
@@ -151,8 +168,11 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
         long end = trace.rows + block.rows;
         if (result.status.outcome != Outcome::ok) end = std::min(end, static_cast<long>(result.status.step / steps_per_row) + 1);
         const long sound = first_unsound_row(trace, trace.rows, end, given);
-        if (sound < end) result.status = {Outcome::diverged, std::lround(sound * steps_per_row)};
         trace.rows = teller.done = sound;
+        if (sound < end) {
+            result.status = {Outcome::diverged, std::lround(sound * steps_per_row)};
+            replay(scheme, trace, options.block_rows, teller);
+        }
         teller.block_done();
         if (options.slow && !told && stepping > std::chrono::duration<double>(long_run) && trace.rows < trace.stride) {
             told = true;

@@ -122,6 +122,25 @@ TEST(RunLoop, AReferenceInContinuousTimeThatFailsKeepsItsRowsToo) {
     }
 }
 
+TEST(RunLoop, FactsOfARunThatDivergesDoNotDependOnTheBlock) {
+    const auto met = [](int block_rows) {
+        Odd scheme;  // stores 2^row, and tells the most that it has stored
+        double most = 0;
+        scheme.act = [&most](const Block& out, long first) {
+            if (first == 0) most = 0;
+            for (int n = 0; n < out.rows; ++n) out.energy[n] = most = std::exp2(static_cast<double>(first + n));
+            for (int n = 0; n < out.rows; ++n) out.energy[out.stride + n] = out.energy[2 * out.stride + n] = 0;
+            return Status{};
+        };
+        scheme.told = [&most] { return std::vector<Fact>{{{"most", "J", ""}, most}}; };
+        const auto r = run(scheme, second(), {1000, 1000, 0, {}}, {.energy = true, .block_rows = block_rows});
+        EXPECT_EQ(r.status.outcome, Outcome::diverged);
+        return std::pair{r.trace.rows, r.facts.at(0).value};
+    };
+    EXPECT_EQ(met(64), met(1));
+    EXPECT_EQ(met(64), met(7));
+}
+
 TEST(RunLoop, WhatASchemeCannotMeanIsASentence) {
     for (const Status said :
          {Status{static_cast<Outcome>(77), 5}, Status{Outcome::diverged, -1000000}, Status{Outcome::diverged, 1L << 40}}) {

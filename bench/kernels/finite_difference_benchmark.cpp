@@ -39,7 +39,7 @@ struct Plain {
         const Scene scene = twenty_contacts(N);
         const String& s = scene.strings.front();
         const LossFit loss = fit_losses(s);
-        const GridString g = on_grid(scene, 0, {N, s.length / N}, loss);
+        const GridString g = on_grid(schemes()[0], scene, {}, 0, {N, s.length / N}, loss);
         const Real h2 = static_cast<Real>(g.grid.dx) * g.grid.dx, S = static_cast<Real>(g.c2) * dt * dt / h2,
                    q = static_cast<Real>(g.kappa2) * dt * dt / (h2 * h2), z = 2 * static_cast<Real>(loss.sigma1) * dt / h2,
                    z4 = 2 * static_cast<Real>(loss.sigma2) * dt / (h2 * h2), D = 1 + static_cast<Real>(loss.sigma0) * dt;

@@ -63,7 +63,30 @@ void step(benchmark::State& state) {
                                                        benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["error"] = error;
 }
+// The same with what is missing of the string's compliance in series, and the explicit form that it makes possible with the modes that are
+// stable there. Their errors are in docs/compliance-matching.md: there is no plain form to take them against.
+void matched(benchmark::State& state, const std::string& name, int modes, bool option) {
+    const Scene scene = three_taps();
+    Settings s = settings();
+    s.modes = modes;
+    if (option) s.options = {{"compliance", "matched"}};
+    const auto& all = schemes();
+    const auto scheme = make_scheme(*std::find_if(all.begin(), all.end(), [&](const Descriptor& d) { return d.name == name; }), scene, s);
+    constexpr int rows = 64;
+    double tap[rows * 3];
+    const FlushDenormals flush;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(scheme->advance({rows, 3, rows, tap, nullptr}));
+        benchmark::ClobberMemory();
+        if (state.iterations() % 690 == 689) scheme->reset();
+    }
+    state.SetItemsProcessed(state.iterations() * rows);
+    state.counters["ns_per_step"] = benchmark::Counter(static_cast<double>(state.iterations()) * rows * 1e-9,
+                                                       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
 BENCHMARK(step<fused>)->Name("two_point/fused");
+BENCHMARK_CAPTURE(matched, two_point, "modal_two_point", 133, true);
+BENCHMARK_CAPTURE(matched, strang_40_modes, "modal_strang", 40, false);
 BENCHMARK(step<plain<double>>)->Name("two_point/plain_eigen");
 
 // What a scene listens to is what it pays for: all four taps at every step, against one displacement at 1/64 of them.

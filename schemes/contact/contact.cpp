@@ -12,15 +12,7 @@
 
 namespace jvari {
 
-namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int most_iterations = 60;  // 7 are seen at the worst up to exponent 5, 36 with exponent 50
-
-struct Quotient {
-    double value, slope;
-};
-// ((1+z)^p - 1)/z and its derivative, with the limits p and p (p-1)/2 at z = 0
-Quotient power_quotient(double p, double z) {
+PowerQuotient power_quotient(double p, double z) {
     if (std::abs(z) < 1e-3) {
         const double c1 = p, c2 = c1 * (p - 1) / 2, c3 = c2 * (p - 2) / 3, c4 = c3 * (p - 3) / 4, c5 = c4 * (p - 4) / 5,
                      c6 = c5 * (p - 5) / 6;
@@ -31,6 +23,10 @@ Quotient power_quotient(double p, double z) {
     const double force = z > -1 ? p * (1 + growth) / (1 + z) : 0.0;  // p (1+z)^alpha
     return {value, (force - value) / z};
 }
+
+namespace {
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int most_iterations = 60;  // 7 are seen at the worst up to exponent 5, 36 with exponent 50
 
 ContactSolution stay(double p, double scale, double eta, double B, double S) {  // scale = V(eta)/eta [N]
     ContactSolution s;

@@ -24,6 +24,10 @@ struct ContactLaw {
         if (eta <= 0) return 0;
         return alpha == 1 ? k * eta : k * std::pow(eta, alpha);
     }
+    double slope(double eta) const {  // V'' [N/m]
+        if (eta <= 0) return 0;
+        return alpha == 1 ? k : alpha * k * std::pow(eta, alpha - 1);
+    }
 };
 
 struct ContactSolution {
@@ -55,6 +59,12 @@ inline ContactSolution solve_linear_contact(double k, double eta, double b, doub
 
 // Any exponent >= 1: leaving is analytic; staying and entering by Newton on a convex increasing function, from above its root.
 ContactSolution solve_power_contact(const ContactLaw&, double eta, double b, double theta);
+
+struct PowerQuotient {
+    double value, slope;
+};
+// ((1+z)^p - 1)/z and its derivative, z >= -1, with the limits p and p (p-1)/2 at z = 0
+PowerQuotient power_quotient(double p, double z);
 
 inline ContactSolution solve_contact(const ContactLaw& law, double eta, double b, double theta) {
     return law.alpha == 1 ? solve_linear_contact(law.k, eta, b, theta) : solve_power_contact(law, eta, b, theta);

@@ -15,6 +15,7 @@
 
 #include "scenes/scene.hpp"
 #include "schemes/contact/contact_gram.hpp"
+#include "schemes/contact/series_step.hpp"
 
 namespace jvari {
 
@@ -32,8 +33,17 @@ public:
     // older and free [m] in, force on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
     bool solve(const double* older, const double* free, double* force) noexcept;
 
-    double potential(const double* reading) const;  // of contacts and thread at these readings [J]
-    double thread_loss(double r_c) const { return damping_ * (r_c / span_) * (r_c / span_); }  // [W]
+    // At the readings of one level [J]; level: 0 the one that the next step starts from, 1 the one after it (with something in series).
+    double potential(const double* reading, int level = 0) const;
+    double thread_loss(double r_c) const {  // in the last step [W]
+        return series_ ? series_->damping * moved_ * moved_ / span_ : damping_ * (r_c / span_) * (r_c / span_);
+    }
+
+    // Puts a compliance in series with at most one contact and the thread (series_step.hpp). levels: how many of them a step spans.
+    void put_in_series(const MissingCompliance&, int levels);
+    void begin(const double* reading);                                    // at rest at t = 0
+    void follow(const ObstacleStep& first);                               // after `first` made the first step, of one level
+    SeriesPoints::Forces forces(const double* reading, int level) const;  // at that level, of what is in series
 
     struct Tally {  // over the solves since clear()
         double smallest_force = 0, deepest = 0, residual = 0;
@@ -51,6 +61,11 @@ private:
     std::vector<double> heights_, coupling_, eta_, b_, r_;  // coupling_: Theta_bc
     double stiffness_ = 0, damping_ = 0, rest_ = 0, span_ = 1, s_ = 0, theta_cc_ = 0, inverse_ = 1;
     Tally tally_;
+
+    bool solve_in_series(const double* older, const double* free, double* force) noexcept;
+    std::optional<SeriesStep> series_;
+    int levels_ = 1;
+    double theta_bb_ = 0, moved_ = 0, begun_ = 0, Y_[2] = {};  // Y_: of the thread at the two levels, less its height [m]
 };
 
 }  // namespace jvari

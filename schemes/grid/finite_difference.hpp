@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "schemes/contact/compliance.hpp"
 #include "schemes/contact/contact.hpp"
 #include "schemes/scheme.hpp"
 
@@ -99,12 +100,21 @@ struct GridString {
     double compliance = 0;  // of the first contact under a steady force, relative to the scene's string; 0 unless it is lumped
     double narrowest = 0;   // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
     std::vector<GridTap> taps;
+    std::optional<MissingCompliance> series;  // in series with the points, compliance=matched
+    std::vector<double> series_pluck;         // its column of the pluck, one per point [m/N]
+
+    double pluck_at(double t) const;  // [N]
+    // What the points read of u at the time t, with the pluck's part of what is in series.
+    void read(const double* u, double t, double* reading) const {
+        const double F_e = series_pluck.empty() ? 0 : pluck_at(t);
+        for (std::size_t a = 0; a < points.size(); ++a) reading[a] = points[a].read(u) + (F_e != 0 ? series_pluck[a] * F_e : 0);
+    }
 };
 // The same relations of a string on its grid; m and m4 as in three_point_string.hpp.
 GridMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);
 GridMode midpoint_mode(const GridString&, double dt, int mode);
 
-GridString on_grid(const Scene&, int string, const Grid&, const LossFit&);
+GridString on_grid(const Descriptor&, const Scene&, const Settings&, int string, const Grid&, const LossFit&);
 
 // What every scheme on a grid represents.
 constexpr Features grid_features = Features(Feature::several_strings) | Feature::bending_stiffness | Feature::damping |

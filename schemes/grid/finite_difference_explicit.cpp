@@ -24,7 +24,7 @@ struct ExplicitUpdate {
     }
 };
 
-constexpr Option options[] = {grid_option, over_limit_option};
+constexpr Option options[] = {compliance_option, grid_option, over_limit_option};
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
@@ -35,7 +35,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
         const LossFit loss = fit_losses(s);
         const double limit = explicit_spacing_limit(s, loss, dt), m = loss.sigma1 * dt, m4 = -loss.sigma2 * dt,
                      divisor = 1 + loss.sigma0 * dt;
-        const GridString g = on_grid(scene, static_cast<int>(i), grid_for(descriptor, s, settings, limit), loss);
+        const GridString g = on_grid(descriptor, scene, settings, static_cast<int>(i), grid_for(descriptor, s, settings, limit), loss);
         strings.emplace_back(g, dt, rows, m, m4, ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
                              std::vector<Fact>{{facts::spacing_over_limit, g.grid.dx / limit}});
     }

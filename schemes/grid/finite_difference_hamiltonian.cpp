@@ -44,6 +44,7 @@ public:
         for (int a = 0; a < points; ++a)  // symmetric to the last bit
             for (int b = 0; b < a; ++b) theta[a * points + b] = theta[b * points + a];
         obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, dt);
+        if (g_.series) obstacle_.put_in_series(*g_.series, 1);
         for (auto* v : {&older_, &free_, &force_}) v->assign(points, 0.0);
         for (auto* b : {&y_store_, &q_store_, &s_store_}) *b = AlignedVector(offset + g_.grid.intervals + 16);
     }
@@ -55,6 +56,8 @@ public:
         s_ = s_store_.data() + offset;
         std::copy_n(g_.initial.data(), g_.grid.intervals + 1, y_);
         obstacle_.clear();
+        g_.read(y_, 0, older_.data());
+        obstacle_.begin(older_.data());
         failed_ = {};
         step_ = 0;
         bridge_ = thread_ = supplied_ = dissipated_ = 0;
@@ -96,10 +99,9 @@ private:
         }
         factor_.solve(s);
         const int points = obstacle_.points();
-        for (int a = 0; a < points; ++a) {
-            older_[a] = g_.points[a].read(y);
-            free_[a] = g_.points[a].read(s);
-        }
+        const double change = g_.series_pluck.empty() ? 0 : g_.pluck_at((step_ + 1) * dt_) - g_.pluck_at(step_ * dt_);
+        g_.read(y, step_ * dt_, older_.data());
+        for (int a = 0; a < points; ++a) free_[a] = g_.points[a].read(s) + (change != 0 ? g_.series_pluck[a] * change : 0);
         if (points > 0 && !obstacle_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, step_};
         for (int a = 0; a < points; ++a)
             if (force_[a] != 0) responses_[a].add(xi_ * force_[a], s);
@@ -110,6 +112,8 @@ private:
             supplied_ += work;
             budget_ += std::max(work, 0.0);
         }
+        if (change != 0)  // the work on the points that the pluck moves by way of what is in series
+            for (int a = 0; a < points; ++a) supplied_ -= force_[a] * g_.series_pluck[a] * change;
         if (probed) dissipated_ += dt_ * loss();
         for (int l = 1; l < N; ++l) {
             y[l] += s[l];
@@ -131,7 +135,7 @@ private:
     }
     double stored() noexcept {
         const Squares d = squares(g_.grid, [y = y_](int l) { return y[l]; });
-        for (int a = 0; a < obstacle_.points(); ++a) older_[a] = g_.points[a].read(y_);
+        g_.read(y_, step_ * dt_, older_.data());
         return kinetic() + 0.5 * g_.mass * (g_.c2 * d.slope + g_.kappa2 * d.curve) + obstacle_.potential(older_.data());
     }
     double loss() const noexcept {  // power [W]: <v, R v> and the thread's damper, v = s/dt
@@ -146,6 +150,10 @@ private:
         bridge_ = thread_ = 0;
         const auto velocity = [&](const Stencil& at) { return at.read(q_) * 2 / dt_; };
         add_taps(out, row, g_.taps, y_, velocity, bridge, thread);
+        if (g_.series) {
+            g_.read(y_, step_ * dt_, older_.data());
+            add_series_taps(out, row, g_, obstacle_.forces(older_.data(), 0), g_.pluck_at(step_ * dt_));
+        }
         if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
@@ -167,7 +175,7 @@ private:
 
 constexpr Option intervals_option{"grid", "",
                                   "intervals of the grid, a whole number from 5 on; absent: those of the explicit scheme without loss"};
-constexpr Option options[] = {intervals_option};
+constexpr Option options[] = {compliance_option, intervals_option};
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
@@ -177,7 +185,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
         const String& s = scene.strings[i];
         const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
         const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
-        strings.emplace_back(on_grid(scene, static_cast<int>(i), grid, fit_losses(s)), dt, rows);
+        strings.emplace_back(on_grid(descriptor, scene, settings, static_cast<int>(i), grid, fit_losses(s)), dt, rows);
     }
     return std::make_unique<GridScheme<MidpointString>>(std::move(strings));
 }

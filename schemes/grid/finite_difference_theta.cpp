@@ -26,7 +26,7 @@ struct ThetaUpdate {
 };
 
 constexpr Option theta_option{"theta", "", "theta of the scheme, above 0.5; absent: 5/6 + c^2 dt^2/(6 dx^2)"};
-constexpr Option options[] = {grid_option, over_limit_option, theta_option};
+constexpr Option options[] = {compliance_option, grid_option, over_limit_option, theta_option};
 
 double spacing_limit(const String& s, double dt, double theta) {  // theta 0: the tuned one
     return theta != 0 ? theta_spacing_limit(s, dt, theta) : theta_spacing_limit(s, dt);
@@ -41,7 +41,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
         const String& s = scene.strings[i];
         const double limit = spacing_limit(s, dt, asked);
         const Grid grid = grid_for(descriptor, s, settings, limit);
-        const GridString g = on_grid(scene, static_cast<int>(i), grid, fit_losses(s));
+        const GridString g = on_grid(descriptor, scene, settings, static_cast<int>(i), grid, fit_losses(s));
         const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
         ThetaUpdate update{FivePoint(g, dt, m, 0, 1),
                            BandedFactor(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt)};

@@ -57,6 +57,10 @@ public:
         for (std::size_t i = 0; i < theta.size(); ++i) half[i] = 0.5 * theta[i];
         obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, 2 * dt);
         start_ = ObstacleStep(g_.laws, g_.heights, g_.thread, half, dt);
+        if (g_.series) {
+            obstacle_.put_in_series(*g_.series, 2);
+            start_.put_in_series(*g_.series, 1);
+        }
         for (auto* v : {&older_, &free_, &force_, &reading_}) v->assign(points, 0.0);
         for (auto& b : buffer_) b = AlignedVector(node_offset + g_.grid.intervals + five_point_overhang);
     }
@@ -81,13 +85,14 @@ public:
         for (int l = 1; l < N; ++l) next[l] = now[l] + 0.5 * (next[l] - now[l]);
         pluck(0, 0.5, next);
         const int points = start_.points();
-        for (int a = 0; a < points; ++a) {
-            older_[a] = g_.points[a].read(now);
-            free_[a] = g_.points[a].read(next) - older_[a];
-        }
+        g_.read(now, 0, older_.data());
+        g_.read(next, dt_, free_.data());
+        for (int a = 0; a < points; ++a) free_[a] -= older_[a];
+        start_.begin(older_.data());
         if (!start_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, 0};
         for (int a = 0; a < points; ++a)
             if (force_[a] != 0) responses_[a].add(0.5 * gain_ * force_[a], next);
+        obstacle_.follow(start_);
         std::copy_n(next - 1, N + 2, before - 1);         // at rest: u^{-1} = u^1
         bridge_ = thread_ = supplied_ = dissipated_ = 0;  // row 0 takes the halves of this force
         budget_ = std::abs(stored());
@@ -155,10 +160,9 @@ private:
         update_(next, now, before);
         const double F_e = pluck(step_ * dt_, 1, next);
         const int points = obstacle_.points();
-        for (int a = 0; a < points; ++a) {
-            older_[a] = g_.points[a].read(before);
-            free_[a] = g_.points[a].read(next) - older_[a];
-        }
+        g_.read(before, (step_ - 1) * dt_, older_.data());
+        g_.read(next, (step_ + 1) * dt_, free_.data());
+        for (int a = 0; a < points; ++a) free_[a] -= older_[a];
         if (points > 0 && !obstacle_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, step_ - 1};
         for (int a = 0; a < points; ++a)
             if (force_[a] != 0) responses_[a].add(gain_ * force_[a], next);
@@ -168,6 +172,10 @@ private:
             const double work = 0.5 * F_e * (g_.pluck_stencil.read(next) - g_.pluck_stencil.read(before));
             supplied_ += work;
             budget_ += std::max(work, 0.0);
+        }
+        if (!g_.series_pluck.empty()) {  // the work on the points that the pluck moves by way of what is in series
+            const double change = g_.pluck_at((step_ + 1) * dt_) - g_.pluck_at((step_ - 1) * dt_);
+            for (int a = 0; a < points; ++a) supplied_ -= 0.5 * force_[a] * g_.series_pluck[a] * change;
         }
         if (probed) dissipated_ += dt_ * loss();
         if (step_ % divergence_check == 0 && !(kinetic(0, 0) <= divergence_factor * budget_ + 1e-30))
@@ -190,9 +198,9 @@ private:
         }
         const double h2 = g_.grid.dx * g_.grid.dx;
         double sum = kinetic(m_, m4_) + 0.5 * g_.mass * (g_.c2 * slope + g_.kappa2 / h2 * curve) / h2;
-        for (const double* u : {now, next}) {
-            for (int a = 0; a < obstacle_.points(); ++a) reading_[a] = g_.points[a].read(u);
-            sum += 0.5 * obstacle_.potential(reading_.data());
+        for (const int level : {0, 1}) {
+            g_.read(level == 0 ? now : next, (step_ + level) * dt_, reading_.data());
+            sum += 0.5 * obstacle_.potential(reading_.data(), level);
         }
         return sum;
     }
@@ -213,6 +221,10 @@ private:
         thread_ = 0.5 * last_thread;
         const auto velocity = [&](const Stencil& at) { return (at.read(next) - at.read(before)) / (2 * dt_); };
         add_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
+        if (g_.series) {
+            g_.read(level_[1], step_ * dt_, reading_.data());
+            add_series_taps(out, row, g_, obstacle_.forces(reading_.data(), 0), g_.pluck_at(step_ * dt_));
+        }
         if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }

@@ -8,6 +8,7 @@
 //   the stiffness at which the highest root passes z = -1: 4 m/(dt^2 sum g^2) where the modes are far below half the sample rate. The
 //   thread adds its compliance (Sherman-Morrison). Fact `stable_stiffness_limit`. It is the limit of lasting contact, necessary and not
 //   sufficient: impacts gain energy below it too (C3 released without losses: still where the limit is 1.4 k, no longer where it is 11 k).
+//   Option `compliance` = own (default) | matched: what cut and step take from the string's compliance in series (series_force.hpp).
 //
 // modal_impulse_invariant  the impulse-invariant transform of eq 17 in van Walstijn et al. 2016 (end of section 2.3): each mode has its own
 //   gain e_i = dt R sin(omega dt)/(m omega); three-point discrete gradient for the contact. The paper rules it out since gains that
@@ -23,6 +24,7 @@
 #include <limits>
 
 #include "schemes/modal/modal_three_point.hpp"
+#include "schemes/modal/series_force.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari {
@@ -91,10 +93,11 @@ using Made = std::unique_ptr<Scheme>;
 
 Made made_explicit(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     ModalString string = modal_string(descriptor, scene, settings);
+    const ModalArray gain(string.size, string.dt * string.dt / string.mass), inertia(string.count, string.mass);
+    if (choice_option(settings, compliance_option) == "matched") return explicit_in_series(descriptor, scene, std::move(string), gain);
     ExplicitContact contact;
     contact.law = string.barrier;
     contact.limit = stiffness_limit(string);
-    const ModalArray gain(string.size, string.dt * string.dt / string.mass), inertia(string.count, string.mass);
     return std::make_unique<ModalThreePoint<ExplicitContact>>(std::move(string), gain, inertia, contact);
 }
 
@@ -125,7 +128,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // C = 2 R cos(omega dt), C~ = R^2. The thread is its spring alone: its damper acts on y^{n+1} - y^{n-1} = 0.
 double penalty_margin(const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.front();
-    if (s.barriers.empty()) return nan;
+    if (s.barriers.empty() || choice_option(settings, compliance_option) == "matched") return nan;
     const auto* barrier = std::get_if<LumpedBarrier>(&s.barriers.front());
     if (!barrier || barrier->exponent != 1) return nan;
     const double dt = 1 / settings.sample_rate;
@@ -168,6 +171,7 @@ extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalt
                                                   .balance = Balance::none,
                                                   .clock = Clock::stepped,
                                                   .make = made_explicit,
+                                                  .options = compliance_options,
                                                   .limit = {"penalty_limit", penalty_margin}};
 extern const Descriptor modal_impulse_invariant = {
     .name = "modal_impulse_invariant",

@@ -1,11 +1,17 @@
 // Modal schemes with quadratised (linearly implicit) contact: quadratised_contact.hpp on the two-point form of van Walstijn et al. 2016
 // (eqs 38-52, the pass below) and on the three-point form of Issanchou et al. 2016 (modal_three_point.hpp). The thread is eliminated as in
 // eqs 45-47 of the first. Energy columns hold the scheme's own energy, with psi^2/2 for the contact; the facts tell how far that is from
-// the true one. Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+// the true one. Option `compliance` = own (default) | matched of the two-point form: what cut and step take from the string's compliance
+// stands in series with barrier and thread (contact/series_step.hpp), and psi = sqrt(2 Phi). Leaves out: contact loss, several barriers,
+// profiles, several strings, polarisation, the body.
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include "schemes/contact/quadratised_contact.hpp"
+#include "schemes/contact/series_step.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_three_point.hpp"
 
 namespace jvari {
@@ -50,7 +56,9 @@ struct QuadratisedThreePointContact {
 
 class QuadratisedTwoPoint final : public Scheme {
 public:
-    QuadratisedTwoPoint(ModalString string, Quadratisation variant)
+    // missing: what it makes of the static response of each mode that it steps [m/N]; none: the string as it is
+    using Missing = std::function<MissingCompliance(std::span<const double> own)>;
+    QuadratisedTwoPoint(ModalString string, Quadratisation variant, const Missing& missing)
         : m_(std::move(string)), q_(QuadratisedLaw::make(m_.barrier, variant, 0.5)), y_(m_.size), u_(m_.size), A_(m_.size), B_(m_.size) {
         xi_ = m_.dt * m_.dt / (2 * m_.mass);
         a_ = c_ = J_ = A_;
@@ -73,6 +81,14 @@ public:
         beta_c_ = phi_c_ * theta_bc_ * inverse_c_;  // (47)
         theta_ = modal_dot(m_.g_b, e_b_) - beta_c_ * theta_bc_;
         const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
+        if (missing) {
+            std::vector<double> own;
+            for (int i = 0; i < m_.count; ++i) own.push_back(0.5 * xi_ / A_[i]);  // (42) with s = 0
+            C_ = missing(own);
+            const SeriesPoints points(barrier ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C_);
+            series_ = SeriesStep(points, modal_dot(m_.g_b, e_b_), theta_bc_, theta_cc_, m_.dt);
+            if (barrier) q_ = QuadratisedLaw::make(points.law, variant, 0.5);
+        }
         unplucked_ = two_point_pass(barrier, thread, false);
         plucked_ = two_point_pass(barrier, thread, true);
         pass_.size = m_.size;
@@ -95,8 +111,9 @@ public:
         u_b_ = modal_dot(m_.g_b, u_);
         y_c_ = modal_dot(m_.g_c, y_);
         u_c_ = modal_dot(m_.g_c, u_);
-        psi_ = q_.psi(m_.h_b - y_b_);
         step_ = 0;
+        Y_ = series_ ? series_->start(y_c_) : 0;
+        psi_ = q_.psi(eta());
         status_ = {};
         seen_ = {};
         impulse_b_ = impulse_c_ = supplied_ = dissipated_ = 0;
@@ -111,7 +128,7 @@ public:
                 solve();
                 if (out.energy) ledger();
                 step();
-                if (!m_.g_b.empty()) seen_.note(F_b_, psi_, m_.h_b - y_b_, q_.psi(m_.h_b - y_b_));
+                if (!m_.g_b.empty()) seen_.note(F_b_, psi_, series_ ? series_->points.law.depth(eta()) : eta(), q_.psi(eta()));
                 if (out.stopped(k, steps_between_questions)) return {};
             }
             if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
@@ -125,7 +142,8 @@ public:
         double compliance = 0;
         for (int i = 0; i < m_.count; ++i) compliance += 0.5 * xi_ * m_.g_b[i] * m_.g_b[i] / A_[i];
         std::vector<Fact> f = seen_.list();
-        f.push_back({facts::static_compliance, compliance / m_.true_compliance});
+        f.push_back(series_ ? Fact{facts::series_compliance, series_->points.law.S}
+                            : Fact{facts::static_compliance, compliance / m_.true_compliance});
         return f;
     }
     std::vector<FreeMode> free_modes() const override {
@@ -141,7 +159,28 @@ private:
         return e;
     }
 
+    // At the step in hand, with the pluck's part of what is in series.
+    double at_b() const { return y_b_ + C_.be * m_.pluck_at(step_); }
+    double at_c() const { return y_c_ + C_.ce * m_.pluck_at(step_); }
+    double eta() const { return series_ ? series_->points.approach(at_b(), at_c(), Y_) : m_.h_b - y_b_; }
+
+    void solve_in_series() {
+        const SeriesStep& z = *series_;
+        F_e_ = 0.5 * (m_.pluck_at(step_) + m_.pluck_at(step_ + 1));
+        change_ = m_.pluck_at(step_ + 1) - m_.pluck_at(step_);
+        const double u_b = u_b_ + theta_be_ * F_e_ + C_.be * change_, u_c = u_c_ + theta_ce_ * F_e_ + C_.ce * change_;
+        const double v = z.points.thread ? z.pull(z.points.stretch(at_c(), Y_), u_c, Y_) : 0;
+        const QuadratisedStep s = solve_quadratised(q_, eta(), psi_, -z.approach(u_b, u_c, v, Y_), z.theta);
+        F_b_ = s.force;
+        psi_ = s.psi;
+        F_c_ = v - z.beta * F_b_;
+        s_c_ = z.moved(F_c_, Y_);
+        Y_ += s_c_;
+        impulse_b_ += F_b_;
+        impulse_c_ += F_c_;
+    }
     void solve() {
+        if (series_) return solve_in_series();
         F_e_ = 0.5 * (m_.pluck_at(step_) + m_.pluck_at(step_ + 1));
         const double u_b = u_b_ + theta_be_ * F_e_, u_c = u_c_ + theta_ce_ * F_e_;
         const double v_c = (m_.k_c * (m_.h_c - y_c_) - phi_c_ * u_c) * inverse_c_;  // (47)
@@ -176,14 +215,19 @@ private:
             loss += B_[i] * s * s;
             if (F_e_ != 0) work += m_.g_e[i] * s;
         }
-        dissipated_ += loss / xi_ + m_.r_c / m_.dt * s_c_ * s_c_;
-        supplied_ += F_e_ * work;
+        dissipated_ += loss / xi_ + (series_ ? series_->damping : m_.r_c / m_.dt) * s_c_ * s_c_;
+        supplied_ += F_e_ * work - (F_b_ * C_.be + F_c_ * C_.ce) * change_;
     }
     double momentum(int i) const { return 0.5 * J_[i] * u_[i] + A_[i] * y_[i]; }  // q of (31)
 
     double stored() const {  // (49) with psi
         double sum = 0;
         for (int i = 0; i < m_.size; ++i) sum += momentum(i) * momentum(i) + A_[i] * y_[i] * y_[i];
+        if (series_) {
+            const SeriesPoints& p = series_->points;
+            const double D = p.thread ? p.stretch(at_c(), Y_) : 0;
+            return sum / xi_ + 0.5 * p.stiff_cc * D * D + 0.5 * p.k_c * Y_ * Y_ + 0.5 * psi_ * psi_;
+        }
         const double e_c = m_.h_c - y_c_;
         return sum / xi_ + 0.5 * m_.k_c * e_c * e_c + 0.5 * psi_ * psi_;
     }
@@ -196,11 +240,19 @@ private:
             return sum * (2 / m_.dt);
         };
         write_taps(out, row, m_.taps, y_, velocity, impulse_b_ / per_row, impulse_c_ / per_row);
+        if (series_) {
+            const SeriesPoints::Forces now = series_->points.forces(at_b(), at_c(), Y_);
+            for (int k = 0; k < out.taps; ++k)
+                out.tap[k * out.stride + row] += C_.taps[k][0] * now.b + C_.taps[k][1] * now.c + C_.taps[k][2] * m_.pluck_at(step_);
+        }
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
     }
 
     ModalString m_;
     QuadratisedLaw q_;
+    MissingCompliance C_;
+    std::optional<SeriesStep> series_;
+    double Y_ = 0, change_ = 0;  // of the thread less its height [m]; of the pluck over the step [N]
     ModalArray y_, u_, A_, B_, a_, c_, J_, e_b_, e_c_, e_e_;
     double xi_ = 0, theta_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
     double phi_c_ = 0, inverse_c_ = 1, beta_c_ = 0;
@@ -222,7 +274,16 @@ using Made = std::unique_ptr<Scheme>;
 
 Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels, Quadratisation variant) {
     ModalString string = modal_string(descriptor, scene, settings);
-    if (levels == 2) return std::make_unique<QuadratisedTwoPoint>(std::move(string), variant);
+    const bool matched = choice_option(settings, compliance_option) == "matched";
+    if (levels == 2) {
+        QuadratisedTwoPoint::Missing missing;
+        if (matched)
+            missing = [&](std::span<const double> own) {
+                return modal_compliance(descriptor, scene, ModeBasis(scene.strings.front(), string.count, 0), own);
+            };
+        return std::make_unique<QuadratisedTwoPoint>(string, variant, missing);
+    }
+    if (matched) throw Refusal(std::string(descriptor.name) + ": compliance=matched is for levels=2");
     const QuadratisedThreePointContact contact{QuadratisedLaw::make(string.barrier, variant, 1), 0, 0, 0, {}};
     const ModalArray gain(string.size, string.dt * string.dt / string.mass), inertia(string.count, string.mass);
     return std::make_unique<ModalThreePoint<QuadratisedThreePointContact>>(std::move(string), gain, inertia, contact);
@@ -233,7 +294,7 @@ constexpr Option variant_option{"variant",
                                 "released",
                                 "psi out of contact: kept, driven to 0, or released in full where it would pull",
                                 {"raw", "constrained", "released"}};
-constexpr Option chosen_options[] = {levels_option, variant_option};
+constexpr Option chosen_options[] = {levels_option, variant_option, compliance_option};
 
 Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const std::string variant = choice_option(settings, variant_option);
@@ -263,9 +324,10 @@ constexpr Descriptor with_options(Descriptor d, std::span<const Option> options)
 
 extern const Descriptor modal_quadratised = with_options(quadratised("modal_quadratised", released_source, made_as_chosen), chosen_options);
 extern const Descriptor modal_quadratised_two_point_constrained =
-    quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>);
+    with_options(quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>),
+                 compliance_options);
 extern const Descriptor modal_quadratised_two_point_raw =
-    quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>);
+    with_options(quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>), compliance_options);
 extern const Descriptor modal_quadratised_three_point =
     quadratised("modal_quadratised_three_point", released_source, made_as<3, Quadratisation::released>);
 extern const Descriptor modal_quadratised_three_point_constrained =

@@ -37,6 +37,14 @@ double modal_dot(const ModalArray& a, const ModalArray& b) {
     return sum;
 }
 
+double modal_dot_by_eights(const ModalArray& a, const ModalArray& b) {
+    double sum[8] = {};
+    const double *x = a.data(), *y = b.data();
+    for (std::size_t i = 0; i + 8 <= a.size(); i += 8)
+        for (int k = 0; k < 8; ++k) sum[k] += x[i + k] * y[i + k];
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
 ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.front();
     ModalString m;

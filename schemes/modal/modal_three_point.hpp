@@ -12,6 +12,8 @@
 //     bool   solved()                        no step so far was left unsolved
 //     double energy(eta, eta_old)            of the half step before, after `settle`;  energy_next(...) of the half step after, before it
 //
+// A Contact with `in_series` has the forces of barrier and thread at the instant instead (series_force.hpp), in place of the thread above.
+//
 // Start: the free motion that passes y0 at rest is also run back to t = -dt, and every force acts on the first half step with half its
 // weight. (Without the thread's part of that a start from a bent thread is wrong to first order.)
 // Rows: the energy of a row is the mean of its two half steps, contact forces and the ledger count row instants with half weight, so that
@@ -27,6 +29,9 @@
 #include "schemes/modal/modal_string.hpp"
 
 namespace jvari {
+
+template <class Contact>
+concept InSeries = Contact::in_series;
 
 template <class Contact>
 class ModalThreePoint : public Scheme {
@@ -87,18 +92,21 @@ public:
             if (!m_.g_b.empty()) r_b_ += m_.g_b[i] * d;
             if (!m_.g_c.empty()) r_c_ += m_.g_c[i] * d;
         }
-        contact_.begin(m_.h_b - y_b_);
+        if constexpr (InSeries<Contact>) contact_.begin(y_c_);
+        else contact_.begin(m_.h_b - y_b_);
         solve();
     }
 
     Status advance(const Block& out) noexcept override {
         if (status_.outcome != Outcome::ok) return status_;
+        if constexpr (InSeries<Contact>) contact_.probed = out.energy != nullptr;
         for (int row = 0; row < out.rows; ++row) {
             write(out, row);
             const double weight = step_ == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
             impulse_b_ = weight * F_b_;
             impulse_c_ = weight * F_c_;
             supplied_ = dissipated_ = 0;
+            if constexpr (InSeries<Contact>) contact_.lost = 0;
             if (out.energy && step_ > 0) ledger(0.5);
             for (int k = 0; k < m_.steps_per_row; ++k) {
                 step();
@@ -112,6 +120,7 @@ public:
             impulse_b_ += 0.5 * F_b_;
             impulse_c_ += 0.5 * F_c_;
             if (out.energy) ledger(0.5);
+            if constexpr (InSeries<Contact>) dissipated_ += contact_.lost;
             if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
             if (!contact_.solved()) return status_ = {Outcome::not_converged, step_ - 1};
         }
@@ -122,7 +131,7 @@ public:
     std::vector<Fact> facts() const override {
         if (m_.g_b.empty()) return {};
         std::vector<Fact> f = contact_.facts();
-        f.push_back({facts::static_compliance, compliance_ / m_.true_compliance});
+        if constexpr (!InSeries<Contact>) f.push_back({facts::static_compliance, compliance_ / m_.true_compliance});
         return f;
     }
     std::vector<FreeMode> free_modes() const override {
@@ -152,6 +161,18 @@ private:
 
     // The forces of step n from the dots that the last pass left.
     void solve() {
+        if constexpr (InSeries<Contact>) act();
+        else solve_points();
+    }
+    void act() {
+        const bool at_start = step_ == 0;
+        const double share = at_start ? 0.5 : 1;
+        contact_.act(y_b_, y_c_, m_.pluck_at(step_), at_start);
+        F_e_ = share * m_.pluck_at(step_);
+        F_b_ = share * contact_.force.b;
+        F_c_ = share * contact_.force.c;
+    }
+    void solve_points() {
         const bool at_start = step_ == 0;
         const Coupling& c = at_start ? first_ : steady_;
         F_e_ = (at_start ? 0.5 : 1) * m_.pluck_at(step_);
@@ -175,7 +196,7 @@ private:
         pass_.F_e = F_e_;
         (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
         if (!m_.g_b.empty()) {
-            contact_.settle(m_.h_b - pass_.x_b, m_.h_b - y_b_);
+            if constexpr (!InSeries<Contact>) contact_.settle(m_.h_b - pass_.x_b, m_.h_b - y_b_);
             y_b_old_ = y_b_;
             y_b_ = pass_.x_b;
             r_b_ = pass_.v_b;
@@ -195,21 +216,30 @@ private:
             if (F_e_ != 0) work += m_.g_e[i] * r;
         }
         const double r_c = increment_c_;
-        dissipated_ += weight * (loss / (4 * m_.dt * m_.dt) + m_.r_c * r_c * r_c / (4 * m_.dt));
+        if constexpr (InSeries<Contact>) dissipated_ += weight * loss / (4 * m_.dt * m_.dt);  // the thread's: at the row
+        else dissipated_ += weight * (loss / (4 * m_.dt * m_.dt) + m_.r_c * r_c * r_c / (4 * m_.dt));
         supplied_ += weight * 0.5 * F_e_ * work;
     }
 
     double half_step_energy(double yc, double yc_other, double contact, bool after) const {
+        const double a = m_.h_c - yc, b = m_.h_c - yc_other;
+        return modal_energy(after) + 0.25 * m_.k_c * (a * a + b * b) + contact;
+    }
+    double modal_energy(bool after) const {
         double sum = 0;
         for (int i = 0; i < m_.size; ++i) {
             const double d = after ? next_increment(i) : d_[i], s = after ? 2 * q_[i] + d : 2 * q_[i] - d;
             sum += W_[i] * (m_.den[i] * d * d + m_.num[i] * s * s);
         }
-        const double a = m_.h_c - yc, b = m_.h_c - yc_other;
-        return sum / (8 * m_.dt * m_.dt) + 0.25 * m_.k_c * (a * a + b * b) + contact;
+        return sum / (8 * m_.dt * m_.dt);
     }
 
     double stored() const {
+        if constexpr (InSeries<Contact>)
+            return contact_.energy() + (step_ == 0 ? modal_energy(true) : 0.5 * (modal_energy(true) + modal_energy(false)));
+        else return stored_at_half_steps();
+    }
+    double stored_at_half_steps() const {
         const bool at_start = step_ == 0, barrier = !m_.g_b.empty();
         const double yb_next = (at_start ? y_b_ : y_b_old_) + increment_b_, yc_next = (at_start ? y_c_ : y_c_old_) + increment_c_;
         const double after = half_step_energy(y_c_, yc_next, barrier ? contact_.energy_next(m_.h_b - yb_next, m_.h_b - y_b_) : 0, true);
@@ -225,7 +255,10 @@ private:
                 for (int i = 0; i < m_.size; ++i) sum += weights[i] * (next_increment(i) + d_[i]);
             return sum / (2 * m_.dt);
         };
-        write_taps(out, row, m_.taps, q_, velocity, impulse_b_ / per_row, impulse_c_ / per_row);
+        write_taps<InSeries<Contact> ? modal_dot_by_eights : modal_dot>(out, row, m_.taps, q_, velocity, impulse_b_ / per_row,
+                                                                        impulse_c_ / per_row);
+        if constexpr (InSeries<Contact>)
+            for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += contact_.on_tap(k);
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
     }
 

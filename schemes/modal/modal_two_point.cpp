@@ -3,6 +3,10 @@
 // Exact modal frequencies and decay by the coefficients of eq 33; the thread eliminated by eqs 45-47; one barrier, whose force is the
 // two-point discrete gradient of eq 30. Starts from rest with q = 0 as in the paper: with losses that is not quite the true rest, a freely
 // decaying mode begins with a small phase offset (fact `start_phase_offset`); without losses free motion is exact to rounding.
+// Option `compliance` = own (default, the paper's scheme) | matched: what truncation and step take from the string's compliance stands in
+// series with barrier and thread (contact/compliance.hpp), and its part is added to displacement and nut force. Option `effective_modes` =
+// n adds n modes for those cut off (effective_modes.hpp), stepped by the coefficients of eq 32: exact under a steady force, stable above
+// half the rate.
 // `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
 // Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
 #include <algorithm>
@@ -13,7 +17,9 @@
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
+#include "schemes/modal/effective_modes.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal/modal_two_point_kernel.hpp"
 
@@ -34,21 +40,33 @@ Coefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i 
     return {0.25 * omega0 * omega0 * dt * dt, sigma * dt};
 }
 
+constexpr Option effective_option{
+    "effective_modes", "0",
+    "modes that stand for all those cut off as bridge and thread see them, with compliance=matched; 0: a spring alone"};
+constexpr Option two_point_options[] = {compliance_option, effective_option};
+
 class ModalTwoPoint final : public Scheme {
 public:
     ModalTwoPoint(const Descriptor& descriptor, const Scene& scene, const Settings& settings, Law law) {
+        const bool matched = choice_option(settings, compliance_option) == "matched";
         const String& s = scene.strings.front();
         m_.steps_per_row = steps_per_row(settings);
         m_.dt = 1 / settings.sample_rate;
-        const Modes modes = modes_of(s, settings);
-        refuse_above_nyquist(descriptor, modes, settings.sample_rate);
+        const Modes string_modes = modes_of(s, settings);
+        refuse_above_nyquist(descriptor, string_modes, settings.sample_rate);
+        const int kept = string_modes.count();
+        const double effective = number_option(settings, effective_option);
+        if (!(effective >= 0 && effective <= 200) || effective != std::floor(effective))
+            throw Refusal("option effective_modes: found " + std::to_string(effective) + ", expected a whole number from 0 to 200");
+        if (effective > 0 && !matched) throw Refusal("option effective_modes goes with compliance=matched");
+        const ModeBasis modes(s, kept, static_cast<int>(effective));
         m_.modes = modes.count();
         m_.size = (m_.modes + two_point_padding - 1) / two_point_padding * two_point_padding;
 
         const double xi = m_.dt * m_.dt / (2 * modes.mass);
         std::vector<double> A, B, c, loss, inverse_J, scale;  // scale = sqrt(J/xi)
         for (int i = 0; i < m_.modes; ++i) {
-            const auto [Ai, Bi] = law(modes.omega0[i], modes.sigma[i], m_.dt);
+            const auto [Ai, Bi] = (i < kept ? law : trapezoidal)(modes.omega0[i], modes.sigma[i], m_.dt);
             const double J = 1 + Ai + Bi;
             A.push_back(Ai);
             B.push_back(Bi);
@@ -66,10 +84,11 @@ public:
         u_ = AlignedVector(m_.size);
         m_.y = y_.data();
         m_.u = u_.data();
-        std::vector<double> y0 = initial_displacement(modes, s), u0 = y0;
+        std::vector<double> y0 = modes.initial(s), u0 = y0;
         for (int i = 0; i < m_.modes; ++i) {
             y0[i] *= scale[i];
             u0[i] = -2 * A[i] / (1 + A[i] + B[i]) * y0[i];  // (42) with q = 0
+            if (i >= kept) continue;
             free_.push_back(two_point_mode(A[i], B[i], m_.dt));
             offset_ = std::max(offset_, start_phase_offset(modes.omega0[i], modes.sigma[i], A[i], B[i]));
         }
@@ -82,17 +101,18 @@ public:
         };
         if (!s.barriers.empty()) {
             const auto& b = std::get<LumpedBarrier>(s.barriers.front());
-            const auto g = footprint_weights(modes, b.position, b.width);
-            double own = 0;
+            const auto g = modes.footprint(b.position, b.width);
+            double own = 0, truth = 0;
+            for (int i = 0; i < m_.modes; ++i) truth += g[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
             for (int i = 0; i < m_.modes; ++i) own += 0.5 * xi * g[i] * g[i] / A[i];  // (42) with s = 0
-            compliance_ = own / static_compliance(modes, g);
+            compliance_ = own / truth;
             m_.g_b = keep(unscaled(g));
             m_.barrier = {b.stiffness.k, b.exponent};
             m_.h_b = b.height;
             m_.theta = two_point_dot(m_.g_b, m_.g_b, m_.size);
         }
         if (s.thread) {
-            m_.g_c = keep(unscaled(footprint_weights(modes, s.thread->position, s.thread->width)));
+            m_.g_c = keep(unscaled(modes.footprint(s.thread->position, s.thread->width)));
             m_.k_c = s.thread->stiffness;
             m_.r_c = s.thread->damping;
             m_.h_c = s.thread->height;
@@ -106,7 +126,7 @@ public:
             }
         }
         if (s.pluck) {
-            m_.g_e = keep(unscaled(footprint_weights(modes, s.pluck->position, s.pluck->width)));
+            m_.g_e = keep(unscaled(modes.footprint(s.pluck->position, s.pluck->width)));
             if (m_.g_b) m_.theta_be = two_point_dot(m_.g_b, m_.g_e, m_.size);
             if (m_.g_c) m_.theta_ce = two_point_dot(m_.g_c, m_.g_e, m_.size);
             const PluckSteps steps = pluck_steps(*s.pluck, m_.dt);
@@ -119,12 +139,10 @@ public:
         for (const Tap& tap : scene.taps) {
             using From = TwoPointTap::From;
             switch (tap.quantity) {
-                case Quantity::displacement:
-                    taps_.push_back({From::modes, keep(unscaled(displacement_weights(modes, tap.position)))});
-                    break;
-                case Quantity::nut_force: taps_.push_back({From::modes, keep(unscaled(nut_force_weights(modes, s)))}); break;
+                case Quantity::displacement: taps_.push_back({From::modes, keep(unscaled(modes.displacement(tap.position)))}); break;
+                case Quantity::nut_force: taps_.push_back({From::modes, keep(unscaled(modes.nut_force(s)))}); break;
                 case Quantity::velocity: {  // p/m = 2q/dt, q = J u/2 + A y
-                    std::vector<double> on_y = unscaled(displacement_weights(modes, tap.position)), on_u = on_y;
+                    std::vector<double> on_y = unscaled(modes.displacement(tap.position)), on_u = on_y;
                     for (int i = 0; i < m_.modes; ++i) {
                         on_u[i] /= m_.dt * inverse_J[i];
                         on_y[i] *= 2 * A[i] / m_.dt;
@@ -138,8 +156,9 @@ public:
             }
         }
         m_.taps = taps_.data();
+        if (matched) put_in_series(descriptor, scene, modes, A);
         const ContactKind kind = !m_.g_b ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
-        advance_ = two_point_advance(kind, s.thread.has_value());
+        advance_ = two_point_advance(kind, m_.g_c != nullptr, matched ? Compliance::matched : Compliance::own);
         ModalTwoPoint::reset();
     }
 
@@ -147,6 +166,7 @@ public:
         std::copy_n(y0_, m_.size, m_.y);
         std::copy_n(u0_, m_.size, m_.u);
         m_.step = 0;
+        m_.series.Y_c = Y_c0_;
         m_.y_b = m_.g_b ? two_point_dot(m_.g_b, m_.y, m_.size) : 0;
         m_.u_b = m_.g_b ? two_point_dot(m_.g_b, m_.u, m_.size) : 0;
         m_.y_c = m_.g_c ? two_point_dot(m_.g_c, m_.y, m_.size) : 0;
@@ -161,8 +181,9 @@ public:
         std::vector<Fact> f = {{facts::start_phase_offset, offset_}};
         if (m_.g_b) {
             f.push_back({facts::smallest_contact_force, m_.least_force});
-            f.push_back({facts::deepest_penetration, m_.depth});
-            f.push_back({facts::static_compliance, compliance_});
+            const SeriesLaw& law = m_.series.step.points.law;
+            f.push_back({facts::deepest_penetration, law.S > 0 ? law.depth(m_.depth) : m_.depth});
+            f.push_back(law.S > 0 ? Fact{facts::series_compliance, law.S} : Fact{facts::static_compliance, compliance_});
         }
         if (m_.g_b && m_.barrier.alpha != 1) {
             f.push_back({facts::contact_iterations_mean, m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0});
@@ -188,7 +209,33 @@ private:
         return kept_.back().data();
     }
 
+    // docs/compliance-matching.md: the constants of the points' step, from C over barrier, thread and pluck.
+    void put_in_series(const Descriptor& descriptor, const Scene& scene, const ModeBasis& modes, const std::vector<double>& A) {
+        std::vector<double> own;
+        for (const double Ai : A) own.push_back(m_.dt * m_.dt / (4 * modes.mass * Ai));  // (42) with s = 0
+        const MissingCompliance C = modal_compliance(descriptor, scene, modes, own);
+        for (std::size_t k = 0; k < taps_.size(); ++k) taps_[k].on_force = C.taps[k];
+        const SeriesPoints points(m_.g_b ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C);
+        TwoPointSeries& z = m_.series;
+        z.step = SeriesStep(points, m_.g_b ? two_point_dot(m_.g_b, m_.g_b, m_.size) : 0, m_.theta_bc, m_.theta_cc, m_.dt);
+        z.C_be = C.be;
+        z.C_ce = C.ce;
+        m_.r_c = z.step.damping * m_.dt;
+        if (m_.g_c) Y_c0_ = z.step.start(two_point_dot(m_.g_c, y0_, m_.size));
+        if (m_.g_b) {
+            m_.theta = z.step.theta;
+            if (m_.barrier.alpha == 1) m_.barrier = linear_in_series(m_.barrier.k, points.law.S);
+        }
+        if (m_.g_e) {
+            const Pluck& pluck = *scene.strings.front().pluck;
+            for (long n = m_.pluck_first; n <= m_.pluck_first + m_.pluck_steps; ++n) pluck_now_.push_back(force(pluck, n * m_.dt));
+            z.pluck = pluck_now_.data();
+        }
+    }
+
     TwoPoint m_;
+    double Y_c0_ = 0;  // of the thread at t = 0 less h_c [m], where C is in series
+    std::vector<double> pluck_now_;
     TwoPointAdvance advance_ = nullptr;
     double offset_ = 0;
     double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
@@ -212,6 +259,7 @@ extern const Descriptor modal_two_point = {.name = "modal_two_point",
                                            .balance = Balance::exact,
                                            .clock = Clock::stepped,
                                            .make = made<exact>,
+                                           .options = two_point_options,
                                            .stand_in_rank = 2};
 extern const Descriptor modal_two_point_trapezoidal = {
     .name = "modal_two_point_trapezoidal",
@@ -219,6 +267,7 @@ extern const Descriptor modal_two_point_trapezoidal = {
     .represents = modal_features,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<trapezoidal>};
+    .make = made<trapezoidal>,
+    .options = two_point_options};
 
 }  // namespace jvari

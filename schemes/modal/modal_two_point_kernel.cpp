@@ -1,5 +1,5 @@
 // The fused step of the modal two-point scheme (van Walstijn et al. 2016, eqs 41-48), compiled once per instruction set by Highway.
-// Presence of contact, thread and pluck is a template argument: an absent part costs nothing.
+// Presence of contact, thread and pluck is a template argument: an absent part costs nothing. So is what stands in series with the points.
 #include "schemes/modal/modal_two_point_kernel.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -97,8 +97,31 @@ HWY_INLINE void ledger(TwoPoint& m, double F_b, double F_c, double F_e, double s
     if constexpr (pluck) m.supplied += F_e * hn::GetLane(hn::SumOfLanes(d, given));
 }
 
+// What the points are between two steps with C in series: zeta and D = Y_c - y_c, the pluck's own C in y_b and y_c.
+template <bool barrier, bool thread>
+struct SeriesState {
+    double D = 0, zeta = 0;
+    SeriesState(const TwoPoint& m, double F_e) {
+        if constexpr (thread) D = m.series.Y_c + m.h_c - m.y_c - m.series.C_ce * F_e;
+        if constexpr (barrier) zeta = m.h_b - m.y_b - m.series.C_be * F_e;
+        if constexpr (barrier && thread) zeta -= m.series.step.points.e * D;
+    }
+};
+
+template <ContactKind kind>
+HWY_INLINE void note(TwoPoint& m, const ContactSolution& x, double eta) {
+    m.least_force = x.force < m.least_force ? x.force : m.least_force;
+    m.depth = eta > m.depth ? eta : m.depth;
+    m.impulse_b += x.force;
+    if constexpr (kind == ContactKind::power) {
+        m.iterations += x.iterations;
+        m.iterations_most = x.iterations > m.iterations_most ? x.iterations : m.iterations_most;
+        if (!x.converged && m.status.outcome == Outcome::ok) m.status = {Outcome::not_converged, m.step};
+    }
+}
+
 template <ContactKind kind, bool thread, bool pluck, bool probe>
-HWY_INLINE void step(TwoPoint& m) {
+HWY_INLINE void step_own(TwoPoint& m) {
     constexpr bool barrier = kind != ContactKind::none;
     double F_b = 0, F_c = 0, F_e = 0, u_b = m.u_b, u_c = m.u_c, v_c = 0;
     if constexpr (pluck) {
@@ -113,14 +136,7 @@ HWY_INLINE void step(TwoPoint& m) {
         if constexpr (kind == ContactKind::linear) x = solve_linear_contact(m.barrier.k, eta, b, m.theta);
         else x = solve_power_contact(m.barrier, eta, b, m.theta);
         F_b = x.force;
-        m.least_force = F_b < m.least_force ? F_b : m.least_force;
-        m.depth = eta > m.depth ? eta : m.depth;
-        m.impulse_b += F_b;
-        if constexpr (kind == ContactKind::power) {
-            m.iterations += x.iterations;
-            m.iterations_most = x.iterations > m.iterations_most ? x.iterations : m.iterations_most;
-            if (!x.converged && m.status.outcome == Outcome::ok) m.status = {Outcome::not_converged, m.step};
-        }
+        note<kind>(m, x, eta);
     }
     if constexpr (thread) {
         F_c = barrier ? v_c - m.beta_c * F_b : v_c;  // (46)
@@ -131,43 +147,109 @@ HWY_INLINE void step(TwoPoint& m) {
     ++m.step;
 }
 
-template <ContactKind kind, bool thread, bool probe>
+template <ContactKind kind, bool thread, bool pluck, bool probe>
+HWY_INLINE void step_matched(TwoPoint& m) {
+    constexpr bool barrier = kind != ContactKind::none;
+    const TwoPointSeries& s = m.series;
+    double F_b = 0, F_c = 0, F_e = 0, u_b = m.u_b, u_c = m.u_c, v = 0, F_now = 0, change = 0;
+    if constexpr (pluck) {
+        const long n = m.step - m.pluck_first;
+        F_e = m.pluck[n];
+        F_now = s.pluck[n];
+        change = s.pluck[n + 1] - F_now;
+        if constexpr (barrier) u_b += m.theta_be * F_e + s.C_be * change;
+        if constexpr (thread) u_c += m.theta_ce * F_e + s.C_ce * change;
+    }
+    const SeriesState<barrier, thread> now(m, F_now);
+    if constexpr (thread) v = s.step.pull(now.D, u_c, s.Y_c);
+    if constexpr (barrier) {
+        const double b = thread ? s.step.approach(u_b, u_c, v, s.Y_c) : -u_b;
+        ContactSolution x;
+        if constexpr (kind == ContactKind::linear) x = solve_linear_contact(m.barrier.k, now.zeta, b, m.theta);
+        else x = solve_series_contact(s.step.points.law, now.zeta, b, m.theta);
+        F_b = x.force;
+        note<kind>(m, x, now.zeta);
+    }
+    double moved = 0;  // Y_c^{n+1} - Y_c^n
+    if constexpr (thread) {
+        F_c = barrier ? v - s.step.beta * F_b : v;
+        m.impulse_c += F_c;
+        moved = s.step.moved(F_c, s.Y_c);
+        m.series.Y_c += moved;
+    }
+    if constexpr (probe) {
+        ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, moved);
+        if constexpr (pluck) m.supplied -= (F_b * s.C_be + F_c * s.C_ce) * change;
+    }
+    pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
+    ++m.step;
+}
+
+template <ContactKind kind, bool thread, bool probe, Compliance compliance>
 HWY_INLINE void steps(TwoPoint& m, long count) {
+    const auto step = [&m]<bool pluck>() {
+        if constexpr (compliance == Compliance::own) step_own<kind, thread, pluck, probe>(m);
+        else step_matched<kind, thread, pluck, probe>(m);
+    };
     while (count > 0) {
         const long into = m.step - m.pluck_first;  // the pluck acts for pluck_steps from pluck_first
         const bool plucking = into >= 0 && into < m.pluck_steps;
         const long until_change = plucking ? m.pluck_steps - into : into < 0 && m.pluck_steps > 0 ? -into : count;
         const long n = until_change < count ? until_change : count;
         if (plucking)
-            for (long i = 0; i < n; ++i) step<kind, thread, true, probe>(m);
+            for (long i = 0; i < n; ++i) step.template operator()<true>();
         else
-            for (long i = 0; i < n; ++i) step<kind, thread, false, probe>(m);
+            for (long i = 0; i < n; ++i) step.template operator()<false>();
         count -= n;
     }
 }
 
-template <ContactKind kind, bool thread, bool probe>
+template <ContactKind kind, bool thread, bool probe, Compliance compliance>
 HWY_INLINE bool steps_of_row(TwoPoint& m, const Block& out) {  // false: the caller wants no more
     long left = m.steps_per_row;
     for (; left > steps_between_questions; left -= steps_between_questions) {
-        steps<kind, thread, probe>(m, steps_between_questions);
+        steps<kind, thread, probe, compliance>(m, steps_between_questions);
         if (out.stopped()) return false;
     }
-    steps<kind, thread, probe>(m, left);
+    steps<kind, thread, probe, compliance>(m, left);
     return true;
 }
 
-// Stored energy (49): sum (q^2 + A y^2)/xi with q = J u/2 + A y, in the scaled modes.
-template <ContactKind kind, bool thread>
+double pluck_now(const TwoPoint& m) {
+    const long into = m.step - m.pluck_first;
+    return into >= 0 && into <= m.pluck_steps && m.series.pluck ? m.series.pluck[into] : 0;
+}
+
+// Stored energy (49): sum (q^2 + A y^2)/xi with q = J u/2 + A y, in the scaled modes. While a pluck acts, what its force alone and together
+// with others stores in C is left out, and its work counted to match.
+template <ContactKind kind, bool thread, Compliance compliance>
 double stored(const TwoPoint& m) {
     double H = 0;
     for (int i = 0; i < m.modes; ++i) {
         const double q = 0.5 * m.u[i] / m.inverse_J[i] + m.A[i] * m.y[i];
         H += (q * q + m.A[i] * m.y[i] * m.y[i]) * m.inverse_J[i];
     }
-    if constexpr (kind != ContactKind::none) H += m.barrier.potential(m.h_b - m.y_b);
-    if constexpr (thread) H += 0.5 * m.k_c * (m.h_c - m.y_c) * (m.h_c - m.y_c);
+    if constexpr (compliance == Compliance::own) {
+        if constexpr (kind != ContactKind::none) H += m.barrier.potential(m.h_b - m.y_b);
+        if constexpr (thread) H += 0.5 * m.k_c * (m.h_c - m.y_c) * (m.h_c - m.y_c);
+    } else {
+        const SeriesState<kind != ContactKind::none, thread> now(m, pluck_now(m));
+        if constexpr (kind == ContactKind::linear) H += m.barrier.potential(now.zeta);
+        if constexpr (kind == ContactKind::power) H += m.series.step.points.law.potential(now.zeta);
+        if constexpr (thread)
+            H += 0.5 * now.D * now.D * m.series.step.points.stiff_cc + 0.5 * m.series.step.points.k_c * m.series.Y_c * m.series.Y_c;
+    }
     return H;
+}
+
+// Of the instant [N]: what C adds to a linear tap is by these.
+template <ContactKind kind, bool thread>
+HWY_INLINE void forces_now(const TwoPoint& m, double (&force)[3]) {
+    force[2] = pluck_now(m);
+    const SeriesState<kind != ContactKind::none, thread> now(m, force[2]);
+    if constexpr (kind == ContactKind::linear) force[0] = m.barrier.force(now.zeta);
+    if constexpr (kind == ContactKind::power) force[0] = m.series.step.points.law.force(now.zeta);
+    if constexpr (thread) force[1] = now.D * m.series.step.points.stiff_cc - m.series.step.points.e * force[0];
 }
 
 HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
@@ -182,31 +264,42 @@ HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
     return 0;
 }
 
-template <ContactKind kind, bool thread>
+template <ContactKind kind, bool thread, Compliance compliance>
 Status advance(TwoPoint& m, const Block& out) {
     for (int row = 0; row < out.rows && m.status.outcome == Outcome::ok; ++row) {
         for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(m, m.taps[k]);
+        if constexpr (compliance == Compliance::matched) {
+            double force[3] = {};
+            forces_now<kind, thread>(m, force);
+            for (int k = 0; k < out.taps; ++k)
+                for (int z = 0; z < 3; ++z) out.tap[k * out.stride + row] += m.taps[k].on_force[z] * force[z];
+        }
         m.impulse_b = m.impulse_c = 0;
         if (out.energy) {
-            out.energy[row] = stored<kind, thread>(m);
+            out.energy[row] = stored<kind, thread, compliance>(m);
             out.energy[out.stride + row] = m.supplied;
             out.energy[2 * out.stride + row] = m.dissipated;
             m.supplied = m.dissipated = 0;
-            if (!steps_of_row<kind, thread, true>(m, out)) return {};
-        } else if (!steps_of_row<kind, thread, false>(m, out)) {
+            if (!steps_of_row<kind, thread, true, compliance>(m, out)) return {};
+        } else if (!steps_of_row<kind, thread, false, compliance>(m, out)) {
             return {};
         }
     }
     return m.status;
 }
 
-TwoPointAdvance choose(ContactKind kind, bool thread) {
+template <Compliance compliance>
+TwoPointAdvance choose_for(ContactKind kind, bool thread) {
+    using enum ContactKind;
     switch (kind) {
-        case ContactKind::none: return thread ? advance<ContactKind::none, true> : advance<ContactKind::none, false>;
-        case ContactKind::linear: return thread ? advance<ContactKind::linear, true> : advance<ContactKind::linear, false>;
-        case ContactKind::power: return thread ? advance<ContactKind::power, true> : advance<ContactKind::power, false>;
+        case none: return thread ? advance<none, true, compliance> : advance<none, false, compliance>;
+        case linear: return thread ? advance<linear, true, compliance> : advance<linear, false, compliance>;
+        case power: return thread ? advance<power, true, compliance> : advance<power, false, compliance>;
     }
     return nullptr;
+}
+TwoPointAdvance choose(ContactKind kind, bool thread, Compliance compliance) {
+    return compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread);
 }
 
 double plain_dot(const double* w, const double* x, int size) {
@@ -222,8 +315,8 @@ namespace jvari {
 HWY_EXPORT(choose);
 HWY_EXPORT(plain_dot);
 
-TwoPointAdvance two_point_advance(ContactKind kind, bool thread) {
-    return HWY_DYNAMIC_DISPATCH(choose)(kind, thread);
+TwoPointAdvance two_point_advance(ContactKind kind, bool thread, Compliance compliance) {
+    return HWY_DYNAMIC_DISPATCH(choose)(kind, thread, compliance);
 }
 double two_point_dot(const double* w, const double* x, int size) {
     return HWY_DYNAMIC_DISPATCH(plain_dot)(w, x, size);

@@ -5,19 +5,32 @@
 //     f = sum_z g_z F_z,   s = u + f,   y <- y + s,   u <- s + f - loss s - c y,      c = 4A/J, loss = 2B/J
 // (eqs 40-42 with q eliminated), which also gathers the dots g_z.y and g_z.u that the next step's contact forces need. The small numbers
 // c = 1 - 2 R Omega + R^2 and loss = 1 - R^2 carry frequency and decay to full relative precision at any rate.
+//
+// With a compliance C in series (contact/compliance.hpp) the pass is the same; the points' scalar step is that of
+// docs/compliance-matching.md.
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "schemes/contact/contact.hpp"
+#include "schemes/contact/series_step.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
 
 struct TwoPointTap {
     enum class From { modes, modes_and_increment, bridge, thread, driving } from;
-    const double* on_y = nullptr;  // weights on y
-    const double* on_u = nullptr;  // weights on u (velocity only)
+    const double* on_y = nullptr;      // weights on y
+    const double* on_u = nullptr;      // weights on u (velocity only)
+    std::array<double, 3> on_force{};  // of barrier, thread and pluck at the instant: what is missing of a linear tap (series only)
+};
+
+// The string's points with the compliance C in series, and the pluck's part of C.
+struct TwoPointSeries {
+    SeriesStep step;                // exponent 1: TwoPoint::barrier is the law in series already
+    double C_be = 0, C_ce = 0;      // [m/N]
+    const double* pluck = nullptr;  // force at the instant pluck_first + n, n <= pluck_steps [N]
+    double Y_c = 0;                 // of the thread, less h_c [m]; changes from step to step
 };
 
 struct TwoPoint {
@@ -38,6 +51,8 @@ struct TwoPoint {
     const double* pluck = nullptr;  // mean force of step pluck_first + n, n < pluck_steps [N]
     long pluck_first = 0, pluck_steps = 0;
 
+    TwoPointSeries series;
+
     const TwoPointTap* taps = nullptr;
     int steps_per_row = 1;
 
@@ -57,7 +72,8 @@ using TwoPointAdvance = Status (*)(TwoPoint&, const Block&);
 
 // The kernel for these parts, in the widest vector instructions of this machine. It starts from the dots y_b .. u_c.
 enum class ContactKind { none, linear, power };
-TwoPointAdvance two_point_advance(ContactKind, bool thread);
+enum class Compliance { own, matched };  // the modes' own, or with C in series
+TwoPointAdvance two_point_advance(ContactKind, bool thread, Compliance);
 
 // Sum of w_i x_i over the padded modes, by the kernel's own instructions and order of summation.
 double two_point_dot(const double* w, const double* x, int size);

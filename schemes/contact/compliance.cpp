@@ -1,0 +1,160 @@
+// Static deflection of the stiff string, averaged over footprints. Footprints apart from each other have a closed form: the average of
+// exp(l x) over a cosine of width w about c is exp(l c) pi^2 cosh(l w/2)/(pi^2 + l^2 w^2). Overlapping ones are integrated by Gauss's rule
+// on panels that grow geometrically from every place where the integrand has a kink or a boundary layer of width 1/l.
+#include "schemes/contact/compliance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/modes.hpp"
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+using std::numbers::pi;
+
+namespace {
+double decay_of(const String& s) {  // l [1/m]; 0 where the string has no bending stiffness
+    return s.bending_stiffness > 0 ? std::sqrt(s.tension / s.bending_stiffness) : 0;
+}
+
+// The bending part of G times T: sinh(l x) sinh(l (L - z))/(l sinh(l L)), without overflow.
+double bent(double l, double L, double x, double z) {
+    if (l == 0) return 0;
+    return std::exp(-l * (z - x)) * std::expm1(-2 * l * x) * std::expm1(-2 * l * (L - z)) / (-2 * l * std::expm1(-2 * l * L));
+}
+
+double green(const String& s, double a, double b) {
+    const double x = std::min(a, b), z = std::max(a, b), L = s.length;
+    return (x * (L - z) / L - bent(decay_of(s), L, x, z)) / s.tension;
+}
+
+constexpr std::array<double, 8> node = {0.0950125098376374, 0.2816035507792589, 0.4580167776572274, 0.6178762444026438,
+                                        0.7554044083550030, 0.8656312023878318, 0.9445750230732326, 0.9894009349916499};
+constexpr std::array<double, 8> share = {0.1894506104550685, 0.1826034150449236, 0.1691565193950025, 0.1495959888165767,
+                                         0.1246289712555339, 0.0951585116824928, 0.0622535239386479, 0.0271524594117541};
+
+// The average of f over a footprint; `breaks` are the places where f is not smooth, `layer` the width of what is steep beside them.
+template <class F>
+double averaged(const Footprint& p, double layer, std::vector<double> breaks, const F& f) {
+    if (p.width == 0) return f(p.position);
+    const double from = p.position - 0.5 * p.width, to = p.position + 0.5 * p.width;
+    std::erase_if(breaks, [&](double x) { return !(x > from && x < to); });
+    breaks.insert(breaks.end(), {from, to});
+    std::sort(breaks.begin(), breaks.end());
+    double sum = 0;
+    const auto panel = [&](double a, double b) {
+        for (int i = 0; i < 16; ++i) {
+            const double x = 0.5 * (a + b) + 0.5 * (b - a) * (i < 8 ? node[i] : -node[i - 8]);
+            sum += 0.5 * (b - a) * share[i % 8] * 0.5 * pi / p.width * std::cos(pi * (x - p.position) / p.width) * f(x);
+        }
+    };
+    for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {  // from both ends of a segment inwards
+        double a = breaks[k], b = breaks[k + 1], size = layer > 0 ? layer : p.width;
+        for (; a < b; size = std::min(2 * size, 0.25 * p.width)) {
+            size = std::min(size, 0.25 * p.width);
+            if (2 * size >= b - a || a + size == a) {
+                panel(a, b);
+                break;
+            }
+            panel(a, a + size);
+            panel(b - size, b);
+            a += size;
+            b -= size;
+        }
+    }
+    return sum;
+}
+
+double over_modes(const String& s, int count, const Reading& r, const Footprint& force) {
+    const Modes modes = modes_of(s, count);
+    const auto w = r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at.position, r.at.width);
+    const auto g = footprint_weights(modes, force.position, force.width);
+    double sum = 0;
+    for (int i = count - 1; i >= 0; --i) sum += w[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
+    return sum;
+}
+
+const TableDamping* measured(const String& s) {
+    return std::get_if<TableDamping>(&s.damping);
+}
+}  // namespace
+
+double static_deflection(const String& s, const Footprint& p, const Footprint& q) {
+    if (const auto* table = measured(s)) return over_modes(s, static_cast<int>(table->frequency_hz.size()), {p}, q);
+    const double l = decay_of(s), L = s.length, layer = l > 0 ? 1 / l : 0;
+    if (s.bending_stiffness > 0 && l * L < 1) return over_modes(s, 20000, {p}, q);  // a bar: the sum falls as 1/i^4, and G cancels
+    const double apart = std::abs(p.position - q.position) - 0.5 * (p.width + q.width), widest = std::max(p.width, q.width);
+    if (apart >= 0 && l * widest < 300) {
+        const auto window = [&](double w) { return pi * pi * std::cosh(0.5 * l * w) / (pi * pi + l * l * w * w); };
+        const double x = std::min(p.position, q.position), z = std::max(p.position, q.position);
+        return (x * (L - z) / L - window(p.width) * window(q.width) * bent(l, L, x, z)) / s.tension;
+    }
+    const Footprint &inner = p.width < q.width ? q : p, &outer = p.width < q.width ? p : q;
+    return averaged(outer, layer, {inner.position - 0.5 * inner.width, inner.position + 0.5 * inner.width},
+                    [&](double x) { return averaged(inner, layer, {x}, [&](double z) { return green(s, x, z); }); });
+}
+
+double static_nut_force(const String& s, const Footprint& force) {
+    if (const auto* table = measured(s)) return over_modes(s, static_cast<int>(table->frequency_hz.size()), {{}, true}, force);
+    return force.position / s.length;  // the balance of moments about the other end
+}
+
+Sites sites_of(const Scene& scene, int index) {
+    const String& s = scene.strings[index];
+    Sites all;
+    const auto add = [&all](int part, double position, double width) {
+        all.forces.push_back({position, width});
+        all.part.push_back(part);
+    };
+    if (!s.barriers.empty()) {
+        const auto& b = std::get<LumpedBarrier>(s.barriers.front());
+        add(0, b.position, b.width);
+    }
+    if (s.thread) add(1, s.thread->position, s.thread->width);
+    all.points = static_cast<int>(all.forces.size());
+    for (const Footprint& f : all.forces) all.readings.push_back({f});
+    if (s.pluck) add(2, s.pluck->position, s.pluck->width);
+    for (std::size_t k = 0; k < scene.taps.size(); ++k) {
+        const Tap& tap = scene.taps[k];
+        const bool nut = tap.quantity == Quantity::nut_force;
+        if ((!nut && tap.quantity != Quantity::displacement) || (tap.string && *tap.string != index)) continue;
+        all.readings.push_back({{tap.position, 0}, nut});
+        all.tap.push_back(k);
+    }
+    return all;
+}
+
+namespace {
+void refuse_soft(const std::string& who, double bb, double bc, double cc) {
+    const auto refuse = [&who](const char* where, double missing) {
+        throw Refusal(who + ": at the " + where + " its own string yields more than the true one, by " + std::to_string(-missing * 1e6) +
+                      " um/N, so nothing can stand in series there; compliance=own always can run, another rate or number of modes may");
+    };
+    if (!(bb >= 0)) refuse("barrier", bb);
+    if (!(cc >= 0)) refuse("thread", cc);
+    if (!(bb * cc >= bc * bc)) refuse("barrier and the thread together", bb - bc * bc / cc);
+}
+}  // namespace
+
+MissingCompliance missing_compliance(const std::string& who, const String& s, const Sites& sites, std::size_t taps,
+                                     const std::function<double(int, int)>& own) {
+    MissingCompliance C;
+    C.taps.resize(taps);
+    double* const cell[2][3] = {{&C.bb, &C.bc, &C.be}, {nullptr, &C.cc, &C.ce}};
+    for (int r = 0; r < static_cast<int>(sites.readings.size()); ++r)
+        for (int f = 0; f < static_cast<int>(sites.forces.size()); ++f) {
+            const Reading& reading = sites.readings[r];
+            const double truth =
+                reading.nut_force ? static_nut_force(s, sites.forces[f]) : static_deflection(s, reading.at, sites.forces[f]);
+            const double missing = truth - own(r, f);
+            if (r >= sites.points) C.taps[sites.tap[r - sites.points]][sites.part[f]] = missing;
+            else if (double* to = cell[sites.part[r]][sites.part[f]]) *to = missing;
+        }
+    refuse_soft(who, C.bb, C.bc, C.cc);
+    return C;
+}
+
+}  // namespace jvari

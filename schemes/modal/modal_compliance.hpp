@@ -1,0 +1,14 @@
+// C_true - C_scheme (contact/compliance.hpp) of a scene's one string in its modes.
+#pragma once
+
+#include <span>
+
+#include "schemes/contact/compliance.hpp"
+#include "schemes/modal/effective_modes.hpp"
+
+namespace jvari {
+
+// own: what the scheme makes of 1 N of steady modal force on each mode [m/N].
+MissingCompliance modal_compliance(const Descriptor&, const Scene&, const ModeBasis&, std::span<const double> own);
+
+}  // namespace jvari

@@ -1,0 +1,39 @@
+// Strang splitting of the string and its points: half a kick by the forces at the instant, the exact motion of the free modes over dt, half
+// a kick (Strang 1968; Hairer, Lubich & Wanner 2006, ch. II.5). The thread's own state moves by an exponential step of half the length on
+// either side of a kick, the string held (exponential Euler-Rosenbrock, of second order). All symmetric, so of second order in time, and
+// explicit. Eliminating the velocities, it is the recursion of modal_three_point.hpp with gain dt R sin(omega dt)/(m omega).
+//
+// That is of use where the contact is soft: what cut and kicks take from the string's compliance stands in series
+// (contact/compliance.hpp). In lasting contact it is stable below the stiffness of fact stable_stiffness_limit, 1/sum g^2 e/den, to be held
+// against 1/series_compliance, which the contact cannot pass. Beyond it the run may diverge, and then says so.
+// No energy balance is promised; the stored energy is the true one, with what is in series.
+// Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+#include <cmath>
+
+#include "schemes/modal/series_force.hpp"
+
+namespace jvari {
+
+namespace {
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    ModalString string = modal_string(descriptor, scene, settings);
+    const double dt = string.dt;
+    ModalArray gain;
+    for (int i = 0; i < string.count; ++i) {
+        const double w = string.omega[i], wave = w > 0 ? std::sin(w * dt) / w : w < 0 ? std::sinh(w * dt) / w : dt;
+        gain.push_back(dt * std::exp(-string.sigma[i] * dt) * wave / string.mass);
+    }
+    return explicit_in_series(descriptor, scene, std::move(string), gain);
+}
+
+}  // namespace
+
+extern const Descriptor modal_strang = {.name = "modal_strang",
+                                        .source = "Strang 1968, with the residual compliance of the cut modes (MacNeal 1971) in series",
+                                        .represents = modal_features,
+                                        .balance = Balance::none,
+                                        .clock = Clock::stepped,
+                                        .make = made};
+
+}  // namespace jvari
