@@ -183,8 +183,8 @@ TEST_P(Balanced, ClosesItsLedgerAndNeverPullsWhateverPartsThereAre) {
                     EXPECT_LE(ledger(r.trace).accumulated, 1e-11) << exponent << barrier << thread << pluck;
                     for (const double lost : r.trace.energy_column(2)) ASSERT_GE(lost, 0);
                     if (barrier) {
-                        if (std::string(GetParam()) != "modal_quadratised_two_point_raw")  // which does pull
-                            EXPECT_GE(fact(r.facts, "smallest_contact_force"), 0);
+                        const bool pulls = std::string(GetParam()) == "modal_quadratised_two_point_raw";
+                        EXPECT_GE(fact(r.facts, "smallest_contact_force"), pulls ? -HUGE_VAL : 0);
                         EXPECT_GT(fact(r.facts, "deepest_penetration"), 0);
                     }
                 }

@@ -268,7 +268,8 @@ TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures
 TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
     const Scratch scratch;
     const Workshop w;
-    const SuitePlan plan = plan_of(parse_suite(counting_suite, "a.toml"), w.catalogue, {});
+    const Suite suite = parse_suite(counting_suite, "a.toml");
+    const SuitePlan plan = plan_of(suite, w.catalogue, {});
     run_suite(plan, scratch.path, false, 2, w.console);
     const std::string another = "0123456-another";
     const auto recorded_by_another = [&](int cell, const std::string& what) {  // a file of this cell's name, of another program
