@@ -1,119 +1,128 @@
-// The exact reference for strings against one-sided linear springs: event-driven, no step size in it.
+// The exact reference: a string against one-sided contacts, event-driven, no step size in it.
 //
-// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck), as the piecewise linear system that exponent 1 makes of
-// them. Between two events the modes are free oscillators under the forces of thread, touching barriers and pluck, and those forces follow
-// a Volterra equation of a few unknowns (springs.hpp). One window:
-//   1. Taylor series of the points' free motion from the modal state              (one pass over the modes)
-//   2. series of displacements and forces by recurrence, with a rigorous remainder
-//   3. the first sign change of any gap by Bernstein isolation: no contact deeper than 2 x the bound is missed
-//   4. the modal state at the end from the forces' moments                        (one pass over the modes)
-// Windows end at events, rows and the pluck's ends. After an event the gap is exactly zero, and the search divides that root out.
-// A profile acts as the points of profile_points.hpp. Leaves out: exponents other than 1, contact loss, several strings.
-#include <gsl/gsl_integration.h>
-
+// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck); contact loss of Issanchou et al. 2016, eq 24. The string is
+// linear, only the contact points are not. So the modes are touched twice a window (macro_window.hpp), and between its events a few short
+// vectors move. From one event to the next the points follow
+//   - their free motion, where nothing touches;
+//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast pair per point;
+//   - collocated_contact.hpp, step by step, where the law is no spring or some direction is soft.
+// crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. Leaves out: several strings.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
-#include "reference/bernstein.hpp"
-#include "reference/oscillators.hpp"
+#include "reference/collocated_contact.hpp"
+#include "reference/crossing.hpp"
+#include "reference/macro_window.hpp"
 #include "reference/pluck_series.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
-#include "reference/springs.hpp"
+#include "reference/touching_set.hpp"
 
 namespace jvari {
 
 namespace {
-constexpr double reach_of_window = 4.5;    // window x growth rate at window = 1; 30 terms
-constexpr double truncation = 1e-18;       // of every series, relative
-constexpr double rounding = 16 * 2.3e-16;  // of a gap, relative to sum |g_i| (|y_i| + |v_i|/rate)
-constexpr int nodes = 8;                   // Gauss-Legendre nodes per window, of the energy probe
-
-const std::vector<double> inverse_factorial = [] {
-    std::vector<double> f{1.0};
-    for (int n = 1; n <= 2 * longest_series; ++n) f.push_back(f.back() / n);
-    return f;
-}();
+constexpr int most_sets_of = 4;  // contacts, for every set of them to be split beforehand
+constexpr double negligible = 1e-18;
 
 struct Extremes {  // of the run so far
-    double events = 0, windows = 0, smallest_force = HUGE_VAL, deepest = 0, tolerance = 0;
+    double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, deepest = 0, tolerance = 0;
 };
+
+std::vector<ContactLaw> laws_of(const String& s) {
+    std::vector<ContactLaw> laws;
+    for (const Barrier& barrier : s.barriers) {
+        const auto& b = std::get<LumpedBarrier>(barrier);
+        laws.push_back({b.stiffness.k, b.exponent, b.contact_loss});
+    }
+    return laws;
+}
 
 class ExactContact final : public Scheme {
 public:
-    ExactContact(const String&, const Scene&, Modes, double tap_rate, double window);
+    ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
     std::vector<Fact> facts() const override;
 
 private:
-    bool interval(const Block& out) noexcept;                                           // to the next row
-    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;      // within one interval
-    double window(double left, bool plucked, double since_pluck, bool probe) noexcept;  // how far it came
-    double resolve(double longest, bool plucked, double since_pluck, int p_terms) noexcept;
-    double bound(int point, double z, int p_terms, double growth) const noexcept;
-    void measure(int point, double end, bool leaves) noexcept;
-    void fly_to(double fraction, double z, int p_terms, bool plucked, double* y, double* u, double* impulse) noexcept;
-    void dissipate(double fraction, double z, int p_terms, bool plucked) noexcept;
+    bool interval(const Block& out) noexcept;                                       // to the next row
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;  // within one interval
+    bool window(double end, bool plucked, double since_pluck, bool probe) noexcept;
+    double phase(double at, double end, bool probe) noexcept;  // to the next event, or as far as this way of going on reaches
+    double collocated(double left, int& crossed) noexcept;
+    Gap gap(int contact, int terms) const noexcept;  // the side the point is on now: positive until the next event
+    int next_crossing(double& end, int terms) noexcept;
+    void settle() noexcept;  // which points touch, by where they are and where they go
+    void move_on(double by, double left) noexcept;
+    void measure(int touching, double end, bool leaves) noexcept;
     double stored() const noexcept;
-    double point(int a, const double* state) const noexcept;
+    double* at(std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * window_.stride; }
 
     Modes modes_;
-    Oscillators osc_;
-    Springs springs_;
+    MacroWindow window_;
+    std::vector<ContactLaw> law_;
+    CollocatedContact collocation_;
+    std::vector<std::optional<TouchingSet>>
+        sets_;  // by the bits of their points; empty where there are too many contacts or a law is no spring
     Readout readout_;
-    std::vector<Pluck> pluck_;  // none or one
-    double tap_rate_, window_, interval_;
-    std::vector<double> start_, stiffness_, loss_;  // y at t = 0; m omega0^2; 2 m sigma rate^2 / rate, per mode
+    std::vector<Pluck> pluck_;                // none or one
+    double tap_rate_, tolerance_, interval_;  // of an interval: windows
+    std::vector<double> start_, stiffness_;   // y at t = 0; m omega0^2, per mode
 
     std::vector<double> y_, u_;  // the state
     std::vector<char> touching_, known_zero_;
     long row_ = 0;
-    double bridge_impulse_ = 0, thread_impulse_ = 0, supplied_ = 0, dissipated_ = 0;  // of the interval that ends here
-    int idle_ = 0;                                                                    // windows in a row that came nowhere
+    double bridge_impulse_ = 0, thread_impulse_ = 0;
+    MacroWindow::Energies energies_;  // of the interval that ends here
+    int idle_ = 0;
+    double step_ = 0;  // of the collocation, the last
     Extremes extremes_;
 
-    // one window
-    int terms_ = 0;
-    double growth_ = 0;
-    std::vector<double> p_, scaled_, displacement_, force_, gap_, reach_, scratch_, moments_, impulse_, y_node_, u_node_;
-    std::vector<const double*> acting_;
-    std::array<double, nodes> node_{}, weight_{};
+    // one window; rows of window_.stride
+    std::vector<double> r_, path_, moments_, moment_;
+    std::vector<std::complex<double>> amplitude_;
+    std::vector<int> touched_;
+    TouchingSet* set_ = nullptr;
+    bool collocated_ = false, onward_ = false;  // this phase, and the one before
+    int count_ = 0;                             // moments of this phase
 };
 
-ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double window)
+ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double tolerance)
     : modes_(std::move(modes)),
-      osc_(modes_),
-      springs_(modes_, osc_, s),
+      window_(modes_, s, 1 / tap_rate, tolerance),
+      law_(laws_of(s)),
+      collocation_(window_, law_),
       readout_(scene, modes_),
       tap_rate_(tap_rate),
-      window_(window),
-      interval_(osc_.rate / tap_rate) {
+      tolerance_(tolerance),
+      interval_(window_.per_row) {
     if (s.pluck) pluck_.push_back(*s.pluck);
-    start_ = osc_.pad(initial_displacement(modes_, s));
-    std::vector<double> stiffness, loss;
-    for (int i = 0; i < modes_.count(); ++i) {
-        stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
-        loss.push_back(2 * modes_.mass * modes_.sigma[i] * osc_.rate);  // 2 m sigma v^2 dt = this x u^2 d(rate t)
+    start_ = window_.osc.pad(initial_displacement(modes_, s));
+    std::vector<double> stiffness;
+    for (int i = 0; i < modes_.count(); ++i) stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
+    stiffness_ = window_.osc.pad(stiffness);
+    y_ = u_ = start_;
+    const int contacts = window_.contacts;
+    touching_.resize(contacts + 1);
+    known_zero_.resize(contacts + 1);
+    touched_.reserve(contacts);
+    for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
+    amplitude_.assign(contacts * contacts + 1, 0.0);
+    const bool springs = std::all_of(law_.begin(), law_.end(), [](const ContactLaw& l) { return l.alpha == 1 && l.beta == 0; });
+    if (springs && contacts <= most_sets_of) {
+        sets_.resize(1u << contacts);
+        for (unsigned bits = 1; bits < sets_.size(); ++bits) {
+            std::vector<int> points;
+            std::vector<double> k;
+            for (int a = 0; a < contacts; ++a)
+                if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].k);
+            TouchingSet set(window_, points, k);
+            if (set.splits()) sets_[bits] = std::move(set);
+        }
     }
-    stiffness_ = osc_.pad(stiffness);
-    loss_ = osc_.pad(loss);
-    y_ = u_ = y_node_ = u_node_ = start_;
-    touching_.resize(springs_.contacts + 1);
-    known_zero_.resize(springs_.contacts + 1);
-    const int points = springs_.points, forces = springs_.forces;
-    for (auto* v : {&p_, &scaled_, &displacement_, &gap_}) v->resize(static_cast<std::size_t>(points + 1) * longest_series);
-    for (auto* v : {&force_, &moments_}) v->resize(static_cast<std::size_t>(forces + 1) * longest_series);
-    reach_.resize(points + 1);
-    impulse_.resize(forces + 1);
-    acting_.resize(forces + 1);
-    scratch_.resize(static_cast<std::size_t>(points) * (longest_series + 1) * lanes);
-    gsl_integration_glfixed_table* table = gsl_integration_glfixed_table_alloc(nodes);
-    for (int q = 0; q < nodes; ++q) gsl_integration_glfixed_point(0, 1, q, &node_[q], &weight_[q], table);
-    gsl_integration_glfixed_table_free(table);
     reset();
 }
 
@@ -123,17 +132,20 @@ void ExactContact::reset() noexcept {
     std::fill(touching_.begin(), touching_.end(), 0);
     std::fill(known_zero_.begin(), known_zero_.end(), 0);
     row_ = idle_ = 0;
-    bridge_impulse_ = thread_impulse_ = supplied_ = dissipated_ = 0;
+    step_ = 1;
+    onward_ = false;
+    bridge_impulse_ = thread_impulse_ = 0;
+    energies_ = {};
     extremes_ = {};
 }
 
 Status ExactContact::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
-        readout_.write(out, row, y_.data(), u_.data(), osc_.rate, bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
+        readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(), bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
         if (out.energy) {
             out.energy[row] = stored();
-            out.energy[out.stride + row] = supplied_;
-            out.energy[2 * out.stride + row] = dissipated_;
+            out.energy[out.stride + row] = energies_.supplied;
+            out.energy[2 * out.stride + row] = energies_.dissipated;
         }
         if (!interval(out)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
         ++row_;
@@ -142,241 +154,290 @@ Status ExactContact::advance(const Block& out) noexcept {
 }
 
 bool ExactContact::interval(const Block& out) noexcept {
-    bridge_impulse_ = thread_impulse_ = supplied_ = dissipated_ = 0;
+    bridge_impulse_ = thread_impulse_ = 0;
+    energies_ = {};
     double from = interval_, to = interval_;  // of the pluck within this interval
     if (!pluck_.empty()) {
         const double start = pluck_[0].start - row_ / tap_rate_;
-        from = std::clamp(start * osc_.rate, 0.0, interval_);
-        to = std::clamp((start + pluck_[0].duration) * osc_.rate, 0.0, interval_);
+        from = std::clamp(start / window_.seconds(), 0.0, interval_);
+        to = std::clamp((start + pluck_[0].duration) / window_.seconds(), 0.0, interval_);
     }
     return stretch(0, from, false, out) && stretch(from, to, true, out) && stretch(to, interval_, false, out);
 }
 
 bool ExactContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
-    for (double at = from; at < to;) {
-        const double left = to - at;
-        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / osc_.rate) : 0;
-        const double step = window(left, plucked, since_pluck, out.energy != nullptr);
-        if (!(step >= 0) || out.stopped()) return false;
-        idle_ = step > 1e-15 * interval_ ? 0 : idle_ + 1;
-        if (idle_ > 1000) return false;
-        at = step == left ? to : at + step;
+    if (!(to > from)) return true;
+    const double longest = plucked ? std::min(1.0, pluck_window(pluck_[0]) / window_.seconds()) : 1;
+    const long count = static_cast<long>(std::ceil((to - from) / longest - 1e-12));
+    for (long i = 0; i < count; ++i) {
+        const double at = from + (to - from) * i / count;
+        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds()) : 0;
+        if (!window((to - from) / count, plucked, since_pluck, out.energy != nullptr) || out.stopped()) return false;
     }
     return true;
 }
 
-double ExactContact::window(double left, bool plucked, double since_pluck, bool probe) noexcept {
-    double longest = window_ * reach_of_window / springs_.growth(touching_.data());
-    if (plucked) longest = std::min(longest, window_ * pluck_window(pluck_[0]) * osc_.rate);
-    longest = left / std::ceil(left / longest);
-    const int p_terms = terms_for(longest, truncation, longest_series);
-    series(osc_, y_.data(), u_.data(), springs_.weights.data(), springs_.points, p_terms, p_.data(), longest_series, reach_.data(),
-           scratch_.data());
-    const double z = resolve(longest, plucked, since_pluck, p_terms);
-    if (!(z > 0)) return -1;
-
-    double end = 1;
-    int first = -1;
-    for (int a = 0; a < springs_.contacts; ++a) {
-        const double tolerance = bound(a, z, p_terms, growth_);
-        extremes_.tolerance = std::max(extremes_.tolerance, 2 * tolerance);
-        const double exit = first_negative(gap_.data() + a * longest_series, terms_, tolerance);
-        if (exit <= end) end = exit, first = a;
-    }
-    for (int a = 0; a < springs_.contacts; ++a)
-        if (touching_[a]) measure(a, end, a == first);
-
-    if (probe) dissipate(end, z, p_terms, plucked);
-    fly_to(end, z, p_terms, plucked, y_.data(), u_.data(), impulse_.data());
-    for (int a = 0; a < springs_.contacts; ++a) bridge_impulse_ += impulse_[a];
-    if (springs_.points > springs_.contacts) thread_impulse_ += impulse_[springs_.contacts];
+bool ExactContact::window(double end, bool plucked, double since_pluck, bool probe) noexcept {
+    MacroWindow& w = window_;
+    w.open(y_.data(), u_.data(), plucked, since_pluck);
     ++extremes_.windows;
-    std::fill(known_zero_.begin(), known_zero_.end(), 0);
-    if (first >= 0) {
-        touching_[first] = !touching_[first];
-        known_zero_[first] = 1;
+    for (int a = 0; a < w.contacts; ++a) {
+        std::copy_n(w.free_motion(a), w.size, at(r_, a));
+        if (known_zero_[a]) at(r_, a)[0] = 0;
+    }
+    extremes_.tolerance = std::max(extremes_.tolerance, 2 * (w.truncation() + w.rounding()));
+    std::fill(moments_.begin(), moments_.end(), 0.0);
+    for (double now = 0; now < end;) {
+        const double left = end - now, step = phase(now, left, probe);
+        if (!(step >= 0)) return false;
+        idle_ = step > 1e-15 ? 0 : idle_ + 1;
+        if (idle_ > 1000) return false;
+        now = step == left ? end : now + step;
+    }
+    w.state_at(end, moments_.data(), y_.data(), u_.data(), y_.data(), u_.data());
+    for (int a = 0; a < w.contacts; ++a) bridge_impulse_ += at(moments_, a)[0] * w.seconds();
+    thread_impulse_ += w.thread_impulse();
+    return std::isfinite(y_[0]);
+}
+
+void ExactContact::settle() noexcept {
+    const MacroWindow& w = window_;
+    for (int a = 0; a < w.contacts; ++a) {
+        const double* r = at(r_, a);
+        const double* leading = std::find_if(r, r + 2, [](double c) { return c != 0; });
+        double sign = leading == r + 2 ? 0 : *leading;
+        if (sign == 0) {  // it lies on the surface, at rest: what pulls there
+            sign = r[2];
+            for (int b = 0; b < w.contacts; ++b)
+                if (at(r_, b)[0] < 0) sign += w.kernel(a, b)[1] * law_[b].force(-at(r_, b)[0], at(r_, b)[1] / w.seconds());
+        }
+        if (sign == 0) continue;
+        if (touching_[a] == (sign < 0)) continue;
+        touching_[a] = sign < 0;
         ++extremes_.events;
     }
-    return end == 1 && z == left ? left : end * z;
+    touched_.clear();
+    unsigned bits = 0;
+    for (int a = 0; a < w.contacts; ++a)
+        if (touching_[a]) touched_.push_back(a), bits |= a < most_sets_of ? 1u << a : 0;
+    set_ = !touched_.empty() && !sets_.empty() && sets_[bits] ? &*sets_[bits] : nullptr;
 }
 
-// The series of all points over a window no longer than `longest`, contacts that are on the wrong side at its start put right. Its length.
-double ExactContact::resolve(double longest, bool plucked, double since_pluck, int p_terms) noexcept {
-    const Springs& s = springs_;
-    for (int tries = 0; tries <= 4 * s.contacts; ++tries) {
-        growth_ = s.growth(touching_.data());
-        const double z = std::min(longest, window_ * reach_of_window / growth_);
-        terms_ = terms_for(growth_ * z, truncation, longest_series);
-        double power = 1;
-        for (int n = 0; n < p_terms; ++n, power *= z)
-            for (int a = 0; a < s.points; ++a) scaled_[a * longest_series + n] = p_[a * longest_series + n] * power;
-        for (int a = 0; a < s.contacts; ++a)
-            if (known_zero_[a]) scaled_[a * longest_series] = s.height[a];
-        if (!pluck_.empty()) {
-            double* f = force_.data() + s.points * longest_series;
-            if (plucked) {
-                pluck_series(pluck_[0], since_pluck, z / osc_.rate, terms_, f);
-                for (int n = 0; n < terms_; ++n) f[n] /= inverse_factorial[n];
-            } else std::fill_n(f, longest_series, 0.0);
-        }
-        s.solve(touching_.data(), z, scaled_.data(), p_terms, terms_, displacement_.data(), force_.data());
-        bool settled = true;
-        for (int a = 0; a < s.contacts; ++a) {  // the side the string is on now: positive until the next event
-            double* gap = gap_.data() + a * longest_series;
-            const double* y = displacement_.data() + a * longest_series;
-            for (int n = 0; n < terms_; ++n) gap[n] = (touching_[a] ? -1 : 1) * (y[n] - (n == 0 ? s.height[a] : 0)) * inverse_factorial[n];
-            const double* leading = std::find_if(gap, gap + terms_, [](double c) { return c != 0; });
-            if (leading == gap + terms_ || *leading > 0) continue;
-            if (!(*leading < 0)) return -1;  // not a number
-            touching_[a] = !touching_[a];
-            ++extremes_.events;
-            settled = false;
-        }
-        if (settled) return z;
-    }
-    idle_ = 1;
-    return -1;
+Gap ExactContact::gap(int a, int terms) const noexcept {
+    const int pairs = set_ ? set_->pairs() : 0;
+    return {touching_[a] ? -1.0 : 1.0,
+            path_.data() + static_cast<long>(a) * window_.stride,
+            terms,
+            window_.reach,
+            amplitude_.data() + a * pairs,
+            set_ ? set_->rates() : nullptr,
+            pairs};
 }
 
-// How far a gap may be from its series: modes and kernel cut after p_terms, the points' own series after terms_, rounding.
-double ExactContact::bound(int a, double z, int p_terms, double growth) const noexcept {
-    const Springs& s = springs_;
-    double largest = 0, reach = reach_[a] + std::abs(s.height[a]) + s.pluck_reach;
-    for (int b = 0; b < s.points; ++b) {
-        const double* y = displacement_.data() + b * longest_series;
-        double scale = 1, force = 0;
-        for (int n = 0; n < terms_; ++n, scale *= growth * z) {
-            largest = std::max(largest, std::abs(y[n] - (n == 0 ? s.height[b] : 0)) / scale);  // C of springs.hpp
-            force += std::abs(force_[b * longest_series + n]) * inverse_factorial[n];
-        }
-        reach = std::max(reach, reach_[b] + s.pluck_reach);
-        if (b >= s.contacts || touching_[b]) reach += std::abs(s.h(a, b)[1]) * force * z;
+int ExactContact::next_crossing(double& end, int terms) noexcept {
+    int first = -1;
+    for (int a = 0; a < window_.contacts; ++a) {
+        Gap g = gap(a, terms);
+        if (collocated_) g.growth = HUGE_VAL;  // its polynomial is as fast as the contact
+        const double crossing = first_crossing(g, end, window_.rounding());
+        if (crossing <= end) end = crossing, first = a;
     }
-    const double beyond = series_tail(growth * z, terms_) / terms_;
-    return largest * beyond + 10 * std::exp(growth * z) * series_tail(z, p_terms) * reach + rounding * reach;
+    return first;
+}
+
+double ExactContact::phase(double now, double left, bool probe) noexcept {
+    MacroWindow& w = window_;
+    settle();
+    collocated_ = !touched_.empty() && !set_;
+    std::fill(known_zero_.begin(), known_zero_.end(), 0);
+    double end = left;
+    int crossed = -1, pairs = 0;
+    if (touched_.empty()) {
+        std::copy(r_.begin(), r_.end(), path_.begin());
+        crossed = next_crossing(end, w.size);
+    } else if (set_) {
+        pairs = set_->pairs();
+        set_->solve(r_.data(), path_.data(), amplitude_.data());
+        crossed = next_crossing(end, w.size);
+    } else {
+        end = collocated(left, crossed);
+        if (!(end >= 0)) return -1;
+    }
+    onward_ = collocated_;
+    for (int a : touched_) measure(a, end, a == crossed);
+
+    count_ = 2;  // moments that are not negligible: (reach x step)^i/i!
+    for (double x = w.reach * end; count_ < w.terms && x > negligible; x *= w.reach * end / count_) ++count_;
+    const auto moments_until = [&](double until) {
+        for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
+            if (set_) set_->moments(i, path_.data(), amplitude_.data(), until, count_, at(moment_, i));
+            else collocation_.moments(i, until, count_, at(moment_, i));
+    };
+    if (probe && end > 0) {
+        double fastest = w.reach;
+        for (int k = 0; k < pairs; ++k) fastest = std::max(fastest, std::abs(set_->rates()[k]));
+        const int pieces = static_cast<int>(std::ceil(end * fastest / longest_reach));
+        const auto all_moments = [&](double when,
+                                     double* M) {  // those of the phases before, seen from an earlier instant, and this phase's
+            double earlier[3 * most_terms];
+            std::fill_n(earlier, w.size, 0.0);
+            powers(when - now - left, w.size, earlier + w.size);
+            std::fill_n(M, static_cast<long>(w.contacts) * w.stride, 0.0);
+            for (int a = 0; a < w.contacts; ++a)
+                w.sweep().combine(M + a * w.stride, w.size, at(moments_, a), w.terms, earlier + w.size, -1);
+            moments_until(when - now);
+            for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
+                for (int n = 0; n < count_; ++n) M[touched_[i] * w.stride + n] += at(moment_, i)[n];
+        };
+        for (int i = 0; i < pieces; ++i)
+            w.spend(now + end * i / pieces, now + end * (i + 1) / pieces, y_.data(), u_.data(), all_moments, energies_);
+        if (!touched_.empty() && !set_) energies_.dissipated += collocation_.dissipated();
+    }
+    moments_until(end);
+    move_on(end, left);
+    if (crossed >= 0) {
+        touching_[crossed] = !touching_[crossed];
+        at(r_, crossed)[0] = 0;
+        known_zero_[crossed] = 1;
+        ++extremes_.events;
+    }
+    return end;
+}
+
+// One collocation step, no longer than `left` and than the first crossing.
+double ExactContact::collocated(double left, int& crossed) noexcept {
+    const MacroWindow& w = window_;
+    using From = CollocatedContact::From;
+    const double allowed = 0.1 * tolerance_;
+    double d = std::min(left, step_);
+    for (int tries = 0;; ++tries) {
+        if (tries > 60) return -1;
+        const double error = collocation_.step(r_.data(), touched_, d,
+                                               tries > 0 ? From::same_start
+                                               : onward_ ? From::last_end
+                                                         : From::elsewhere);
+        ++extremes_.steps;
+        const double fits = std::pow(allowed / std::max(error, 1e-30), 0.1);  // a smooth force errs by d^12, near its onset by less
+        if (error <= allowed) {
+            if (d >= step_ || fits < 1) step_ = std::min(1.0, d * std::clamp(0.8 * fits, 0.5, 4.0));
+            break;
+        }
+        d *= std::clamp(0.8 * fits, 0.1, 0.7);
+        step_ = d;
+    }
+    for (int i = 0; i < 6; ++i) {
+        collocation_.path(r_.data(), path_.data());
+        double end = d;
+        const int first = next_crossing(end, w.size);
+        if (first < 0) return d;
+        crossed = first;
+        if (std::abs(end - d) <= 4e-16) break;
+        d = end;
+        if (!(d > 0)) return 0;
+        if (collocation_.step(r_.data(), touched_, d, From::same_start) == HUGE_VAL) return -1;
+        ++extremes_.steps;
+    }
+    return d;
+}
+
+// The points' free motion and the moments, from the instant of this phase's start to `by` later, `left` before the window's end.
+void ExactContact::move_on(double by, double left) noexcept {
+    const MacroWindow& w = window_;
+    const auto combine = w.sweep().combine;
+    double e[3 * most_terms], later[3 * most_terms], shifted[most_terms];
+    powers(by, w.size, e);
+    for (int a = 0; a < w.contacts; ++a) {
+        double* r = at(r_, a);
+        std::fill_n(shifted, w.size, 0.0);
+        combine(shifted, w.size, e, w.terms, r, 1);
+        std::copy_n(shifted, w.size, r);
+    }
+    if (touched_.empty()) return;
+    std::fill_n(later, w.size, 0.0);  // a convolution reads the zeros before
+    powers(left - by, w.size, later + w.size);
+    for (std::size_t i = 0; i < touched_.size(); ++i) {
+        const double* m = at(moment_, static_cast<int>(i));
+        extremes_.tolerance = std::max(extremes_.tolerance, w.kernel_truncation() * std::abs(m[0]));
+        for (int a = 0; a < w.contacts; ++a) combine(at(r_, a), w.size, m, count_, w.kernel(a, touched_[i]), 1);
+        combine(at(moments_, touched_[i]), w.size, m, count_, later + w.size, -1);
+    }
 }
 
 void ExactContact::measure(int a, double end, bool leaves) noexcept {
-    const double* depth = gap_.data() + a * longest_series;  // touching: the gap's sign is turned, so this is the penetration
-    double deepest = std::max(depth[0], value(depth, terms_, end));
+    const Gap g = gap(a, window_.size);                             // touching: the gap's sign is turned, so this is the penetration
+    if (leaves && g.depth_bound(end) <= extremes_.deepest) return;  // nothing new, and contact forces are not negative in between
+    const auto start = g.at(0), last = g.at(end);
+    double deepest = std::max(start.g, last.g);
     extremes_.smallest_force =
-        std::min(extremes_.smallest_force, springs_.k[a] * (leaves ? depth[0] : std::min(depth[0], value(depth, terms_, end))));
-    if (depth[1] > 0 && slope(depth, terms_, end) < 0) {
+        std::min(extremes_.smallest_force, law_[a].force(std::max(0.0, leaves ? start.g : std::min(start.g, last.g)), 0));
+    if (start.slope > 0 && last.slope < 0 && g.depth_bound(end) > extremes_.deepest) {
         double low = 0, high = end;
         for (int i = 0; i < 30; ++i) {
             const double middle = 0.5 * (low + high);
-            (slope(depth, terms_, middle) > 0 ? low : high) = middle;
+            (g.at(middle).slope > 0 ? low : high) = middle;
         }
-        deepest = std::max(deepest, value(depth, terms_, low));
+        deepest = std::max(deepest, g.at(low).g);
     }
     extremes_.deepest = std::max(extremes_.deepest, deepest);
 }
 
-void ExactContact::fly_to(double fraction, double z, int p_terms, bool plucked, double* y, double* u, double* impulse) noexcept {
-    const double t = fraction * z;
-    const int terms = std::min(p_terms, terms_for(t, truncation, longest_series));
-    int acting = 0;
-    for (int b = 0; b < springs_.forces; ++b) {
-        impulse[b] = 0;
-        if (b < springs_.contacts ? !touching_[b] : b >= springs_.points && !plucked) continue;
-        const double* F = force_.data() + b * longest_series;
-        double* m = moments_.data() + acting * longest_series;
-        std::fill_n(m, terms, 0.0);
-        double power = 1;
-        for (int j = 0; j < terms_ - 1; ++j, power *= fraction) {
-            const double f = F[j] * power;
-            const double* later = inverse_factorial.data() + j + 1;
-            for (int n = 0; n < terms; ++n) m[n] += f * later[n];
-        }
-        power = t;
-        for (int n = 0; n < terms; ++n, power *= t) m[n] *= power;  // int_0^t (t-s)^n/n! F(s) ds
-        impulse[b] = m[0] / osc_.rate;
-        acting_[acting++] = springs_.gains.data() + static_cast<long>(b) * osc_.padded;
-    }
-    fly(osc_, y_.data(), u_.data(), t, terms, acting_.data(), moments_.data(), acting, longest_series, y, u);
-}
-
-// Energy lost and supplied in the window, by quadrature of the state itself, not from the balance.
-void ExactContact::dissipate(double fraction, double z, int p_terms, bool plucked) noexcept {
-    const Springs& s = springs_;
-    for (int q = 0; q < nodes; ++q) {
-        fly_to(fraction * node_[q], z, p_terms, plucked, y_node_.data(), u_node_.data(), impulse_.data());
-        double loss = 0;
-        for (int i = 0; i < osc_.padded; ++i) loss += loss_[i] * u_node_[i] * u_node_[i];
-        if (s.points > s.contacts) {
-            const double u = point(s.contacts, u_node_.data());
-            loss += s.r[s.contacts] * u * u;  // r_c v^2 dt = r_c rate u^2 d(rate t)
-        }
-        dissipated_ += weight_[q] * fraction * z * loss;
-        if (!plucked) continue;
-        const double* F = force_.data() + s.points * longest_series;
-        const double* gain = s.gains.data() + static_cast<long>(s.points) * osc_.padded;
-        double Fe = 0, u = 0;
-        for (int n = terms_ - 2; n >= 0; --n) Fe = Fe * fraction * node_[q] + F[n] * inverse_factorial[n];
-        for (int i = 0; i < osc_.padded; ++i) u += gain[i] * u_node_[i];
-        supplied_ += weight_[q] * fraction * z * Fe * u * modes_.mass * osc_.rate * osc_.rate;
-    }
-}
-
-double ExactContact::point(int a, const double* state) const noexcept {
-    const double* g = springs_.weights.data() + static_cast<long>(a) * osc_.padded;
-    double sum = 0;
-    for (int i = 0; i < osc_.padded; ++i) sum += g[i] * state[i];
-    return sum;
-}
-
 double ExactContact::stored() const noexcept {
+    const Springs& s = window_.springs;
     double kinetic = 0, potential = 0;
-    for (int i = 0; i < osc_.padded; ++i) {
+    for (int i = 0; i < window_.osc.padded; ++i) {
         kinetic += u_[i] * u_[i];
         potential += stiffness_[i] * y_[i] * y_[i];
     }
-    potential += modes_.mass * osc_.rate * osc_.rate * kinetic;
-    for (int a = 0; a < springs_.points; ++a) {
-        const double eta = springs_.height[a] - point(a, y_.data());
-        if (a >= springs_.contacts || eta > 0) potential += springs_.k[a] * eta * eta;
+    double energy = 0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
+    for (int a = 0; a < s.points; ++a) {
+        const double* g = s.weights.data() + static_cast<long>(a) * window_.osc.padded;
+        double eta = s.height[a];
+        for (int i = 0; i < window_.osc.padded; ++i) eta -= g[i] * y_[i];
+        energy += a < s.contacts ? law_[a].potential(eta) : 0.5 * s.k[a] * eta * eta;
     }
-    return 0.5 * potential;
+    return energy;
 }
 
 std::vector<Fact> ExactContact::facts() const {
     return {{facts::events, extremes_.events},
-            {facts::contact_points, double(springs_.contacts)},
-            {facts::coupled_contact_points, double(springs_.contacts)},
+            {facts::contact_points, double(window_.contacts)},
+            {facts::coupled_contact_points, double(window_.contacts)},
             {facts::windows, extremes_.windows},
+            {facts::window_terms, double(window_.terms)},
+            {facts::contact_steps, extremes_.steps},
             {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
             {facts::deepest_penetration, extremes_.deepest},
             {facts::detection_tolerance, extremes_.tolerance}};
 }
 
-constexpr Option window_option{"window", "1", "factor above 0, 1 at most, on the time between two looks for an event"};
-constexpr Option options[] = {window_option, nodes_option};
+constexpr Option tolerance_option{"tolerance", "1e-10", "what a window and a step of contact may cut off, relative, between 0 and 1"};
+constexpr Option options[] = {tolerance_option, nodes_option};
 
 std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
-    const double window = number_option(settings, window_option);
-    if (!(window > 0 && window <= 1)) throw Refusal("option window: expected a factor above 0 and no larger than 1");
+    const double tolerance = number_option(settings, tolerance_option);
+    if (!(tolerance > 0 && tolerance < 1)) throw Refusal("option tolerance: expected a number between 0 and 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
-    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, window);
+    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance);
 }
 }  // namespace
 
-const Descriptor exact_contact = {.name = "exact_contact",
-                                  .source = "piecewise linear system of van Walstijn et al. 2016, eqs 1-22, exact between events",
-                                  .represents = Feature::bending_stiffness | Feature::damping |
-                                                Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
-                                                Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
-                                                Features(Feature::several_barriers) | Features(Feature::thread) |
-                                                Features(Feature::initial_shape) | Features(Feature::pluck),
-                                  .balance = Balance::to_tolerance,
-                                  .clock = Clock::continuous,
-                                  .make = made,
-                                  .options = options,
-                                  .approximates = points_for_a_profile,
-                                  .confirmation = [](const Scene&) {
-                                      return Confirmation{{{}, {{window_option.name, "0.5"}}}, {}};
-                                  }};
+const Descriptor exact_contact = {
+    .name = "exact_contact",
+    .source = "van Walstijn et al. 2016, eqs 1-22, and Issanchou et al. 2016, eq 24, exact between events",
+    .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
+                  Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck),
+    .balance = Balance::to_tolerance,
+    .clock = Clock::continuous,
+    .make = made,
+    .options = options,
+    .approximates = points_for_a_profile,
+    .confirmation = [](const Scene&) {
+        return Confirmation{{{}, {{tolerance_option.name, "1e-12"}}}, {}};
+    }};
 
 }  // namespace jvari

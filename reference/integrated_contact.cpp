@@ -68,14 +68,14 @@ private:
 IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes modes, double tap_rate, const Choice& choice)
     : modes_(std::move(modes)),
       equations_(modes_, s),
-      flight_(modes_, s),
+      flight_(modes_, s, 1 / tap_rate),
       integrator_(equations_, choice.integrator),
       readout_(scene, modes_),
       choice_(choice),
       tap_rate_(tap_rate),
-      interval_(flight_.osc.rate / tap_rate) {
+      interval_(flight_.window.osc.rate / tap_rate) {
     if (s.pluck) pluck_.push_back(*s.pluck);
-    start_ = flight_.osc.pad(initial_displacement(modes_, s));
+    start_ = flight_.window.osc.pad(initial_displacement(modes_, s));
     untouched_.assign(equations_.contacts + 1, 0);
     y_ = u_ = start_;
     reset();
@@ -100,11 +100,11 @@ void IntegratedContact::reset() noexcept {
 
 Status IntegratedContact::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
-        readout_.write(out, row, y_.data(), u_.data(), flight_.osc.rate, sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
+        readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate, sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
         if (out.energy) {
             out.energy[row] = stored();
-            out.energy[out.stride + row] = sums_.supplied;
-            out.energy[2 * out.stride + row] = sums_.dissipated;
+            out.energy[out.stride + row] = sums_.energies.supplied;
+            out.energy[2 * out.stride + row] = sums_.energies.dissipated;
         }
         if (!interval(out)) return {Outcome::not_converged, row_};
         ++row_;
@@ -117,8 +117,8 @@ bool IntegratedContact::interval(const Block& out) noexcept {
     double from = interval_, to = interval_;  // of the pluck within this interval
     if (!pluck_.empty()) {
         const double start = pluck_[0].start - row_ / tap_rate_;
-        from = std::clamp(start * flight_.osc.rate, 0.0, interval_);
-        to = std::clamp((start + pluck_[0].duration) * flight_.osc.rate, 0.0, interval_);
+        from = std::clamp(start * flight_.window.osc.rate, 0.0, interval_);
+        to = std::clamp((start + pluck_[0].duration) * flight_.window.osc.rate, 0.0, interval_);
     }
     return stretch(0, from, false, out) && stretch(from, to, true, out) && stretch(to, interval_, false, out);
 }
@@ -126,7 +126,7 @@ bool IntegratedContact::interval(const Block& out) noexcept {
 bool IntegratedContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
     for (double at = from; at < to;) {
         const double left = to - at;
-        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.osc.rate) : 0;
+        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.window.osc.rate) : 0;
         double step;
         if (exact_flight()) {
             const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(), u_.data(), sums_, out.energy != nullptr);
@@ -145,12 +145,12 @@ bool IntegratedContact::stretch(double from, double to, bool plucked, const Bloc
 double IntegratedContact::integrate(double left, bool plucked, double since_pluck, const Block& out) noexcept {
     if (!running_ || plucked != equations_.plucked) start(plucked, since_pluck);
     const double before = integrator_.time();
-    const auto stop = integrator_.advance(before + left / flight_.osc.rate, out);
+    const auto stop = integrator_.advance(before + left / flight_.window.osc.rate, out);
     if (stop == Integrator::Stop::failed) return -1;
     const double* z = integrator_.state();
     for (int i = 0; i < modes_.count(); ++i) {
         y_[i] = z[i] / modes_.omega0[i];
-        u_[i] = z[equations_.padded + i] / flight_.osc.rate;
+        u_[i] = z[equations_.padded + i] / flight_.window.osc.rate;
     }
     const double* sum = z + 2 * equations_.padded;
     double since[StringEquations::sums];
@@ -160,11 +160,11 @@ double IntegratedContact::integrate(double left, bool plucked, double since_pluc
     }
     sums_.bridge += since[StringEquations::bridge_impulse];
     sums_.thread += since[StringEquations::thread_impulse];
-    sums_.supplied += since[StringEquations::supplied];
-    sums_.dissipated += since[StringEquations::dissipated];
+    sums_.energies.supplied += since[StringEquations::supplied];
+    sums_.energies.dissipated += since[StringEquations::dissipated];
     if (stop == Integrator::Stop::reached) return left;
     toggle(integrator_.crossed());
-    return std::min((integrator_.time() - before) * flight_.osc.rate, left);
+    return std::min((integrator_.time() - before) * flight_.window.osc.rate, left);
 }
 
 void IntegratedContact::toggle(int contact) noexcept {
@@ -180,7 +180,7 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
     std::fill_n(z, equations_.size(), 0.0);
     for (int i = 0; i < modes_.count(); ++i) {
         z[i] = modes_.omega0[i] * y_[i];
-        z[equations_.padded + i] = flight_.osc.rate * u_[i];
+        z[equations_.padded + i] = flight_.window.osc.rate * u_[i];
     }
     std::fill(std::begin(seen_), std::end(seen_), 0.0);
     equations_.plucked = plucked;
@@ -191,18 +191,18 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
 }
 
 double IntegratedContact::pace() noexcept {
-    return std::max(flight_.springs.growth(untouched_.data()) * flight_.osc.rate, equations_.pace(integrator_.state()));
+    return std::max(flight_.window.springs.growth(untouched_.data()) * flight_.window.osc.rate, equations_.pace(integrator_.state()));
 }
 
 double IntegratedContact::stored() const noexcept {
     double kinetic = 0, energy = 0;
     for (int i = 0; i < modes_.count(); ++i) {
-        const double v = flight_.osc.rate * u_[i], p = modes_.omega0[i] * y_[i];
+        const double v = flight_.window.osc.rate * u_[i], p = modes_.omega0[i] * y_[i];
         kinetic += v * v + p * p;
     }
     energy = 0.5 * modes_.mass * kinetic;
     for (int a = 0; a < equations_.points; ++a) {
-        const double* g = flight_.springs.weights.data() + static_cast<long>(a) * flight_.osc.padded;
+        const double* g = flight_.window.springs.weights.data() + static_cast<long>(a) * flight_.window.osc.padded;
         double y = 0;
         for (int i = 0; i < modes_.count(); ++i) y += g[i] * y_[i];
         energy += equations_.potential(a, y);

@@ -13,6 +13,8 @@
 
 namespace jvari {
 
+constexpr int longest_series = 56;  // coefficients of any series here
+
 struct Oscillators {
     explicit Oscillators(const Modes&);
 

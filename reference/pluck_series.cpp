@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/bernstein.hpp"
+#include "reference/oscillators.hpp"
 
 namespace jvari {
 

@@ -10,7 +10,6 @@
 
 #include <vector>
 
-#include "reference/bernstein.hpp"
 #include "reference/oscillators.hpp"
 
 namespace jvari {

@@ -51,7 +51,9 @@ struct FactName {
     FACT(length_in_filter, "m", "length of string that the filter at the peg stands for")                                              \
     FACT(taps_between_nodes, "", "taps read between two nodes by linear interpolation")                                                \
     FACT(events, "", "contacts made and lost")                                                                                         \
-    FACT(windows, "", "windows of exact motion between looks for an event")                                                            \
+    FACT(windows, "", "windows between two looks at the modes")                                                                        \
+    FACT(window_terms, "", "derivatives that a window keeps")                                                                          \
+    FACT(contact_steps, "", "steps of contact by collocation")                                                                         \
     FACT(detection_tolerance, "m", "penetration that may pass unseen")                                                                 \
     FACT(integrator_steps, "", "steps of the integrator")                                                                              \
     FACT(slope_evaluations, "", "evaluations of the equations' right side")                                                            \

@@ -8,11 +8,12 @@
 #include <numbers>
 #include <random>
 
-#include "reference/bernstein.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/run.hpp"
+#include "tests/bernstein.hpp"
+#include "tests/stepwise_contact.hpp"
 
 namespace jvari {
 namespace {
@@ -55,10 +56,10 @@ Scene few_modes() {
     return scene;
 }
 
-Settings settings(int modes, const char* window = "1") {
+Settings settings(int modes, const char* tolerance = "1e-12") {
     Settings s;
     s.modes = modes;
-    s.options = {{"window", window}};
+    s.options = {{"tolerance", tolerance}};
     return s;
 }
 
@@ -293,7 +294,7 @@ TEST(ExactContact, ABarrierNeverReachedLeavesTheClosedForm) {
         const jvari::Run r = run(exact_contact, scene, settings(M));
         Settings plain;
         plain.modes = M;
-        const jvari::Run want = run(exact_linear, free, plain), open = run(exact_contact, free, plain);
+        const jvari::Run want = run(exact_linear, free, plain), open = run(exact_contact, free, settings(M));
         EXPECT_EQ(fact(r, "events"), 0);
         for (int k : {0, 1, 4}) {
             EXPECT_LT(difference(r.trace.column(k), want.trace.column(k)), 2e-13) << laws << " tap " << k;
@@ -322,8 +323,9 @@ TEST(ExactContact, TheC3ReleaseHasTheDigitsOfATwoBasisProgramInLongDouble) {
         EXPECT_NEAR(r.trace.column(0)[d.row], d.nut, 1e-12) << d.row;
         EXPECT_NEAR(r.trace.column(2)[d.row], d.bridge, 2e-11) << d.row;
     }
-    const jvari::Run half = run(exact_contact, c3(), settings(133, "0.5"));
-    for (int k = 0; k < 6; ++k) EXPECT_LT(difference(half.trace.column(k), r.trace.column(k)), 1e-11) << k;
+    const jvari::Run usual = run(exact_contact, c3(), settings(133, "1e-10"));
+    EXPECT_EQ(fact(usual, "events"), 563);
+    for (int k = 0; k < 6; ++k) EXPECT_LT(difference(usual.trace.column(k), r.trace.column(k)), 1e-10) << k;
 }
 
 TEST(ExactContact, WithoutLossesTheEnergyStaysAndWithThemTheLedgerCloses) {
@@ -388,18 +390,33 @@ TEST(ExactContact, EqualBarriersOnASymmetricStringShareTheirEvents) {
     EXPECT_LT(difference(r.trace.column(0), r.trace.column(1)), 1e-13);
 }
 
-TEST(ExactContact, RefusesOtherLawsAndSettings) {
+TEST(ExactContact, RefusesSeveralStringsAndAToleranceThatIsNone) {
     Scene scene = c3();
-    scene.name = "other";
-    scene.strings[0].barriers = {LumpedBarrier{0.1, 0, 0, {1e5}, 1.3, 0.2}};
+    scene.name = "two";
+    scene.strings.push_back(scene.strings[0]);
     try {
         make_scheme(exact_contact, scene, settings(5));
         FAIL() << "made";
     } catch (const Refusal& refusal) {
-        EXPECT_STREQ(refusal.what(), "exact_contact cannot represent scene other: it has no contact exponent other than 1, contact loss");
+        EXPECT_STREQ(refusal.what(), "exact_contact cannot represent scene two: it has no several strings");
     }
     EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "0")), Refusal);
-    EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "2")), Refusal);
+    EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "1")), Refusal);
+}
+
+// The other algorithm: its windows end at every event and none of them splits contact. 1e5 N/m is soft against the window, 1e10 stiff.
+TEST(ExactContact, EveryStiffnessIsWhatStepwiseWindowsMakeOfIt) {
+    for (const double k : {1e4, 1e5, 1e6, 1e7, 1e8, 1e10}) {
+        Scene scene = c3();
+        scene.duration = 2e-3;
+        std::get<LumpedBarrier>(scene.strings[0].barriers[0]).stiffness.k = k;
+        Settings plain;
+        plain.modes = 80;
+        const jvari::Run r = run(exact_contact, scene, settings(80)), want = run(stepwise_contact, scene, plain);
+        EXPECT_EQ(fact(r, "events"), fact(want, "events")) << k;
+        for (int tap : {0, 1, 3, 4}) EXPECT_LT(difference(r.trace.column(tap), want.trace.column(tap)), 1e-11) << k << " tap " << tap;
+        EXPECT_LT(difference(r.trace.column(2), want.trace.column(2)), 1e-9) << k;
+    }
 }
 
 }  // namespace

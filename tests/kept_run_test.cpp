@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Settings settings{0, 44100, 20, {{"window", "0.5"}}};
+const Settings settings{0, 44100, 20, {{"tolerance", "1e-8"}}};
 
 Scene released() {
     return load_scene("tanpura_c3_release", {}, 5e-3);
@@ -156,7 +156,7 @@ TEST(KeptRun, HasAKeyOfEverythingThatItsNumbersDependOn) {
     other.tap_rate = 48000;
     EXPECT_NE(run_key(exact_contact, scene, other), key);
     other = settings;
-    other.options[0].second = "1";
+    other.options[0].second = "1e-9";
     EXPECT_NE(run_key(exact_contact, scene, other), key);
 }
 

@@ -36,8 +36,8 @@ only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin
 }
 only "toml++" 'toml' 'scenes/document'
 only GSL 'gsl/' 'scenes/|schemes/|reference/|analysis/'
-only Eigen 'Eigen/' 'schemes/|analysis/'
-only Highway 'hwy/' 'schemes/'
+only Eigen 'Eigen/' 'schemes/|reference/(touching_set|collocated_contact)|analysis/'
+only Highway 'hwy/' 'schemes/|reference/modal_sweep'
 only FFTW 'fftw' 'analysis/spectrum|schemes/spatial/sine_transform'
 only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'
 only CLI11 'CLI/' 'bench/command/'

@@ -1,4 +1,4 @@
-#include "reference/bernstein.hpp"
+#include "tests/bernstein.hpp"
 
 #include <algorithm>
 #include <cmath>

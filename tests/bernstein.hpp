@@ -3,9 +3,9 @@
 // be missed, except dips that stay above -bound.
 #pragma once
 
-namespace jvari {
+#include "reference/oscillators.hpp"
 
-constexpr int longest_series = 56;  // coefficients of any series here
+namespace jvari {
 
 double value(const double* c, int count, double x);  // sum c_n x^n
 double slope(const double* c, int count, double x);  // sum n c_n x^(n-1)

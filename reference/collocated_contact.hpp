@@ -1,0 +1,58 @@
+// Contact of any law over one step of a window, by collocation at Gauss-Legendre nodes (Hairer, Norsett & Wanner, section II.7): the forces
+// are polynomials, and the points' motion under them is exact,
+//
+//     p_a(c_i d) = r_a(c_i d) + sum_b sum_l h_ab^(l) d^(l+1) sum_j w^l_ij F_bj,    w^l_ij = int_0^c_i (c_i - x)^l/l! L_j(x) dx,
+//
+// so that a step touches no mode. F = k eta|eta|^(alpha-1) (1 - beta v), odd beyond the surface as in string_equations.hpp. Newton's
+// iteration solves for the node forces; the last Legendre coefficients say whether the step was short enough.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace jvari {
+
+class MacroWindow;
+
+struct ContactLaw {
+    double k, alpha, beta;  // [N/m^alpha], 1, [s/m]
+    double force(double eta, double v) const noexcept;
+    double potential(double eta) const noexcept;  // [J]
+};
+
+class CollocatedContact {
+public:
+    CollocatedContact(const MacroWindow&, std::span<const ContactLaw> per_contact);
+
+    // Over d from r[contact][stride]; the touching points are given. Its error relative to the speeds there, or infinity.
+    enum class From { elsewhere, last_end, same_start };  // where it starts, seen from the last step: its forces are a first guess
+    double step(const double* r, std::span<const int> touching, double d, From) noexcept;
+
+    // Of the last step: every contact's derivatives, the forces' moments, and the energy that contact losses took [J].
+    void path(const double* r, double* path) const noexcept;
+    void moments(int which, double until, int count, double* m) const noexcept;  // until no later than the step's end
+    double dissipated() const noexcept;
+
+private:
+    void derivatives(int which, double* f) const noexcept;  // of a force, at the step's start
+    static constexpr int nodes = 8, orders = 26;
+    const MacroWindow* window_;
+    std::vector<ContactLaw> law_;
+    std::array<double, nodes> node_, weight_, last_, before_last_;  // and the rows that give the last two Legendre coefficients
+    std::vector<double> within_;                                    // w^l_ij [order][j][i]
+    std::array<double, orders * nodes> whole_;                      // int_0^1 (1 - x)^i/i! L_j(x) dx
+    std::array<double, nodes * nodes> powers_;                      // node values -> coefficients of x^n
+
+    void guess(std::span<const int> touching, double d, From) noexcept;
+    void couple(double d) noexcept;
+
+    std::vector<int> touching_;
+    int count_ = 0;
+    double d_ = 0;  // 0: no step worth a guess
+    std::vector<double> force_, guess_, position_, speed_, base_, base_speed_, couple_, couple_speed_, matrix_, right_, stiffness_, drag_,
+        scratch_;
+    bool lossy_ = false;
+};
+
+}  // namespace jvari

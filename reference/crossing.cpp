@@ -1,0 +1,118 @@
+#include "reference/crossing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jvari {
+
+Gap::Values Gap::at(double u, int terms) const noexcept {
+    double s[3];
+    sweep_functions().evaluate(p, terms, u, s);
+    for (double& x : s) x *= sign;
+    Values v = {s[0], s[1], s[2], s[0], s[1], s[2], 0};
+    for (int k = 0; k < pairs; ++k) {
+        const double decay = std::exp(lambda[k].real() * u), phase = lambda[k].imag() * u;
+        const double c = decay * std::cos(phase), o = decay * std::sin(phase), lr = lambda[k].real(), li = lambda[k].imag();
+        const double br = sign * b[k].real(), bi = sign * b[k].imag();
+        const double re = br * c - bi * o, im = br * o + bi * c, re1 = lr * re - li * im, im1 = lr * im + li * re;
+        v.g += re;
+        v.slope += re1;
+        v.curvature += lr * re1 - li * im1;
+        v.amplitude += decay * std::sqrt(br * br + bi * bi);
+    }
+    return v;
+}
+
+int Gap::terms_until(double u) const noexcept {
+    const double z = growth * u;
+    return z < 0.04 ? std::min(size, 8) : z < 0.6 ? std::min(size, 16) : size;  // z^8/8! and z^16/16! are below 1e-15 and 1e-16
+}
+
+double Gap::depth_bound(double end) const noexcept {
+    double sum = 0, power = 1;
+    for (int n = 0; n < size; power *= end / ++n) sum += std::abs(p[n]) * power;
+    for (int k = 0; k < pairs; ++k) sum += std::abs(b[k]);
+    return sum;
+}
+
+namespace {
+// The largest d up to `cap` for which g + slope d + curvature d^2/2 - third d^3/6 >= 0 is certain.
+double safe_step(double g, double slope, double curvature, double third, double cap) {
+    const auto by = [&](double q) {  // g + slope d - q d^2/2 = 0
+        const double root = std::sqrt(slope * slope + 2 * q * g);
+        if (slope <= 0) return root - slope == 0 ? (q == 0 ? HUGE_VAL : 0.0) : 2 * g / (root - slope);
+        return q == 0 ? HUGE_VAL : (slope + root) / q;
+    };
+    if (!(g >= 0)) return 0;
+    const double bend = std::max(0.0, -curvature);
+    const double first = by(bend + third * cap / 3);
+    if (first >= cap) return cap;
+    double reach = std::min(cap, 4 * first);
+    return std::max(first, std::min(reach, by(bend + third * reach / 3)));
+}
+// first_crossing from `from` on, where the gap is `v`; where there is none, v becomes the gap at `end`.
+double crossing_within(const Gap& gap, double from, double end, double bound, Gap::Values& v) noexcept {
+    const int terms = gap.terms_until(end);
+    double of_slow[2];
+    sweep_functions().bound(gap.p, terms, end, of_slow);
+    double second = of_slow[0], third = of_slow[1];
+    for (int k = 0; k < gap.pairs; ++k) {
+        const double rate = std::sqrt(std::norm(gap.lambda[k])), size = std::sqrt(std::norm(gap.b[k]));
+        second += size * rate * rate;
+        third += size * rate * rate * rate;
+    }
+    const double least = std::max(1e-16 * end, second > 0 ? std::sqrt(bound / second) : end);  // over it no dip is deeper than bound/8
+    const auto crossing_between = [&](double low, double high, double x) {                     // Newton kept inside: g(low) >= 0 > g(high)
+        for (int i = 0; i < 100; ++i) {
+            const auto at = gap.at(x, terms);
+            (at.g < 0 ? high : low) = x;
+            double next = x - at.g / at.slope;
+            const bool inside = next > low && next < high;
+            if (!inside) next = 0.5 * (low + high);
+            if (inside && std::abs(next - x) <= 1e-9 * (high - low)) return next;  // quadratic: one more would be below rounding
+            if (std::abs(next - x) <= 1e-16 * end || next == low || next == high) return next;
+            x = next;
+        }
+        return x;
+    };
+    double u = from, before = from;
+    for (;;) {
+        if (v.g < -bound && u > from) return crossing_between(before, u, u);
+        if (u >= end) return 2;
+        const double left = end - u;
+        if (v.slope < 0 && v.g > 0) {  // no more than one crossing as far as the slope keeps its sign for certain
+            const double newton = v.g / -v.slope, span = std::min(2 * newton, left);
+            if ((std::max(0.0, v.curvature) + span * third) * span < -0.9 * v.slope) {
+                if (span == left) {
+                    const auto last = gap.at(end, terms);
+                    if (last.g >= 0) {
+                        v = last;
+                        return 2;
+                    }
+                }
+                return crossing_between(u, u + span, std::min(u + newton, end));
+            }
+        }
+        double step = safe_step(std::max(0.0, v.g), v.slope, v.curvature, third, left);
+        if (gap.pairs > 0) step = std::max(step, safe_step(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, of_slow[1], left));
+        before = u;
+        u = std::min(end, u + std::max(step, least));
+        v = gap.at(u, terms);
+    }
+}
+}  // namespace
+
+double first_crossing(const Gap& gap, double end, double bound) noexcept {
+    double fastest = 0;
+    for (int k = 0; k < gap.pairs; ++k) fastest = std::max(fastest, gap.lambda[k].imag());
+    Gap::Values v = gap.at(0, 8);
+    double from = 0;
+    for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {  // a stage has its own terms and bounds: early ones are cheap
+        if (to > 0.5 * end) to = end;
+        const double crossing = crossing_within(gap, from, to, bound, v);
+        if (crossing <= end || to == end) return crossing;
+        from = to;
+    }
+}
+
+}  // namespace jvari

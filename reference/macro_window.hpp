@@ -1,0 +1,101 @@
+// One window of a string under point forces: the modes are read once at its start and given the forces' moments once at its end.
+//
+// In between, the contact points' free motion is a short vector of derivatives and what a force does to it is a kernel of derivatives:
+//
+//     y_a(t) = s_a(t) + sum_b int_0^t h_ab(t - w) F_b(w) dw,      M_i(t) = int_0^t (t - w)^i/i! F(w) dw
+//
+// with t = 1 the full length of a window. Thread and pluck act inside s, h and the moments handed to the modes (van Walstijn et al. 2016,
+// eqs 5-22): the thread answers its own point's free motion by a convolution, and so a force at b by kappa_b * F. Derivatives are cut after
+// `terms`; how far a point can be from its series is bounded. Velocities u are displacements per window [m].
+// Leaves out: contact, which its users decide.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "reference/modal_sweep.hpp"
+#include "reference/oscillators.hpp"
+#include "reference/springs.hpp"
+
+namespace jvari {
+
+struct WindowChoice {
+    long per_row = 1;  // windows between two rows
+    int terms = 2;     // derivatives kept
+};
+// For a relative `tolerance` and a string whose fastest motion grows by e^reach between two rows. No window spans more than
+// longest_reach: beyond it more terms make the split of contact (touching_set.hpp) worse, not better.
+constexpr double longest_reach = 2.5;
+constexpr int most_terms = 24;
+WindowChoice choose_window(double tolerance, double reach);
+
+class MacroWindow {
+public:
+    // `interval` between rows [s]
+    MacroWindow(const Modes&, const String&, double interval, double tolerance);
+    MacroWindow(const Modes&, const String&, double interval, double tolerance, int windows, int terms);  // 0: chosen by the tolerance
+
+    Oscillators osc;
+    Springs springs;
+    int contacts, terms;
+    long per_row;
+    int size;       // terms in whole vectors
+    int stride;     // of rows of derivatives and moments: they are zero from `size` on, so that sums may run over
+    double length;  // of a full window [1/rate]
+    double reach;   // its growth: every derivative is at most so much larger than the one before, in the long run
+
+    double seconds() const { return length / osc.rate; }  // an impulse is M_0 times this
+    const double* kernel(int a, int b) const {
+        return &kernel_[(static_cast<long>(a) * contacts + b) * (stride + size) + size];
+    }                                                                                         // zeros before it, too
+    const double* free_motion(int a) const { return &free_[static_cast<long>(a) * stride]; }  // of the window that is open
+    double truncation() const { return truncation_; }                                         // how far it may be from the truth [m]
+    double rounding() const { return rounding_; }                                             // of a gap [m]
+    double kernel_truncation() const { return kernel_truncation_; }  // of a displacement, by an impulse M_0 of 1 [m]
+    const SweepFunctions& sweep() const { return *sweep_; }
+
+    void open(const double* y, const double* u, bool plucked, double since_pluck) noexcept;
+
+    // The modes at `at`, under contact forces of moments M[contact][stride]. The output may be the input of open().
+    void state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept;
+    double thread_impulse() const { return thread_impulse_; }  // until the instant of the last state_at [N s]
+
+    // Energies lost and supplied between two instants of the window, by quadrature; moments(at, M) gives the forces' moments.
+    struct Energies {
+        double supplied = 0, dissipated = 0;  // [J]
+    };
+    template <class Moments>
+    void spend(double from, double to, const double* y, const double* u, Moments&& moments, Energies& e) noexcept {
+        for (int q = 0; q < nodes; ++q) {
+            const double at = from + (to - from) * node_[q];
+            moments(at, node_moments_.data());
+            spend_at(at, (to - from) * weight_[q], y, u, e);
+        }
+    }
+
+private:
+    double largest_eigenvalue();
+    void make_kernel();
+    void free_flow(double at, std::vector<double>& e) const noexcept;
+    void spend_at(double at, double weight, const double* y, const double* u, Energies&) noexcept;
+    bool threaded() const { return springs.points > contacts; }
+
+    static constexpr int nodes = 8;  // Gauss-Legendre
+    const SweepFunctions* sweep_;
+    std::vector<Pluck> pluck_;  // none or one
+    std::vector<char> none_;
+    std::vector<int> sweep_terms_;
+    std::vector<double> a_, b_, gains_, loss_;  // in units of the window; loss 2 m sigma
+    double mass_, tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0;
+    bool plucked_ = false;
+    std::vector<double> kernel_, answer_, reply_, by_thread_, flow_, flow_at_;  // h_ab; kappa_b; F_c of p_c; h_ac; free motion's matrix
+    std::vector<double> p_, free_, force_, moments_, reach_, scratch_, node_moments_, y_node_, u_node_;
+    std::vector<double> ones_, zeros_;
+    std::vector<const double*> acting_, acting_moments_;
+    std::array<double, nodes> node_{}, weight_{};
+};
+
+void powers(double u, int count, double* e) noexcept;  // u^n/n!, n < count
+extern const std::vector<double> inverse_factorial;
+
+}  // namespace jvari

@@ -1,0 +1,48 @@
+// Linear contacts in touch, their stiff oscillation split off. With p the displacements of the contact points from their barriers,
+//
+//     p'' + H_1 K p + sum_{j >= 2} H_j K I^(j-1) p = r''      (I: integral from 0; r: the points' motion if the contacts let go at 0)
+//
+// has the solution p = p_s + Re sum_k beta_k v_k e^(lambda_k u): one fast pair per touching point, lambda and v from
+// (lambda^2 + sum_j H_j K lambda^(1-j)) v = 0, and a polynomial as slow as the string, p_s = G (r'' + Re sum_k beta_k q_k), with G the
+// inverse of the operator on truncated vectors of derivatives and q_k,n = sum_{j >= n+2} H_j K v_k lambda_k^(n+1-j). beta follows from
+// p(0) = r(0), p'(0) = r'(0). The series in G is asymptotic: see longest_reach. All of it is made once per set of touching points.
+// Leaves out: sets of which some direction is not stiff; splits() is false for them.
+#pragma once
+
+#include <complex>
+#include <span>
+#include <vector>
+
+namespace jvari {
+
+class MacroWindow;
+
+class TouchingSet {
+public:
+    TouchingSet(const MacroWindow&, std::span<const int> points, std::span<const double> stiffness);
+
+    bool splits() const { return pairs_ > 0; }
+    int pairs() const { return pairs_; }
+    const std::vector<int>& points() const { return points_; }
+    const std::complex<double>* rates() const { return rate_.data(); }
+
+    // From r[contact][stride], derivatives: the derivatives of every contact's slow part, path[contact][stride], and the amplitudes of its
+    // pairs, amplitude[contact][pairs].
+    void solve(const double* r, double* path, std::complex<double>* amplitude) noexcept;
+
+    // int_0^u (u - w)^i/i! F_b(w) dw, i < size, of the contact points()[which], right for i < count.
+    void moments(int which, const double* path, const std::complex<double>* amplitude, double u, int count, double* m) const noexcept;
+
+private:
+    const MacroWindow* window_;
+    std::vector<int> points_;
+    std::vector<double> k_;
+    int pairs_ = 0;
+    std::vector<std::complex<double>> rate_, shape_;  // [pair], [contact][pair]
+    std::vector<double> inverse_;                     // G [column: derivative][column: point][row: point][row: derivative]
+    std::vector<double> start_;                       // (p(0), p'(0)) -> beta [2 pairs][2 pairs]
+    std::vector<double> slow_;                        // what Re beta and -Im beta of a pair add to the slow part [contact][pair][2][size]
+    std::vector<double> beta_;                        // [pair][Re, -Im]
+};
+
+}  // namespace jvari

@@ -1,0 +1,103 @@
+// A window of the exact reference, part by part: its two ways through contact against one another, and the choice of its length.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "reference/collocated_contact.hpp"
+#include "reference/crossing.hpp"
+#include "reference/macro_window.hpp"
+#include "reference/touching_set.hpp"
+#include "tests/c3.hpp"
+
+namespace jvari {
+namespace {
+
+// The C3 string comes down on its bridge at 0.1 m/s at the start of a window, and stays there for `until`: how far the split of the contact
+// is from collocation in 1024 steps, by the impulse, relative.
+double split_against_steps(int windows, int terms, double until) {
+    const Scene scene = c3_release();
+    const String& s = scene.strings.front();
+    const Modes modes = modes_of(s, 133);
+    MacroWindow w(modes, s, 1 / 44100.0, 1e-12, windows, terms);
+    std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0);
+    w.open(y.data(), u.data(), false, 0);
+    std::vector<double> r(w.free_motion(0), w.free_motion(0) + w.stride), path(w.stride), m(w.stride);
+    r[0] = 0;
+    r[1] = -0.1 * w.seconds();
+    const int point[] = {0};
+    const double k[] = {4.39e8};
+    TouchingSet set(w, point, k);
+    EXPECT_TRUE(set.splits());
+    std::complex<double> amplitude[1];
+    set.solve(r.data(), path.data(), amplitude);
+    set.moments(0, path.data(), amplitude, until, terms, m.data());
+
+    const ContactLaw law[] = {{4.39e8, 1, 0}};
+    CollocatedContact steps(w, law);
+    std::vector<double> moved(w.stride), part(w.stride), e(3 * most_terms);
+    double impulse = 0;
+    constexpr int count = 1024;
+    for (int i = 0; i < count; ++i) {
+        EXPECT_LT(steps.step(r.data(), point, until / count, CollocatedContact::From::elsewhere), 1e-9);
+        steps.moments(0, until / count, terms, part.data());
+        impulse += part[0];
+        powers(until / count, w.size, e.data());
+        for (int n = 0; n < terms; ++n) {
+            moved[n] = 0;
+            for (int j = 0; n + j < terms; ++j) moved[n] += r[n + j] * e[j] + w.kernel(0, 0)[n + j] * part[j];
+        }
+        std::copy_n(moved.begin(), terms, r.begin());
+    }
+    return std::abs(m[0] - impulse) / std::abs(impulse);
+}
+
+TEST(MacroWindow, TheSplitOfStiffContactIsWhatSmallStepsMakeOfIt) {
+    EXPECT_LT(split_against_steps(2, 21, 0.1), 1e-12);
+    EXPECT_LT(split_against_steps(2, 21, 1), 1e-11);
+}
+
+// The series of the slow part is asymptotic: a window as long as a row does not reach with 24 terms what half a row does with 21.
+TEST(MacroWindow, MoreTermsDoNotMakeUpForALongerWindow) {
+    EXPECT_GT(split_against_steps(1, 24, 1), 10 * split_against_steps(2, 21, 1));
+}
+
+TEST(MacroWindow, IsNeverLongerThanTheSplitAllowsAndKeepsWhatTheToleranceNeeds) {
+    int before = 0;
+    for (const double tolerance : {1e-3, 1e-6, 1e-10, 1e-12}) {
+        const auto c = choose_window(tolerance, 4.78);
+        EXPECT_EQ(c.per_row, 2);
+        EXPECT_GT(c.terms, before);
+        before = c.terms;
+    }
+    for (const double reach : {0.01, 2.4, 2.6, 33.0, 1e5}) {
+        const auto c = choose_window(1e-12, reach);
+        EXPECT_LE(reach / c.per_row, longest_reach);
+        EXPECT_LE(c.terms, most_terms);
+    }
+}
+
+// Two pairs of frequencies near one another over a slow parabola: the first crossing of a sampled gap, and never later.
+TEST(FirstCrossing, FindsWhatDenseSamplingFindsAndNeverLater) {
+    int crossings = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        const double a = std::fmod(trial * 0.7548776662, 1.0), b = std::fmod(trial * 0.5698402910, 1.0);
+        double p[64] = {1.2 + a, -2 * b, -4 * a};
+        const std::complex<double> amplitude[2] = {{0.6 * b, 0.3}, {0.4 * a, -0.2}}, rate[2] = {{-0.5, 40 + 30 * a}, {-2, 95}};
+        const Gap gap{1, p, 24, 3, amplitude, rate, 2};
+        if (gap.at(0).g < 0) continue;
+        const double found = first_crossing(gap, 1, 1e-16);
+        double sampled = 2;
+        for (int i = 0; i <= 4000 && sampled == 2; ++i)
+            if (gap.at(i * 2.5e-4).g < 0) sampled = i * 2.5e-4;
+        EXPECT_LE(found, sampled + 1e-12) << trial;
+        if (found > 1) continue;
+        ++crossings;
+        EXPECT_NEAR(gap.at(found).g, 0, 1e-12) << trial;
+        EXPECT_LT(gap.at(found + 1e-7).g, 0) << trial;
+    }
+    EXPECT_GT(crossings, 50);
+}
+
+}  // namespace
+}  // namespace jvari
