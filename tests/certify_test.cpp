@@ -29,8 +29,8 @@ Scene short_scene(const std::string& name, double duration) {
     return scene;
 }
 
-KeptCertificate made(const Scene& scene, const CertifySettings& settings) {
-    KeptCertificate kept = planned_certificate(scene, settings);
+bench::trust::KeptCertificate made(const Scene& scene, const CertifySettings& settings) {
+    bench::trust::KeptCertificate kept = bench::trust::planned_certificate(scene, settings);
     kept.certificate = certify(scene, settings);
     return kept;
 }
@@ -39,16 +39,16 @@ KeptCertificate made(const Scene& scene, const CertifySettings& settings) {
 
 TEST(CertificateFile, ReadsBackToWhatItWasWrittenFrom) {
     const Scratch scratch;
-    const KeptCertificate kept = made(short_scene("tanpura_c3_release", 3e-3), {20, 44100, 8 * 44100.0, {}, {}});
+    const bench::trust::KeptCertificate kept = made(short_scene("tanpura_c3_release", 3e-3), {20, 44100, 8 * 44100.0, {}, {}});
     const fs::path path = scratch / "a.json";
-    write(path, json_of(kept));
-    write(cost_path(path), cost_json_of(kept));
+    write(path, bench::trust::json_of(kept));
+    write(bench::trust::cost_path(path), bench::trust::cost_json_of(kept));
     std::string why;
-    auto back = read_certificate(path, why);
+    auto back = bench::trust::read_certificate(path, why);
     ASSERT_TRUE(back) << why;
     EXPECT_EQ(json_of(*back), json_of(kept));
     EXPECT_TRUE(std::isnan(back->certificate.entries[0].wall_seconds));
-    read_costs(path, *back);
+    bench::trust::read_costs(path, *back);
     ASSERT_EQ(back->certificate.entries.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(back->certificate.entries[i].wall_seconds, kept.certificate.entries[i].wall_seconds);
     EXPECT_EQ(back->certificate.entries[4].estimate[1].back(), kept.certificate.entries[4].estimate[1].back());
@@ -57,7 +57,7 @@ TEST(CertificateFile, ReadsBackToWhatItWasWrittenFrom) {
 
 TEST(CertificateFile, KeepsTheTwoKindsOfNumbersApartAndRepeatsToTheLastDigit) {
     const Scene scene = short_scene("free_string", 5e-3);
-    const KeptCertificate first = made(scene, {10, 44100, 0, {}, {}}), second = made(scene, {10, 44100, 0, {}, {}});
+    const bench::trust::KeptCertificate first = made(scene, {10, 44100, 0, {}, {}}), second = made(scene, {10, 44100, 0, {}, {}});
     EXPECT_EQ(json_of(first), json_of(second));
     for (const char* clock : {"wall", "date", "cpu", "commit"}) {
         EXPECT_EQ(json_of(first).find(clock), std::string::npos) << clock;
@@ -69,8 +69,8 @@ TEST(CertificateFile, KeepsTheTwoKindsOfNumbersApartAndRepeatsToTheLastDigit) {
 TEST(CertificateFile, HasAKeyOfAllThatItDependsOnAndAHashOfTheSceneWhateverItsDuration) {
     const Scene scene = short_scene("free_string", 5e-3);
     const CertifySettings settings{10, 44100, 0, {}, {}};
-    const KeptCertificate kept = planned_certificate(scene, settings);
-    const auto differs = [&](const Scene& s, const CertifySettings& c) { return planned_certificate(s, c).key != kept.key; };
+    const bench::trust::KeptCertificate kept = bench::trust::planned_certificate(scene, settings);
+    const auto differs = [&](const Scene& s, const CertifySettings& c) { return bench::trust::planned_certificate(s, c).key != kept.key; };
     EXPECT_FALSE(differs(scene, settings));
     EXPECT_TRUE(differs(short_scene("free_string", 6e-3), settings));
     EXPECT_TRUE(differs(scene, {11, 44100, 0, {}, {}}));
@@ -79,19 +79,19 @@ TEST(CertificateFile, HasAKeyOfAllThatItDependsOnAndAHashOfTheSceneWhateverItsDu
     Scene tighter = scene;
     tighter.strings[0].tension *= 1.01;
     EXPECT_TRUE(differs(tighter, settings));
-    EXPECT_NE(timeless_hash(tighter), timeless_hash(scene));
-    EXPECT_EQ(timeless_hash(short_scene("free_string", 6e-3)), kept.scene_hash);
+    EXPECT_NE(bench::trust::timeless_hash(tighter), bench::trust::timeless_hash(scene));
+    EXPECT_EQ(bench::trust::timeless_hash(short_scene("free_string", 6e-3)), kept.scene_hash);
 }
 
 TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherVersionIsNotBelieved) {
     const Scratch scratch;
     const fs::path path = scratch / "a.json";
-    const std::string text = json_of(made(short_scene("free_string", 5e-3), {10, 44100, 0, {}, {}}));
+    const std::string text = bench::trust::json_of(made(short_scene("free_string", 5e-3), {10, 44100, 0, {}, {}}));
     std::string why;
-    EXPECT_FALSE(read_certificate(path, why));
+    EXPECT_FALSE(bench::trust::read_certificate(path, why));
     const auto refused = [&](const std::string& content) {
         write(path, content);
-        return !read_certificate(path, why);
+        return !bench::trust::read_certificate(path, why);
     };
     EXPECT_FALSE(refused(text)) << why;
     EXPECT_TRUE(refused(text.substr(0, text.size() / 2)));
@@ -106,7 +106,7 @@ TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherVersionIsNotBelieved) {
         Json j = Json::parse(text);
         j.erase("checksum");
         j[key] = value;
-        return sealed(j.dump());
+        return bench::store::sealed(j.dump());
     };
     EXPECT_FALSE(refused(with_checksum("scene", "another"))) << why;
     EXPECT_TRUE(refused(with_checksum("program", "jvari 0.0.0")));
@@ -118,7 +118,7 @@ TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherVersionIsNotBelieved) {
     const std::string deep = "{\"x\": " + std::string(300000, '[') + std::string(300000, ']');
     EXPECT_TRUE(refused(deep + ", \"checksum\": \"0\"}"));
     EXPECT_NE(why.find("checksum"), std::string::npos) << why;
-    EXPECT_TRUE(refused(sealed(deep + "}")));
+    EXPECT_TRUE(refused(bench::store::sealed(deep + "}")));
     EXPECT_NE(why.find("deeper"), std::string::npos) << why;
     EXPECT_TRUE(refused(std::string(300000, '[')));
 }
@@ -137,7 +137,7 @@ struct Verb {  // jvari certify of a small scene, its file in a folder of its ow
         Json j = Json::parse(content(file));
         j.erase("checksum");
         j["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] = 0.125;
-        write(file, sealed(j.dump()));
+        write(file, bench::store::sealed(j.dump()));
     }
     bool altered() const { return Json::parse(content(file))["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] == 0.125; }
     std::string duration = "0.02";
@@ -176,7 +176,7 @@ TEST(CertifyCommand, MakesABrokenOrForeignFileAgainAndSaysSo) {
     }
     verb.duration = "0.01";
     EXPECT_EQ(verb.run("--oversampled-rate 705600")["cached"], false);
-    fs::remove(cost_path(verb.file));
+    fs::remove(bench::trust::cost_path(verb.file));
     EXPECT_TRUE(verb.run("--oversampled-rate 705600")["wall_seconds"][0].is_null());  // read, without its costs
 }
 
@@ -233,8 +233,8 @@ Agreement all(double x) {
     return a;
 }
 
-KeptCertificate by_hand() {  // one tap, 0.1 s; pair (i, j) differs by 10^-(i + 3 j) times 1, 2, 3 ... in the windows
-    KeptCertificate kept;
+bench::trust::KeptCertificate by_hand() {  // one tap, 0.1 s; pair (i, j) differs by 10^-(i + 3 j) times 1, 2, 3 ... in the windows
+    bench::trust::KeptCertificate kept;
     Certificate& c = kept.certificate;
     c.taps = {"nut"};
     c.duration = 0.1;
@@ -252,34 +252,34 @@ KeptCertificate by_hand() {  // one tap, 0.1 s; pair (i, j) differs by 10^-(i + 
 }
 
 TEST(Trust, IsTheDifferenceFromTheNextReferenceInOrderOfAuthority) {
-    const KeptCertificate kept = by_hand();
-    const Trust one = trust_of(kept, "one", {}, 0.1);
+    const bench::trust::KeptCertificate kept = by_hand();
+    const bench::trust::Trust one = bench::trust::trust_of(kept, "one", {}, 0.1);
     EXPECT_EQ(one.against, "two rtol=1e-12");
     EXPECT_DOUBLE_EQ(one.at(0, 0), 1e-2);      // entries 2 and 0, 10 ms
     EXPECT_DOUBLE_EQ(one.at(0, 1), 3 * 1e-2);  // 50 ms is the third window
     EXPECT_DOUBLE_EQ(one.at(0, 2), 7 * 1e-2);  // the whole
-    const Trust two = trust_of(kept, "two", {}, 0.1);
+    const bench::trust::Trust two = bench::trust::trust_of(kept, "two", {}, 0.1);
     EXPECT_EQ(two.against, "one");
     EXPECT_DOUBLE_EQ(two.at(0, 0), 1e-3);  // entries 3 and 0
-    const Trust coarse = trust_of(kept, "one", {{"window", "0.5"}}, 0.1);
+    const bench::trust::Trust coarse = bench::trust::trust_of(kept, "one", {{"window", "0.5"}}, 0.1);
     EXPECT_DOUBLE_EQ(coarse.at(0, 0), 1e-5);  // entries 2 and 1
     EXPECT_FALSE(trust_of(kept, "two", {{"rtol", "1e-3"}}, 0.1).any());
     EXPECT_FALSE(trust_of(kept, "four", {}, 0.1).any());
 }
 
 TEST(Trust, OfAReferenceThatStandsAloneIsItsLargestDifferenceFromItself) {
-    KeptCertificate kept = by_hand();
+    bench::trust::KeptCertificate kept = by_hand();
     for (auto& e : kept.certificate.entries)
         if (e.sample_rate == 0) e.reference = "two";
     kept.certificate.entries[0].options = {{"method", "adams"}};
-    const Trust t = trust_of(kept, "two", {}, 0.1);
+    const bench::trust::Trust t = bench::trust::trust_of(kept, "two", {}, 0.1);
     EXPECT_DOUBLE_EQ(t.at(0, 0), 1e-3);  // of 1e-3, 1e-6, 1e-9; the oversampled scheme is left aside
     EXPECT_EQ(t.against, "two method=adams, two window=0.5, two rtol=1e-12");
 }
 
 TEST(Trust, ReachesAsFarAsTheCertificateAndTakesTheShortestWindowThatHolds) {
-    KeptCertificate kept = by_hand();
-    const auto at = [&kept](double until, std::size_t window) { return trust_of(kept, "one", {}, until).at(0, window); };
+    bench::trust::KeptCertificate kept = by_hand();
+    const auto at = [&kept](double until, std::size_t window) { return bench::trust::trust_of(kept, "one", {}, until).at(0, window); };
     EXPECT_DOUBLE_EQ(at(0.015, 2), 2e-2);                             // the window of 20 ms
     EXPECT_TRUE(std::isnan(at(0.015, 1)));                            // there are no 50 ms to compare
     EXPECT_DOUBLE_EQ(at(0.06, 2), 4e-2);                              // 100 ms
@@ -295,9 +295,9 @@ TEST(CommittedCertificates, ThereIsOneForEverySceneOfTheLibraryWithAllThatRepres
     for (const std::string& name : library_scenes()) {
         const Scene scene = read_scene(name);
         std::string why;
-        const auto kept = read_certificate(fs::path(JVARI_COMMITTED_CERTIFICATES) / (name + ".json"), why);
+        const auto kept = bench::trust::read_certificate(fs::path(JVARI_COMMITTED_CERTIFICATES) / (name + ".json"), why);
         ASSERT_TRUE(kept) << name << ": " << why;
-        EXPECT_EQ(kept->scene_hash, timeless_hash(scene)) << name;
+        EXPECT_EQ(kept->scene_hash, bench::trust::timeless_hash(scene)) << name;
         EXPECT_EQ(kept->certificate.modes, modes_for(scene.strings[0], {})) << name;
         for (const auto& planned : certificate_plan(scene).entries)
             EXPECT_TRUE(std::any_of(kept->certificate.entries.begin(), kept->certificate.entries.end(),
@@ -315,10 +315,10 @@ TEST(CommittedCertificates, ThereIsOneForEverySceneOfTheLibraryWithAllThatRepres
 
 struct Shelf : Scratch {  // a library of certificates with one in it
     std::string environment = "JVARI_CERTIFICATES=" + path.string();
-    void put(KeptCertificate kept, double figure) {
+    void put(bench::trust::KeptCertificate kept, double figure) {
         for (auto& p : kept.certificate.pairs)
             for (Agreement& tap : p.taps) tap.relative_l2.fill(figure);
-        write(path / (kept.certificate.scene + ".json"), json_of(kept));
+        write(path / (kept.certificate.scene + ".json"), bench::trust::json_of(kept));
     }
 };
 
@@ -327,18 +327,18 @@ const std::string small_compare =
 
 TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateTogether) {
     Shelf shelf;
-    const KeptCertificate kept = made(short_scene("free_string", 0.07), {10, 44100, 0, {}, {}});
+    const bench::trust::KeptCertificate kept = made(short_scene("free_string", 0.07), {10, 44100, 0, {}, {}});
     shelf.put(kept, 0.25);
     const std::string out = shelf / "out";
     const Outcome o = jvari(shelf, small_compare + "--out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
-    const double measured = read_csv(content(out + "/cells.csv")).number(0, "error_l2_50ms");
+    const double measured = bench::store::read_csv(content(out + "/cells.csv")).number(0, "error_l2_50ms");
     EXPECT_NE(o.out.find(fmt::format("\u2264{:.2e}", measured + 0.25)), std::string::npos) << o.out;
     EXPECT_NE(o.out.find("within 10 %    not known"), std::string::npos) << o.out;
     EXPECT_NE(o.out.find("certain to the figures of the first line, by exact_contact (free_string.json)"), std::string::npos) << o.out;
     EXPECT_EQ(o.err.find("jvari certify"), std::string::npos) << o.err;
     for (const char* file : {"/cells.csv", "/errors.csv"}) {
-        const Table t = read_csv(content(out + file));
+        const bench::store::Table t = bench::store::read_csv(content(out + file));
         for (std::size_t i = 0; i < 2; ++i) {
             for (const char* column : {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole", "certificate_l2_10ms_nut",
                                        "certificate_l2_whole_y03"})
@@ -348,7 +348,7 @@ TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateToge
         EXPECT_EQ(t.columns[t.column("certificate_l2_10ms") - 1], "reason");  // what was there before keeps its place
         EXPECT_EQ(t.columns.back(), "certificate_l2_whole_y03");
     }
-    EXPECT_EQ(read_csv(content(out + "/cost.csv")).column("certificate_l2_10ms"), -1);
+    EXPECT_EQ(bench::store::read_csv(content(out + "/cost.csv")).column("certificate_l2_10ms"), -1);
     const Json certificate = Json::parse(content(out + "/manifest.json"))["reference"]["certificate"];
     EXPECT_EQ(certificate["file"], "free_string.json");
     EXPECT_EQ(certificate["key"], kept.key);
@@ -398,7 +398,7 @@ TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
 
     const Scene scene = short_scene("sitar_c5_two_planes", 0.02);
     const Oversampled own = oversampled(*stand_ins(scene).front(), scene, {88200, 44100, 0, {}}, 4);
-    const Table t = read_csv(content(out + "/cells.csv"));
+    const bench::store::Table t = bench::store::read_csv(content(out + "/cells.csv"));
     for (std::size_t tap = 0; tap < scene.taps.size(); ++tap) {
         EXPECT_EQ(t.number(0, "certificate_l2_10ms_" + scene.taps[tap].name), own.estimates[tap].front().error);
         EXPECT_EQ(t.number(0, "certificate_l2_whole_" + scene.taps[tap].name), own.estimates[tap].back().error);
@@ -425,7 +425,7 @@ TEST(SuiteWithACertificate, EveryRowHasTheFiguresLast) {
     const Outcome o = jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_NE(content(out + "/report.html").find("certificate_l2_whole"), std::string::npos);  // what the page makes of it: tests/browser
-    const Table t = read_csv(content(out + "/errors.csv"));
+    const bench::store::Table t = bench::store::read_csv(content(out + "/errors.csv"));
     ASSERT_EQ(t.rows.size(), 4u);
     EXPECT_EQ(t.number(0, "certificate_l2_whole"), 0.25);
     EXPECT_EQ(t.at(3, "reference"), "oversampled sitar_waveguide");

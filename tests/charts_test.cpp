@@ -14,8 +14,8 @@
 namespace jvari {
 namespace {
 
-WorkPrecision sample() {
-    WorkPrecision w;
+bench::report::WorkPrecision sample() {
+    bench::report::WorkPrecision w;
     w.title = "a scene";
     w.cells.columns = {"scheme",     "rate",       "modes",       "status", "error_l2_50ms", "third_octave_db", "cost_s_per_s",
                        "cost_lower", "cost_upper", "ns_per_step", "dofs",   "below_floor",   "reason"};
@@ -24,14 +24,14 @@ WorkPrecision sample() {
                     {"b", "44100", "133", "ok", "5e-3", "4", "0.03", "0.029", "0.031", "200", "266", "", ""},
                     {"b", "88200", "133", "diverged", "inf", "", "0.05", "0.05", "0.05", "200", "266", "", "diverged at step 7"},
                     {"c", "44100", "133", "refused", "", "", "", "", "", "", "", "", "has no </script> thread"}};
-    w.errors = error_axes(w.cells, {"", "nut"}, "error_l2_50ms");
-    w.costs = cost_axes();
+    w.errors = bench::report::error_axes(w.cells, {"", "nut"}, "error_l2_50ms");
+    w.costs = bench::report::cost_axes();
     w.bands = {{"", "error_l2_50ms", 1e-12, 1e-9}};
     return w;
 }
 
 TEST(Charts, TheSpecificationHoldsEveryCellThatRan) {
-    const auto spec = nlohmann::json::parse(work_precision_spec(sample()));
+    const auto spec = nlohmann::json::parse(bench::report::work_precision_spec(sample()));
     const auto& cells = spec.at("datasets").at("cells");
     ASSERT_EQ(cells.size(), 4u);
     EXPECT_EQ(cells[1].at("scheme"), "a");
@@ -45,7 +45,7 @@ TEST(Charts, TheSpecificationHoldsEveryCellThatRan) {
 }
 
 TEST(Charts, TheFrontIsOfSoundCellsAndOfEachChoice) {
-    const auto spec = nlohmann::json::parse(work_precision_spec(sample()));
+    const auto spec = nlohmann::json::parse(bench::report::work_precision_spec(sample()));
     std::vector<double> by_time, by_octaves;
     for (const auto& f : spec.at("datasets").at("fronts")) {
         if (f.at("cost") != "cost_s_per_s") continue;
@@ -56,11 +56,11 @@ TEST(Charts, TheFrontIsOfSoundCellsAndOfEachChoice) {
 }
 
 TEST(Charts, AnErrorStandsAtErrorAndCertificateTogetherAndWhatIsFlaggedIsHollow) {
-    WorkPrecision w = sample();
+    bench::report::WorkPrecision w = sample();
     w.cells.columns.insert(w.cells.columns.end(), {"certificate_l2_50ms", "flags"});
     for (auto& row : w.cells.rows) row.insert(row.end(), {"6e-4", ""});
     w.cells.rows[2].back() = "adhesion";
-    const auto spec = nlohmann::json::parse(work_precision_spec(w));
+    const auto spec = nlohmann::json::parse(bench::report::work_precision_spec(w));
     const auto& cells = spec.at("datasets").at("cells");
     EXPECT_EQ(cells[0].at("error_l2_50ms"), 1e-2);  // 6 %: as measured
     EXPECT_EQ(cells[0].at("at_most"), "");
@@ -82,21 +82,21 @@ TEST(Charts, AnErrorStandsAtErrorAndCertificateTogetherAndWhatIsFlaggedIsHollow)
 }
 
 TEST(Charts, AxesAreOfferedOnlyWhereThereIsAFiniteValueAndTheHeadlineComesFirst) {
-    const WorkPrecision w = sample();
+    const bench::report::WorkPrecision w = sample();
     ASSERT_EQ(w.errors.size(), 2u);
     EXPECT_EQ(w.errors[0].column, "error_l2_50ms");
     EXPECT_EQ(w.errors[1].column, "third_octave_db");
 }
 
 TEST(Charts, NothingInThePageEndsAScriptEarly) {
-    EXPECT_EQ(inside_script("a</script>b</SCRIPT><!--"), "a<\\/script>b<\\/SCRIPT><\\!--");
-    EXPECT_EQ(inside_script("x</g,1<2"), "x</g,1<2");
-    Page page;
+    EXPECT_EQ(bench::report::inside_script("a</script>b</SCRIPT><!--"), "a<\\/script>b<\\/SCRIPT><\\!--");
+    EXPECT_EQ(bench::report::inside_script("x</g,1<2"), "x</g,1<2");
+    bench::report::Page page;
     page.title = "<b>";
     page.manifest = R"({"note": "<!-- </script>"})";
     page.sections = {{"cells", "Cells"}};
     page.sections[0].table = {{"reason"}, {{"</script><script>"}}};
-    const std::string text = page_of(page);
+    const std::string text = bench::report::page_of(page);
     EXPECT_NE(text.find("<title>&lt;b></title>"), std::string::npos);
     const std::string data = text.substr(text.find("id=\"data\">") + 10);
     const auto read = nlohmann::json::parse(data.substr(0, data.find("</script>")));
@@ -107,23 +107,23 @@ TEST(Charts, NothingInThePageEndsAScriptEarly) {
 }
 
 TEST(Charts, TheSpecificationIsDrawnWhereThePackagesAreInstalled) {
-    const Vega vega = find_vega();
+    const bench::report::Vega vega = bench::report::find_vega();
     if (!vega.missing.empty()) GTEST_SKIP() << vega.missing;
     std::string why;
-    const auto svg = svg_of(vega, work_precision_spec(sample()), why);
+    const auto svg = bench::report::svg_of(vega, bench::report::work_precision_spec(sample()), why);
     ASSERT_TRUE(svg) << why;
     for (const char* word : {"a scene", "relative L2 error", "computing time", "\u00d72", "\u2715"})
         EXPECT_NE(svg->find(word), std::string::npos) << word;
 }
 
 TEST(Pareto, ADifferenceInsideTheSpreadDecidesNothing) {
-    const std::vector<Point> apart{{1, 0.9, 1.1, 1e-3}, {2, 1.9, 2.1, 1e-3}};
+    const std::vector<bench::compare::Point> apart{{1, 0.9, 1.1, 1e-3}, {2, 1.9, 2.1, 1e-3}};
     EXPECT_EQ(pareto_front(apart), (std::vector<bool>{true, false}));
-    const std::vector<Point> tied{{1, 0.9, 1.6, 1e-3}, {2, 1.5, 2.1, 1e-3}};
+    const std::vector<bench::compare::Point> tied{{1, 0.9, 1.6, 1e-3}, {2, 1.5, 2.1, 1e-3}};
     EXPECT_EQ(pareto_front(tied), (std::vector<bool>{true, true}));
-    const std::vector<Point> tied_cost_less_error{{1, 0.9, 1.6, 1e-3}, {2, 1.5, 2.1, 1e-4}};
+    const std::vector<bench::compare::Point> tied_cost_less_error{{1, 0.9, 1.6, 1e-3}, {2, 1.5, 2.1, 1e-4}};
     EXPECT_EQ(pareto_front(tied_cost_less_error), (std::vector<bool>{false, true}));
-    const std::vector<Point> unsound{{1, 1, 1, HUGE_VAL}, {NAN, NAN, NAN, 1e-9}, {3, 3, 3, 1e-3}};
+    const std::vector<bench::compare::Point> unsound{{1, 1, 1, HUGE_VAL}, {NAN, NAN, NAN, 1e-9}, {3, 3, 3, 1e-3}};
     EXPECT_EQ(pareto_front(unsound), (std::vector<bool>{false, false, true}));
 }
 

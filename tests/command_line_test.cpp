@@ -94,7 +94,7 @@ TEST(CommandLine, AFailedRunEndsWith4AndWhatWasWrittenSoFarStaysValid) {
     const auto json = nlohmann::json::parse(o.out);
     EXPECT_EQ(json.at("status"), "diverged");
     EXPECT_EQ(json.at("step"), 4410);
-    const Table t = read_csv(content(scratch / "t.csv"));
+    const bench::store::Table t = bench::store::read_csv(content(scratch / "t.csv"));
     EXPECT_EQ(static_cast<long>(t.rows.size()), json.at("rows").get<long>());
     EXPECT_EQ(json.at("rows"), 4411);
     EXPECT_EQ(json.at("facts").at("stumbles"), 1);
@@ -139,7 +139,7 @@ TEST(CommandLine, TapRateIs44100OrTheRateWhereThatIsNoMultiple) {
 TEST(CommandLine, TheTraceAsCsvHasItsColumnsItsTimesAndReadsBackExactly) {
     const Scratch scratch;
     ASSERT_EQ(jvari(scratch, "run free_string --scheme stumbling --energy --duration 0.01 --out " + (scratch / "t.csv") + plugin).code, 0);
-    const Table t = read_csv(content(scratch / "t.csv"));
+    const bench::store::Table t = bench::store::read_csv(content(scratch / "t.csv"));
     const std::vector<std::string> columns{"time_s", "nut", "y03", "energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
     EXPECT_EQ(t.columns, columns);
     ASSERT_EQ(t.rows.size(), 442u);
@@ -223,7 +223,7 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
     const auto json = nlohmann::json::parse(o.out);
     EXPECT_EQ(json.at("cells").size(), 6u);
     EXPECT_EQ(json.at("reference"), "exact_linear");
-    const Table cells = read_csv(content(out + "/cells.csv"));
+    const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
     ASSERT_EQ(cells.rows.size(), 6u);
     EXPECT_EQ(cells.at(2, "status"), "refused");
     EXPECT_EQ(cells.at(2, "reason"), "stumbling has no rates above 150 kHz, only walks");
@@ -241,7 +241,8 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
         EXPECT_LE(cells.number(i, "wall_seconds_lower"), cells.number(i, "wall_seconds")) << i;
         EXPECT_LE(cells.number(i, "wall_seconds"), cells.number(i, "wall_seconds_upper")) << i;
     }
-    const Table errors = read_csv(content(out + "/errors.csv")), cost = read_csv(content(out + "/cost.csv"));
+    const bench::store::Table errors = bench::store::read_csv(content(out + "/errors.csv")),
+                              cost = bench::store::read_csv(content(out + "/cost.csv"));
     for (const char* clock : {"wall_seconds", "ns_per_step", "times_real_time", "cost_s_per_s", "pareto"}) {
         EXPECT_LT(errors.column(clock), 0) << clock;
         EXPECT_GE(cost.column(clock), 0) << clock;
@@ -253,7 +254,7 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
     EXPECT_EQ(manifest.at("scene").at("hash").get<std::string>().size(), 16u);
     ASSERT_EQ(manifest.at("plugins").size(), 1u);
     EXPECT_EQ(manifest.at("plugins").at(0).at("file"), JVARI_STUMBLING_PLUGIN);
-    EXPECT_EQ(manifest.at("plugins").at(0).at("hash"), hash_of(content(JVARI_STUMBLING_PLUGIN)));
+    EXPECT_EQ(manifest.at("plugins").at(0).at("hash"), bench::store::hash_of(content(JVARI_STUMBLING_PLUGIN)));
     EXPECT_EQ(manifest.at("plugins").at(0).at("flags").get<std::string>().substr(0, 9), "optimised");
 
     const std::string page = content(out + "/report.html");
@@ -280,7 +281,7 @@ TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigitOneByOneAndSideBySide) {
         for (const char* folder : {"b/", "c/"})
             EXPECT_EQ(content(scratch / (std::string("a/") + file)), content(scratch / (folder + std::string(file)))) << folder << file;
 
-    const Table errors = read_csv(content(scratch / "a/errors.csv"));
+    const bench::store::Table errors = bench::store::read_csv(content(scratch / "a/errors.csv"));
     EXPECT_EQ(errors.at(0, "third_octave_db"), errors.at(0, "third_octave_db_bridge"));
     EXPECT_NE(errors.at(0, "third_octave_db"), errors.at(0, "third_octave_db_nut"));
     EXPECT_EQ(errors.at(0, "stft_db"), errors.at(0, "stft_db_nut"));
@@ -341,7 +342,7 @@ TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
     const Outcome o = jvari(scratch, "compare free_string --duration 0.01 --repeats 1 --rates 44100 --json --schemes " + schemes +
                                          " --out " + out + bad_plugin(0));
     ASSERT_EQ(o.code, 0) << o.err;
-    const Table cells = read_csv(content(out + "/cells.csv"));
+    const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
     ASSERT_EQ(cells.rows.size(), 8u);
     EXPECT_EQ(cells.at(0, "status"), "ok");
     EXPECT_EQ(cells.at(1, "reason"), "not made today");

@@ -19,59 +19,61 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Bound, IsTheErrorAndTheCertificateTogether) {
-    const Bound b{0.03, 0.02, nan};
+    const bench::compare::Bound b{0.03, 0.02, nan};
     EXPECT_DOUBLE_EQ(b.most(), 0.05);
     EXPECT_DOUBLE_EQ(b.least(), 0.01);
-    EXPECT_DOUBLE_EQ((Bound{0.01, 0.02, nan}).least(), 0);
+    EXPECT_DOUBLE_EQ((bench::compare::Bound{0.01, 0.02, nan}).least(), 0);
     EXPECT_EQ(error_text(b, "{:.2e}"), "\u22645.00e-02");
     EXPECT_DOUBLE_EQ(b.shown(), 0.05);
 }
 
 TEST(Bound, WhereTheCertificateIsSmallOrAbsentWhatWasMeasuredStands) {
-    EXPECT_EQ(error_text({0.03, 0.003, nan}, "{:.2e}"), "3.00e-02");
-    EXPECT_EQ(error_text({0.03, 0.0031, nan}, "{:.2e}"), "\u22643.31e-02");
-    EXPECT_EQ(error_text({0.03, nan, nan}, "{:.2e}"), "3.00e-02");
-    EXPECT_EQ(error_text({HUGE_VAL, 0.1, nan}, "{:.2e}"), "inf");
-    EXPECT_EQ(error_text({}, "{:.2e}"), "-");
-    EXPECT_DOUBLE_EQ((Bound{0.03, 0.003, nan}).shown(), 0.03);
-    EXPECT_DOUBLE_EQ((Bound{0.03, 0.003, nan}).most(), 0.033);  // what a target is held against all the same
+    EXPECT_EQ(bench::compare::error_text({0.03, 0.003, nan}, "{:.2e}"), "3.00e-02");
+    EXPECT_EQ(bench::compare::error_text({0.03, 0.0031, nan}, "{:.2e}"), "\u22643.31e-02");
+    EXPECT_EQ(bench::compare::error_text({0.03, nan, nan}, "{:.2e}"), "3.00e-02");
+    EXPECT_EQ(bench::compare::error_text({HUGE_VAL, 0.1, nan}, "{:.2e}"), "inf");
+    EXPECT_EQ(bench::compare::error_text({}, "{:.2e}"), "-");
+    EXPECT_DOUBLE_EQ((bench::compare::Bound{0.03, 0.003, nan}).shown(), 0.03);
+    EXPECT_DOUBLE_EQ((bench::compare::Bound{0.03, 0.003, nan}).most(), 0.033);  // what a target is held against all the same
 }
 
 TEST(Bound, IsNotKnownWhereErrorAndCertificateReachOne) {
-    EXPECT_EQ(error_text({0.01, 0.98, nan}, "{:.2e}"), "\u22649.90e-01");
-    EXPECT_EQ(error_text({0.01, 0.99, nan}, "{:.2e}"), "not known");
-    EXPECT_EQ(error_text({1.3, 0.01, nan}, "{:.2e}"), "1.30e+00");  // known to be all wrong
+    EXPECT_EQ(bench::compare::error_text({0.01, 0.98, nan}, "{:.2e}"), "\u22649.90e-01");
+    EXPECT_EQ(bench::compare::error_text({0.01, 0.99, nan}, "{:.2e}"), "not known");
+    EXPECT_EQ(bench::compare::error_text({1.3, 0.01, nan}, "{:.2e}"), "1.30e+00");  // known to be all wrong
 }
 
 TEST(Bound, OfAColumnHasTheCertificateAndTheFloorOfItsWindowAndTap) {
-    const Table t{{"error_l2_50ms", "error_l2_50ms_nut", "error_l2_10ms", "third_octave_db", "certificate_l2_50ms",
-                   "certificate_l2_50ms_nut", "certificate_l2_10ms", "floor_error_l2_50ms", "floor_error_l2_50ms_nut"},
-                  {{"1", "2", "3", "4", "5", "6", "7", "8", "9"}}};
-    const Bound window = bound_of(t, 0, "error_l2_50ms"), tap = bound_of(t, 0, "error_l2_50ms_nut"),
-                octaves = bound_of(t, 0, "third_octave_db");
+    const bench::store::Table t{{"error_l2_50ms", "error_l2_50ms_nut", "error_l2_10ms", "third_octave_db", "certificate_l2_50ms",
+                                 "certificate_l2_50ms_nut", "certificate_l2_10ms", "floor_error_l2_50ms", "floor_error_l2_50ms_nut"},
+                                {{"1", "2", "3", "4", "5", "6", "7", "8", "9"}}};
+    const bench::compare::Bound window = bench::compare::bound_of(t, 0, "error_l2_50ms"),
+                                tap = bench::compare::bound_of(t, 0, "error_l2_50ms_nut"),
+                                octaves = bench::compare::bound_of(t, 0, "third_octave_db");
     EXPECT_EQ(window.error, 1);
     EXPECT_EQ(window.certificate, 5);
     EXPECT_EQ(window.floor, 8);
     EXPECT_EQ(tap.error, 2);
     EXPECT_EQ(tap.certificate, 6);
     EXPECT_EQ(tap.floor, 9);
-    EXPECT_EQ(bound_of(t, 0, "error_l2_10ms").certificate, 7);
+    EXPECT_EQ(bench::compare::bound_of(t, 0, "error_l2_10ms").certificate, 7);
     EXPECT_EQ(octaves.error, 4);
     EXPECT_TRUE(std::isnan(octaves.certificate));
 }
 
 TEST(Bound, TheHeadlineIsTheFirstWindowThatAnyOfTheRowsHas) {
-    const Table t{{"error_l2_10ms", "error_l2_50ms", "error_l2_whole"},
-                  {{"0.1", "", "0.2"}, {"0.1", "inf", "inf"}, {"", "", "0.3"}, {"1", "2", "3"}}};
-    EXPECT_EQ(headline_error(t, {0, 1, 2, 3}), "error_l2_50ms");
-    EXPECT_EQ(headline_error(t, {0, 1, 2}), "error_l2_10ms");
-    EXPECT_EQ(headline_error(t, {2}), "error_l2_whole");
-    EXPECT_EQ(headline_error(t, {}), "error_l2_whole");
+    const bench::store::Table t{{"error_l2_10ms", "error_l2_50ms", "error_l2_whole"},
+                                {{"0.1", "", "0.2"}, {"0.1", "inf", "inf"}, {"", "", "0.3"}, {"1", "2", "3"}}};
+    EXPECT_EQ(bench::compare::headline_error(t, {0, 1, 2, 3}), "error_l2_50ms");
+    EXPECT_EQ(bench::compare::headline_error(t, {0, 1, 2}), "error_l2_10ms");
+    EXPECT_EQ(bench::compare::headline_error(t, {2}), "error_l2_whole");
+    EXPECT_EQ(bench::compare::headline_error(t, {}), "error_l2_whole");
 }
 
 TEST(Bound, StandsBesideTheErrorInJson) {
-    const Table t = with_bounds({{"error_l2_10ms", "certificate_l2_10ms", "error_l2_50ms", "error_l2_whole", "certificate_l2_whole"},
-                                 {{"0.25", "0.125", "0.25", "0.25", "0.75"}}});
+    const bench::store::Table t =
+        bench::compare::with_bounds({{"error_l2_10ms", "certificate_l2_10ms", "error_l2_50ms", "error_l2_whole", "certificate_l2_whole"},
+                                     {{"0.25", "0.125", "0.25", "0.25", "0.75"}}});
     EXPECT_EQ(t.at(0, "bound_l2_10ms"), "0.375");
     EXPECT_EQ(t.at(0, "bound_l2_50ms"), "");   // no certificate
     EXPECT_EQ(t.at(0, "bound_l2_whole"), "");  // not known
@@ -84,23 +86,24 @@ struct Sample {  // a cell of the tables below
     double cost;
     std::string status = "ok";
 };
-Table cells_of(const std::vector<Sample>& samples) {
-    Table t{{"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms", "error_l2_10ms_nut",
-             "certificate_l2_50ms", "certificate_l2_10ms_nut", "third_octave_db", "cost_s_per_s", "cost_lower", "cost_upper"},
-            {}};
+bench::store::Table cells_of(const std::vector<Sample>& samples) {
+    bench::store::Table t{{"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms", "error_l2_10ms_nut",
+                           "certificate_l2_50ms", "certificate_l2_10ms_nut", "third_octave_db", "cost_s_per_s", "cost_lower", "cost_upper"},
+                          {}};
     for (const Sample& s : samples)
         t.rows.push_back({"1", "s", s.scheme, "", s.rate, "10", s.status, s.flags, s.error, s.error, s.certificate, s.certificate,
-                          s.octaves, text_of(s.cost), text_of(0.95 * s.cost), text_of(1.05 * s.cost)});
+                          s.octaves, bench::store::text_of(s.cost), bench::store::text_of(0.95 * s.cost),
+                          bench::store::text_of(1.05 * s.cost)});
     return t;
 }
 
 TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
-    const Table t = cheapest_of(cells_of({{"a", "100", "", "0.2", "", "0.5", 1},
-                                          {"a", "200", "", "0.009", "", "0.5", 3},
-                                          {"b", "100", "", "0.05", "", "4", 2},
-                                          {"c", "100", "adhesion", "0.0001", "", "0.1", 0.5},  // pulls
-                                          {"d", "100", "", "inf", "", "inf", 0.1, "diverged"},
-                                          {"e", "100", "", "0.04", "", "4", 2.1}}));  // touches b
+    const bench::store::Table t = bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.2", "", "0.5", 1},
+                                                                        {"a", "200", "", "0.009", "", "0.5", 3},
+                                                                        {"b", "100", "", "0.05", "", "4", 2},
+                                                                        {"c", "100", "adhesion", "0.0001", "", "0.1", 0.5},  // pulls
+                                                                        {"d", "100", "", "inf", "", "inf", 0.1, "diverged"},
+                                                                        {"e", "100", "", "0.04", "", "4", 2.1}}));  // touches b
     ASSERT_EQ(t.rows.size(), 5u);
     EXPECT_EQ(t.at(0, "scheme"), "b");  // 10 %
     EXPECT_EQ(t.at(0, "ties"), "e");
@@ -112,14 +115,14 @@ TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
     EXPECT_EQ(t.at(2, "status"), "none");
     EXPECT_EQ(t.at(3, "scheme"), "a");  // 3 dB
     EXPECT_EQ(t.at(3, "rate"), "100");
-    EXPECT_NE(cheapest_text(t).find("within 0.1 %   none"), std::string::npos) << cheapest_text(t);
+    EXPECT_NE(bench::compare::cheapest_text(t).find("within 0.1 %   none"), std::string::npos) << bench::compare::cheapest_text(t);
 }
 
 TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
-    const Table t = cheapest_of(cells_of({{"a", "100", "", "0.0095", "0.001", "", 1},  // 0.0085 to 0.0105
-                                          {"b", "100", "", "0.0088", "0.001", "", 2},  // to 0.0098
-                                          {"c", "100", "", "0.05", "0.001", "", 0.1},
-                                          {"d", "100", "", "0.0005", "0.001", "", 9}}));
+    const bench::store::Table t = bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.0095", "0.001", "", 1},  // 0.0085 to 0.0105
+                                                                        {"b", "100", "", "0.0088", "0.001", "", 2},  // to 0.0098
+                                                                        {"c", "100", "", "0.05", "0.001", "", 0.1},
+                                                                        {"d", "100", "", "0.0005", "0.001", "", 9}}));
     ASSERT_EQ(t.rows.size(), 3u);
     EXPECT_EQ(t.at(1, "scheme"), "b");
     EXPECT_EQ(t.at(1, "error"), "0.0088");
@@ -128,13 +131,13 @@ TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
     EXPECT_EQ(t.at(2, "status"), "not_known");  // 0.1 %: d is within 0.15 %
     EXPECT_EQ(t.at(2, "scheme"), "");
     EXPECT_EQ(t.at(2, "perhaps"), "d");
-    EXPECT_NE(cheapest_text(t).find("within 0.1 %   not known"), std::string::npos) << cheapest_text(t);
-    EXPECT_NE(cheapest_text(t).find("perhaps for less a"), std::string::npos) << cheapest_text(t);
+    EXPECT_NE(bench::compare::cheapest_text(t).find("within 0.1 %   not known"), std::string::npos) << bench::compare::cheapest_text(t);
+    EXPECT_NE(bench::compare::cheapest_text(t).find("perhaps for less a"), std::string::npos) << bench::compare::cheapest_text(t);
 }
 
 std::vector<bool> front_of(const std::vector<Sample>& samples) {
-    const Table t = cells_of(samples);
-    return pareto_front(t, all_rows(t), "error_l2_50ms", "cost_s_per_s");
+    const bench::store::Table t = cells_of(samples);
+    return bench::compare::pareto_front(t, bench::store::all_rows(t), "error_l2_50ms", "cost_s_per_s");
 }
 
 TEST(Pareto, FlaggedFailedAndUnknownCellsAreOnNoFrontAndKeepNoneFromIt) {
@@ -155,10 +158,10 @@ TEST(Pareto, ErrorsBelowTheCertificateAreATieAndSoIsADifferenceWithinIt) {
 }
 
 TEST(ConvergenceTable, LeavesOutWhatTheReferenceIsNotCertainTo) {
-    const Table t = convergence_of(cells_of({{"a", "100", "", "0.16", "0.005", "", 1},
-                                             {"a", "200", "", "0.04", "0.005", "", 1},
-                                             {"a", "400", "", "0.01", "0.005", "", 1},
-                                             {"a", "800", "", "0.004", "0.005", "", 1}}));
+    const bench::store::Table t = bench::compare::convergence_of(cells_of({{"a", "100", "", "0.16", "0.005", "", 1},
+                                                                           {"a", "200", "", "0.04", "0.005", "", 1},
+                                                                           {"a", "400", "", "0.01", "0.005", "", 1},
+                                                                           {"a", "800", "", "0.004", "0.005", "", 1}}));
     ASSERT_EQ(t.rows.size(), 1u);
     EXPECT_EQ(t.at(0, "points"), "3");
     EXPECT_NEAR(t.number(0, "order"), 2, 1e-9);
@@ -182,8 +185,8 @@ std::vector<double> tone(double hertz, long rows) {
     return x;
 }
 int place_of(const char* column) {
-    for (std::size_t k = 0; k < measures().size(); ++k)
-        if (measures()[k].column == column) return static_cast<int>(k);
+    for (std::size_t k = 0; k < bench::compare::measures().size(); ++k)
+        if (bench::compare::measures()[k].column == column) return static_cast<int>(k);
     return -1;
 }
 
@@ -193,7 +196,7 @@ TEST(Errors, AWindowEndsWhereItsNameSays) {
     const auto wrong_at = [&](double seconds) {  // in one row
         std::vector<double> x = truth;
         x[std::lround(seconds * 44100)] += 1;
-        return errors_of(trace_of({truth, x}), trace_of({truth, truth}));
+        return bench::compare::errors_of(trace_of({truth, x}), trace_of({truth, truth}));
     };
     const std::pair<const char*, double> ends[] = {{"error_l2_10ms", 0.010}, {"error_l2_50ms", 0.050}};
     for (const auto& [column, end] : ends) {
@@ -208,7 +211,8 @@ TEST(Errors, OfATonePitchedAndLoudAsTheyAre) {
     const long rows = 44100;
     std::vector<double> loud = tone(1000, rows);
     for (double& v : loud) v *= 2;
-    const Errors e = errors_of(trace_of({loud, tone(1500, rows)}), trace_of({tone(1000, rows), tone(1000, rows)}));
+    const bench::compare::Errors e =
+        bench::compare::errors_of(trace_of({loud, tone(1500, rows)}), trace_of({tone(1000, rows), tone(1000, rows)}));
     EXPECT_NEAR(e[0][place_of("third_octave_db")], 20 * std::log10(2), 1e-6);
     EXPECT_NEAR(e[0][place_of("centroid_hz")], 0, 1e-6);
     EXPECT_NEAR(e[1][place_of("centroid_hz")], 500, 1);
@@ -218,21 +222,21 @@ TEST(Errors, OfATonePitchedAndLoudAsTheyAre) {
 // ---- The table of cells
 
 TEST(CellsTable, EachColumnHasWhatItsNameSays) {
-    Comparison c;
-    c.scene = load_scene("tanpura_c3_release", {}, 0.1);
-    c.headline = headline_of(c.scene);
-    const std::size_t taps = c.scene.taps.size(), measures_of = measures().size();
+    bench::compare::Comparison c;
+    c.scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.1);
+    c.headline = bench::compare::headline_of(c.scene);
+    const std::size_t taps = c.scene.taps.size(), measures_of = bench::compare::measures().size();
     const auto errors_from = [&](double start) {
-        Errors e(taps, std::vector<double>(measures_of));
+        bench::compare::Errors e(taps, std::vector<double>(measures_of));
         for (std::size_t tap = 0; tap < taps; ++tap)
             for (std::size_t k = 0; k < measures_of; ++k) e[tap][k] = start + 100 * static_cast<double>(tap) + static_cast<double>(k);
         return e;
     };
-    Cell cell{};
-    static const Catalogue catalogue;
+    bench::compare::Cell cell{};
+    static const bench::compare::Catalogue catalogue;
     cell.scheme = &catalogue.find("modal_two_point");
     cell.settings.sample_rate = 88200;
-    Summary& s = cell.summary;
+    bench::compare::Summary& s = cell.summary;
     s.modes = 133, s.dofs = 266, s.steps = 8820, s.rows = 4411, s.duration = 0.1;
     s.energy_residual_per_step = 1e-13, s.energy_residual_accumulated = 2e-12;
     s.smallest_contact_force = -0.25, s.deepest_penetration = 3e-8;
@@ -246,7 +250,7 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     cell.wall = {5, 0.02, 0.016, 0.026, 0.01, 0.03};
     cell.worst_block = 0.4;
     c.cells = {cell};
-    const Table t = cells_of(c);
+    const bench::store::Table t = bench::compare::cells_of(c);
     const std::pair<const char*, double> expected[] = {{"rate", 88200},
                                                        {"modes", 133},
                                                        {"cost_s_per_s", 0.2},
@@ -273,7 +277,7 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     EXPECT_EQ(c.scene.taps[0].name, "nut");
     ASSERT_EQ(c.scene.taps[2].name, "bridge");
     for (std::size_t k = 0; k < measures_of; ++k) {
-        const Measure& m = measures()[k];
+        const bench::compare::Measure& m = bench::compare::measures()[k];
         const double own = static_cast<double>(k);
         EXPECT_EQ(t.number(0, m.column), 1000 + own + (m.column == "third_octave_db" ? 200 : 0)) << m.column;
         for (std::size_t tap = 0; tap < taps; ++tap)
@@ -289,39 +293,40 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
 
 // ---- Equal modes
 
-Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes, int modes = 0) {
-    CompareRequest r;
+bench::compare::Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes, int modes = 0) {
+    bench::compare::CompareRequest r;
     r.scene = scene;
     r.schemes = schemes;
     r.rates = {88200, 176400};
     r.modes = modes;
-    static const Catalogue catalogue;
-    return plan_of(r, catalogue, load_scene(scene, {}, {}));
+    static const bench::compare::Catalogue catalogue;
+    return bench::compare::plan_of(r, catalogue, bench::compare::load_scene(scene, {}, {}));
 }
 
 TEST(Plan, TheReferenceAndEveryCellCarryTheSameModes) {
     for (const char* scene : {"two_point_bridge", "tanpura_c3_release", "free_string"}) {
-        const Plan plan = plan_for(scene, {"modal_two_point", "modal_spatial_newton"});
+        const bench::compare::Plan plan = plan_for(scene, {"modal_two_point", "modal_spatial_newton"});
         const int modes = plan.references.front().settings.modes;
         EXPECT_EQ(modes, scene == std::string("two_point_bridge") ? 94 : 133);
         ASSERT_EQ(plan.cells.size(), 4u);
-        for (const Cell& c : plan.cells) {
+        for (const bench::compare::Cell& c : plan.cells) {
             EXPECT_EQ(c.settings.modes, modes) << scene << " " << c.scheme->name;
-            EXPECT_EQ(make_scheme(*c.scheme, load_scene(scene, {}, {}), c.settings)->dofs() >= 2 * modes, true);
+            EXPECT_EQ(make_scheme(*c.scheme, bench::compare::load_scene(scene, {}, {}), c.settings)->dofs() >= 2 * modes, true);
         }
         EXPECT_TRUE(plan.notes.empty());
     }
 }
 
 TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSaysSo) {
-    const Plan plan = plan_for("sitar_parabola", {"modal_spatial_newton", "finite_difference_explicit"});
+    const bench::compare::Plan plan = plan_for("sitar_parabola", {"modal_spatial_newton", "finite_difference_explicit"});
     EXPECT_EQ(plan.references.front().settings.modes, 94);
-    for (const Cell& c : plan.cells) EXPECT_EQ(c.settings.modes, std::string("modal_spatial_newton") == c.scheme->name ? 0 : 94);
+    for (const bench::compare::Cell& c : plan.cells)
+        EXPECT_EQ(c.settings.modes, std::string("modal_spatial_newton") == c.scheme->name ? 0 : 94);
     ASSERT_EQ(plan.notes.size(), 1u);
     EXPECT_NE(plan.notes[0].find("modal_spatial_newton carries 421 modes"), std::string::npos) << plan.notes[0];
-    const Plan asked = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
+    const bench::compare::Plan asked = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
     EXPECT_TRUE(asked.notes.empty());
-    for (const Cell& c : asked.cells) EXPECT_EQ(c.settings.modes, 300);
+    for (const bench::compare::Cell& c : asked.cells) EXPECT_EQ(c.settings.modes, 300);
     EXPECT_EQ(asked.references.front().settings.modes, 300);
 }
 

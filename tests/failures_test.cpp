@@ -15,17 +15,17 @@
 namespace jvari::test {
 namespace {
 
-const Catalogue& catalogue() {
-    static const Catalogue c;
+const bench::compare::Catalogue& catalogue() {
+    static const bench::compare::Catalogue c;
     return c;
 }
 
 TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
-    Truths truths(catalogue());
-    const auto all = read_failures(JVARI_FAILURES, catalogue());
+    bench::map::Truths truths(catalogue());
+    const auto all = bench::map::read_failures(JVARI_FAILURES, catalogue());
     ASSERT_FALSE(all.empty());
-    for (const Reproducer& r : all) {
-        const Tried t = run_trial(r.trial, truths);
+    for (const bench::map::Reproducer& r : all) {
+        const bench::map::Tried t = bench::map::run_trial(r.trial, truths);
         EXPECT_STREQ(name_of(t.judgement.verdict), name_of(r.expected.verdict)) << r.file << ": " << t.judgement.detail;
         EXPECT_LE(t.judgement.step, 2 * r.expected.step) << r.file;  // a growth from rounding is as long as its logarithm
         EXPECT_GE(2 * t.judgement.step, r.expected.step) << r.file;
@@ -34,7 +34,7 @@ TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
 
 TEST(Failures, AMapThatReproducesNoneHasNone) {
     for (const bool reproduce : {true, false}) {
-        Map m;
+        bench::map::Map m;
         m.name = "a";
         m.scene = "tanpura_c3_release";
         m.schemes = {"modal_explicit_penalty"};
@@ -42,47 +42,50 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
         m.fixed = {{"duration", "0.001"}, {"modes", "10"}, {"string.0.initial.amplitude", "-1e-6"}};
         m.reference = "none";
         m.reproduce = reproduce;
-        Truths truths(catalogue());
-        const std::vector<Map> maps = {m};
-        const MapRun run = run_maps(maps, truths, "\"tests\"", {}, false, 1, Console(false, true));
+        bench::map::Truths truths(catalogue());
+        const std::vector<bench::map::Map> maps = {m};
+        const bench::map::MapRun run = bench::map::run_maps(maps, truths, "\"tests\"", {}, false, 1, bench::store::Console(false, true));
         ASSERT_EQ(run.points.size(), 1u);
-        EXPECT_EQ(run.points[0].tried.judgement.verdict, Verdict::diverged);
-        EXPECT_EQ(reproducers_of(run, truths, 1, Console(false, true)).size(), reproduce ? 1u : 0u);
+        EXPECT_EQ(run.points[0].tried.judgement.verdict, bench::map::Verdict::diverged);
+        EXPECT_EQ(reproducers_of(run, truths, 1, bench::store::Console(false, true)).size(), reproduce ? 1u : 0u);
     }
 }
 
 TEST(Failures, EveryControlHasOne) {
     std::set<std::string> failing;
-    for (const Reproducer& r : read_failures(JVARI_FAILURES, catalogue())) failing.insert(r.trial.scheme->name);
+    for (const bench::map::Reproducer& r : bench::map::read_failures(JVARI_FAILURES, catalogue())) failing.insert(r.trial.scheme->name);
     for (const char* control :
          {"modal_explicit_penalty", "modal_impulse_invariant", "modal_two_point_trapezoidal", "modal_quadratised_two_point_raw",
           "modal_quadratised_three_point_raw", "finite_difference_explicit", "finite_difference_theta", "modal_spatial_newton"})
         EXPECT_TRUE(failing.contains(control)) << control;
 }
 
-Trial large() {
-    Trial t{&catalogue().find("modal_two_point"), read_scene("tanpura_c3_release"), {}, "none"};
+bench::map::Trial large() {
+    bench::map::Trial t{&catalogue().find("modal_two_point"), read_scene("tanpura_c3_release"), {}, "none"};
     t.settings.sample_rate = t.settings.tap_rate = 44100;
     t.scene.duration = 0.1;
     return t;
 }
 
 TEST(Failures, EveryOutcomeHasOne) {
-    std::set<Verdict> seen;
+    std::set<bench::map::Verdict> seen;
     bool gains = false;
-    for (const Reproducer& r : read_failures(JVARI_FAILURES, catalogue())) {
+    for (const bench::map::Reproducer& r : bench::map::read_failures(JVARI_FAILURES, catalogue())) {
         seen.insert(r.expected.verdict);
-        gains = gains || (r.trial.scheme->name == std::string("modal_impulse_invariant") && r.expected.verdict == Verdict::energy_gaining);
+        gains = gains || (r.trial.scheme->name == std::string("modal_impulse_invariant") &&
+                          r.expected.verdict == bench::map::Verdict::energy_gaining);
     }
-    for (const Verdict v : {Verdict::inaccurate, Verdict::adhesive, Verdict::energy_gaining, Verdict::not_converged, Verdict::diverged})
-        EXPECT_TRUE(seen.contains(v)) << name_of(v);
+    for (const bench::map::Verdict v : {bench::map::Verdict::inaccurate, bench::map::Verdict::adhesive, bench::map::Verdict::energy_gaining,
+                                        bench::map::Verdict::not_converged, bench::map::Verdict::diverged})
+        EXPECT_TRUE(seen.contains(v)) << bench::map::name_of(v);
     EXPECT_TRUE(gains);  // where modal_two_point is sound; its inaccurate points are everyone's
 }
 
 TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
-    const Trial t = minimised(large(), [](const Trial& x) {  // fails with a thread, from 17 modes and 23 rows on
-        return x.scene.strings[0].thread && x.settings.modes >= 17 && x.scene.duration * x.settings.tap_rate > 22.5;
-    });
+    const bench::map::Trial t =
+        bench::map::minimised(large(), [](const bench::map::Trial& x) {  // fails with a thread, from 17 modes and 23 rows on
+            return x.scene.strings[0].thread && x.settings.modes >= 17 && x.scene.duration * x.settings.tap_rate > 22.5;
+        });
     EXPECT_EQ(t.settings.modes, 17);
     EXPECT_EQ(std::lround(t.scene.duration * t.settings.tap_rate), 23);
     const String& s = t.scene.strings[0];
@@ -94,7 +97,7 @@ TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
 }
 
 TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
-    const Trial t = minimised(large(), [](const Trial& x) {
+    const bench::map::Trial t = bench::map::minimised(large(), [](const bench::map::Trial& x) {
         if (x.scene.strings[0].barriers.empty()) throw std::runtime_error("nothing to fail at");
         return x.scene.strings[0].thread.has_value() || x.scene.strings[0].bending_stiffness > 0;  // either will do
     });
@@ -105,21 +108,23 @@ TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
 }
 
 TEST(Minimiser, WhatItWritesReadsBackAsTheSameFailure) {
-    Truths truths(catalogue());
-    Trial t = large();
+    bench::map::Truths truths(catalogue());
+    bench::map::Trial t = large();
     t.scheme = &catalogue().find("modal_explicit_penalty");
-    const auto diverges = [&truths](const Trial& x) { return run_trial(x, truths).judgement.verdict == Verdict::diverged; };
+    const auto diverges = [&truths](const bench::map::Trial& x) {
+        return bench::map::run_trial(x, truths).judgement.verdict == bench::map::Verdict::diverged;
+    };
     ASSERT_TRUE(diverges(t));
-    t = minimised(t, diverges);
+    t = bench::map::minimised(t, diverges);
     EXPECT_LT(t.settings.modes, 133);
     const auto folder = std::filesystem::temp_directory_path() / ("jvari-failures-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
-    write_failures(folder, {{"a.toml", t, run_trial(t, truths).judgement}});
-    const auto back = read_failures(folder, catalogue());
+    bench::map::write_failures(folder, {{"a.toml", t, bench::map::run_trial(t, truths).judgement}});
+    const auto back = bench::map::read_failures(folder, catalogue());
     std::filesystem::remove_all(folder);
     ASSERT_EQ(back.size(), 1u);
     EXPECT_EQ(identity_of(back[0].trial), identity_of(t));
-    EXPECT_EQ(back[0].expected.verdict, Verdict::diverged);
+    EXPECT_EQ(back[0].expected.verdict, bench::map::Verdict::diverged);
 }
 
 }  // namespace

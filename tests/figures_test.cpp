@@ -64,11 +64,12 @@ TEST(FigureFile, WhatIsWrongWithAFacetIsSaidWithFileLineAndKey) {
     };
     for (const auto& [text, expected] : cases)
         EXPECT_NE(refusal_of(cells + text).find(expected), std::string::npos) << refusal_of(cells + text);
-    const Suite suite = parse_suite(cells + "measure = [\"trace\"]\ntrace = { taps = [\"nit\"], windows = [[0, 1]] }", "a.toml");
+    const bench::suite::Suite suite =
+        bench::suite::parse_suite(cells + "measure = [\"trace\"]\ntrace = { taps = [\"nit\"], windows = [[0, 1]] }", "a.toml");
     try {
-        plan_of(suite, Catalogue(), {});
+        bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
         FAIL() << "a tap that is not there was planned";
-    } catch (const UsageError& e) {
+    } catch (const bench::store::UsageError& e) {
         EXPECT_NE(std::string(e.what()).find("scene free_string: trace: unknown tap \"nit\"; did you mean"), std::string::npos) << e.what();
     }
 }
@@ -92,9 +93,10 @@ const char* one_mode = R"(
     centroid = { taps = ["middle"], window = 0.1, hop = 0.05 }
 )";
 struct OneMode {
-    Suite suite = parse_suite(one_mode, "a.toml");
-    SuitePlan plan = plan_of(suite, Catalogue(), {});
-    std::vector<SuiteRecord> records = run_suite(plan, "", false, 1, Console(false, true)).records;
+    bench::suite::Suite suite = bench::suite::parse_suite(one_mode, "a.toml");
+    bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    std::vector<bench::suite::SuiteRecord> records =
+        bench::suite::run_suite(plan, "", false, 1, bench::store::Console(false, true)).records;
     const Scene& scene = plan.points[0].scene;
     double omega = modes_of(scene.strings[0], 1).omega0[0];
     double amplitude = initial_displacement(modes_of(scene.strings[0], 1), scene.strings[0])[0];
@@ -104,10 +106,10 @@ struct OneMode {
 TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     const OneMode m;
     ASSERT_EQ(m.records[0].row.at(0, "status"), "ok");
-    const auto rows = [&m](Facet f) { return rows_of(f, m.plan, m.records); };
+    const auto rows = [&m](bench::suite::Facet f) { return bench::suite::rows_of(f, m.plan, m.records); };
     const double digits = 1e-7 * m.amplitude;  // eight are written
 
-    const Table profile = rows(Facet::profile);
+    const bench::store::Table profile = rows(bench::suite::Facet::profile);
     ASSERT_EQ(profile.rows.size(), 2u * 9);  // the third instant lies past the end
     for (std::size_t i = 0; i < profile.rows.size(); ++i) {
         const double t = std::round(profile.number(i, "time_s") * 44100) / 44100;
@@ -118,7 +120,7 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     EXPECT_EQ(profile.number(2, "position_m"), 0.25);
     EXPECT_EQ(profile.number(8, "position_m"), 1);
 
-    const Table trace = rows(Facet::trace);
+    const bench::store::Table trace = rows(bench::suite::Facet::trace);
     int energies = 0;
     for (std::size_t i = 0; i < trace.rows.size(); ++i) {
         const double t = std::round(trace.number(i, "time_s") * 44100) / 44100;
@@ -133,7 +135,7 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     EXPECT_EQ(energies, 442 + 5);  // rows from 0.1 to 0.11 s and from 0.4999 s to the end
     EXPECT_EQ(trace.rows.size(), 2u * energies);
 
-    const Table extent = rows(Facet::extent);
+    const bench::store::Table extent = rows(bench::suite::Facet::extent);
     ASSERT_EQ(extent.rows.size(), 10u);
     for (std::size_t i = 0; i < 10; ++i) {  // 50 ms hold six periods: both turning points
         EXPECT_NEAR(extent.number(i, "low"), -std::abs(m.amplitude), 1e-3 * std::abs(m.amplitude));
@@ -141,7 +143,7 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     }
 
     const double f = m.omega / (2 * std::numbers::pi), level = 10 * std::log10(m.amplitude * m.amplitude / 2);
-    const Table envelope = rows(Facet::envelope);
+    const bench::store::Table envelope = rows(bench::suite::Facet::envelope);
     ASSERT_EQ(envelope.rows.size(), 1000u);
     double top = -HUGE_VAL;
     for (std::size_t i = 0; i < 1000; ++i) {
@@ -150,22 +152,22 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
         EXPECT_LT(envelope.number(i, "level_db"), level - 60);
     }
     EXPECT_NEAR(top, level, 3.3);  // the strongest bin of a Hann window holds two thirds of the power or a little less: -1.8 to -3.2 dB
-    const Table centroid = rows(Facet::centroid);
+    const bench::store::Table centroid = rows(bench::suite::Facet::centroid);
     ASSERT_EQ(centroid.rows.size(), 9u);
     for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(centroid.number(i, "centroid_hz"), f, 0.2);
 }
 
 TEST(FigureRows, TheExtentOfARampHasTheFirstAndTheLastRowOfEachInterval) {
     const Scene scene = OneMode().scene;
-    const Catalogue catalogue;
+    const bench::compare::Catalogue catalogue;
     Trace trace;
     trace.tap_rate = 1000;
     trace.rows = trace.stride = 100;
     trace.names = {"nut"};
     for (int n = 0; n < 100; ++n) trace.tap.push_back(n);
-    CellSet set;
-    set.figures.extent = ExtentRows{{"nut"}, 10};
-    const Table t = extent_rows({scene, catalogue.find("modal_two_point"), {}, trace, nullptr, 0, set});
+    bench::suite::CellSet set;
+    set.figures.extent = bench::suite::ExtentRows{{"nut"}, 10};
+    const bench::store::Table t = bench::suite::extent_rows({scene, catalogue.find("modal_two_point"), {}, trace, nullptr, 0, set});
     ASSERT_EQ(t.rows.size(), 10u);
     for (int i = 0; i < 10; ++i) {
         EXPECT_EQ(t.number(i, "low"), 10 * i);
@@ -176,7 +178,7 @@ TEST(FigureRows, TheExtentOfARampHasTheFirstAndTheLastRowOfEachInterval) {
 
 TEST(FigureRows, ThePositionsOfAProfileAreNoTapsOfTheTableOfErrors) {
     const OneMode m;
-    const Table t = table_of(m.plan, m.records);
+    const bench::store::Table t = bench::suite::table_of(m.plan, m.records);
     EXPECT_GE(t.column("error_l2_whole_middle"), 0);
     for (const std::string& name : t.columns) EXPECT_EQ(name.find("profile_"), std::string::npos) << name;
 }
@@ -184,20 +186,20 @@ TEST(FigureRows, ThePositionsOfAProfileAreNoTapsOfTheTableOfErrors) {
 TEST(FigureRows, ACellWithAnotherWindowIsAnotherCell) {
     std::string other = one_mode;
     other.replace(other.find("[0.1, 0.11]"), 11, "[0.1, 0.12]");
-    EXPECT_NE(plan_of(parse_suite(one_mode, "a"), Catalogue(), {}).cells[0].id,
-              plan_of(parse_suite(other, "a"), Catalogue(), {}).cells[0].id);
+    EXPECT_NE(plan_of(bench::suite::parse_suite(one_mode, "a"), bench::compare::Catalogue(), {}).cells[0].id,
+              plan_of(bench::suite::parse_suite(other, "a"), bench::compare::Catalogue(), {}).cells[0].id);
 }
 
 // ---- The specification
 
 using Json = nlohmann::json;
-const Table table{{"rate", "tap", "time_s", "low", "high"},
-                  {{"44100", "a", "1", "0.1", "0.2"},
-                   {"44100", "b", "2", "-0.3", "0.4"},
-                   {"88200.0", "b", "3", "", "1"},
-                   {"88200.0", "b", "4", "5", "6"}}};
-Figure a_figure(FigureKind kind) {
-    Figure f;
+const bench::store::Table table{{"rate", "tap", "time_s", "low", "high"},
+                                {{"44100", "a", "1", "0.1", "0.2"},
+                                 {"44100", "b", "2", "-0.3", "0.4"},
+                                 {"88200.0", "b", "3", "", "1"},
+                                 {"88200.0", "b", "4", "5", "6"}}};
+bench::suite::Figure a_figure(bench::suite::FigureKind kind) {
+    bench::suite::Figure f;
     f.title = "title";
     f.paper = "fig. 1";
     f.statement = "statement";
@@ -207,21 +209,21 @@ Figure a_figure(FigureKind kind) {
     f.y = {"low", "", "force", 1, false, {}};
     return f;
 }
-std::string complaint(const Figure& f) {
+std::string complaint(const bench::suite::Figure& f) {
     try {
-        figure_spec(f, table);
-    } catch (const UsageError& e) {
+        bench::report::figure_spec(f, table);
+    } catch (const bench::store::UsageError& e) {
         return e.what();
     }
     return "drawn";
 }
 
 TEST(FigureSpec, DrawsTheRowsThatAreChosenInTheirUnitsUnderTheirNames) {
-    Figure f = a_figure(FigureKind::lines);
+    bench::suite::Figure f = a_figure(bench::suite::FigureKind::lines);
     f.where = {{"tap", {"b", "c"}}, {"rate", {"88200", "44100"}}};
     f.colour = {"rate", "tap"};
     f.labels = {{"44100, b", "single"}};
-    const Json spec = Json::parse(figure_spec(f, table));
+    const Json spec = Json::parse(bench::report::figure_spec(f, table));
     const Json expected = Json::array({{{"x", 2000}, {"y", -0.3}, {"c", "single"}}, {{"x", 4000}, {"y", 5}, {"c", "88200.0, b"}}});
     EXPECT_EQ(spec["data"]["values"], expected);  // the empty field is no zero
     EXPECT_EQ(spec["encoding"]["color"]["scale"]["domain"], Json::array({"single", "88200.0, b"}));
@@ -230,21 +232,21 @@ TEST(FigureSpec, DrawsTheRowsThatAreChosenInTheirUnitsUnderTheirNames) {
 }
 
 TEST(FigureSpec, ALogarithmicAxisLeavesOutWhatItCannotShowAndADomainWhatLiesOutside) {
-    Figure f = a_figure(FigureKind::lines);
+    bench::suite::Figure f = a_figure(bench::suite::FigureKind::lines);
     f.y.log = true;
-    EXPECT_EQ(Json::parse(figure_spec(f, table))["data"]["values"].size(), 2u);
+    EXPECT_EQ(Json::parse(bench::report::figure_spec(f, table))["data"]["values"].size(), 2u);
     f.x.domain = {{1500, 4000}};
-    const Json spec = Json::parse(figure_spec(f, table));
+    const Json spec = Json::parse(bench::report::figure_spec(f, table));
     EXPECT_EQ(spec["data"]["values"].size(), 1u);
     EXPECT_EQ(spec["encoding"]["y"]["scale"]["type"], "log");
 }
 
 TEST(FigureSpec, ABandReachesFromLowToHighInAPanelForEachName) {
-    Figure f = a_figure(FigureKind::band);
+    bench::suite::Figure f = a_figure(bench::suite::FigureKind::band);
     f.y.to = "high";
     f.panels = {"tap"};
     f.across = 2;
-    const Json spec = Json::parse(figure_spec(f, table));
+    const Json spec = Json::parse(bench::report::figure_spec(f, table));
     EXPECT_EQ(spec["spec"]["mark"]["type"], "area");
     EXPECT_EQ(spec["spec"]["encoding"]["y2"]["field"], "z");
     EXPECT_EQ(spec["facet"]["sort"], Json::array({"a", "b"}));
@@ -253,10 +255,10 @@ TEST(FigureSpec, ABandReachesFromLowToHighInAPanelForEachName) {
 }
 
 TEST(FigureSpec, AColumnThatIsNotThereAndAnEmptyChoiceAreRefusedByName) {
-    Figure f = a_figure(FigureKind::lines);
+    bench::suite::Figure f = a_figure(bench::suite::FigureKind::lines);
     f.y.column = "lo";
     EXPECT_EQ(complaint(f).rfind("table extent: unknown column \"lo\"; did you mean \"low\"?", 0), 0u) << complaint(f);
-    f = a_figure(FigureKind::lines);
+    f = a_figure(bench::suite::FigureKind::lines);
     f.where = {{"tap", {"z"}}};
     EXPECT_EQ(complaint(f), "table extent: no row is left to draw");
 }
@@ -269,7 +271,7 @@ TEST(FigureCommand, ASuiteWritesItsPicturesAndSaysWhichItCouldNotDraw) {
         << "[[figure]]\nname = \"2\"\ntitle = \"t\"\nkind = \"lines\"\ntable = \"profile\"\nx = \"postion\"\ny = \"time_s\"\n";
     const Outcome o = jvari(scratch, "suite " + scratch / "a.toml" + " --out " + scratch / "out");
     EXPECT_EQ(o.code, 0) << o.err;
-    if (find_vega().missing.empty()) {
+    if (bench::report::find_vega().missing.empty()) {
         EXPECT_EQ(content(scratch.path / "out" / "figure-1.svg").rfind("<svg", 0), 0u);
         EXPECT_NE(o.err.find("figure-2.svg: table profile: unknown column \"postion\""), std::string::npos) << o.err;
     } else {

@@ -181,7 +181,7 @@ public:
     explicit Child(Life life) {
         EXPECT_EQ(pipe(ready_) + pipe(go_on_), 0);
         if (child_ = fork(); child_ == 0) {
-            heed_interruptions();
+            bench::store::heed_interruptions();
             life([this] {
                 char c = 0;
                 if (write(ready_[1], &c, 1) != 1 || read(go_on_[0], &c, 1) != 1) _exit(2);
@@ -222,11 +222,11 @@ private:
 TEST(Interruption, AFileThatIsBeingWrittenIsFinishedNoneIsBegunAndNothingIsDoneAfterIt) {
     const Scratch scratch;
     Child child([&](auto wait) {
-        FreshFile file(scratch.path / "x");
+        bench::store::FreshFile file(scratch.path / "x");
         std::ofstream stream(file.path());
         stream << "whole";
         wait();
-        std::thread([&scratch] { write_fresh(scratch.path / "y", ""); }).detach();
+        std::thread([&scratch] { bench::store::write_fresh(scratch.path / "y", ""); }).detach();
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         stream.close();
         file.keep();
@@ -241,8 +241,8 @@ TEST(Interruption, AFileThatIsBeingWrittenIsFinishedNoneIsBegunAndNothingIsDoneA
 
 TEST(Interruption, ASecondSignalEndsAtOnceWhatTheFirstWaitsFor) {
     Child child([](auto wait) {
-        const WhenInterrupted never([] { _exit(1); });
-        const Undisturbed busy;
+        const bench::store::WhenInterrupted never([] { _exit(1); });
+        const bench::store::Undisturbed busy;
         wait();
     });
     child.send(SIGINT);
@@ -277,8 +277,8 @@ TEST(Killed, PartsAreSweptAndThoseOfOthersAreNot) {
                                 left.file("e.json." + left.gone + ".part", 2),
                                 left.file(".f.json.part", 2),
                                 left.file(".g.x" + left.gone + ".part", 2)};
-    sweep_parts(left.path);
-    sweep_parts(left.path / "nowhere");
+    bench::store::sweep_parts(left.path);
+    bench::store::sweep_parts(left.path / "nowhere");
     EXPECT_FALSE(fs::exists(swept));
     for (const std::string& name : kept) EXPECT_TRUE(fs::exists(name)) << name;
 }

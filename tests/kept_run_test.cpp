@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 const Settings settings{0, 44100, 20, {{"tolerance", "1e-8"}}};
 
 Scene released() {
-    return load_scene("tanpura_c3_release", {}, 5e-3);
+    return bench::compare::load_scene("tanpura_c3_release", {}, 5e-3);
 }
 
 jvari::Run a_run(double seconds = 1) {
@@ -35,8 +35,8 @@ TEST(KeptRun, IsTheRunToTheLastBit) {
     jvari::Run before = a_run();
     before.status = {jvari::Outcome::not_converged, 12};
     before.facts.push_back({"nothing", std::nan(""), "m"});
-    write_run(scratch / "a.run", "key", before);
-    const auto after = read_run(scratch / "a.run", "key");
+    bench::trust::write_run(scratch / "a.run", "key", before);
+    const auto after = bench::trust::read_run(scratch / "a.run", "key");
     ASSERT_TRUE(after);
     EXPECT_EQ(after->trace.tap, before.trace.tap);
     EXPECT_EQ(after->trace.names, before.trace.names);
@@ -56,32 +56,32 @@ TEST(KeptRun, IsTheRunToTheLastBit) {
 TEST(KeptRun, IsNotBelievedWhereItIsBrokenAlteredOrOfAnother) {
     const Scratch scratch;
     const fs::path path = scratch / "a.run";
-    write_run(path, "key", a_run());
+    bench::trust::write_run(path, "key", a_run());
     const std::string whole = content(path.string());
-    EXPECT_FALSE(read_run(path, "another"));
-    EXPECT_FALSE(read_run(scratch / "none.run", "key"));
+    EXPECT_FALSE(bench::trust::read_run(path, "another"));
+    EXPECT_FALSE(bench::trust::read_run(scratch / "none.run", "key"));
     for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{16}, whole.size() / 2, whole.size() - 1}) {
         overwrite(path, whole.substr(0, size));
-        EXPECT_FALSE(read_run(path, "key")) << size;
+        EXPECT_FALSE(bench::trust::read_run(path, "key")) << size;
     }
     for (std::size_t k = 0; k < 9; ++k) {  // a number is 9 bytes long
         std::string altered = whole;
         altered[whole.size() / 2 + k] ^= 1;
         overwrite(path, altered);
-        EXPECT_FALSE(read_run(path, "key"));
+        EXPECT_FALSE(bench::trust::read_run(path, "key"));
     }
     overwrite(path, whole);
-    EXPECT_TRUE(read_run(path, "key"));
+    EXPECT_TRUE(bench::trust::read_run(path, "key"));
 }
 
 TEST(KeptRun, IsNotBelievedWhereItsChecksumIsRightAndItsContentIsNot) {
     const Scratch scratch;
     const fs::path path = scratch / "a.run";
-    write_run(path, "key", a_run());
+    bench::trust::write_run(path, "key", a_run());
     const std::string right = content(path.string()).substr(32);
     const auto believed = [&](const std::string& text) {
-        overwrite(path, hash_of(text) + text);
-        return read_run(path, "key").has_value();
+        overwrite(path, bench::store::hash_of(text) + text);
+        return bench::trust::read_run(path, "key").has_value();
     };
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string text = right;
@@ -103,8 +103,8 @@ TEST(KeptRun, OfSizesThatCannotBeIsNotBelievedWhateverItsChecksum) {
         const std::string content = R"({"key":"key","outcome":"ok","failed_step":0,"dofs":)" + dofs +
                                     R"(,"steps":0,"wall_seconds":1,"facts":[],"worst_block":0,"tap_rate":44100,"stride":)" + stride +
                                     R"(,"rows":)" + rows + R"(,"names":["a","b","c","d","e","f","g","h"]})" + "\n";
-        overwrite(scratch / "a.run", hash_of(content) + content);
-        return read_run(scratch / "a.run", "key").has_value();
+        overwrite(scratch / "a.run", bench::store::hash_of(content) + content);
+        return bench::trust::read_run(scratch / "a.run", "key").has_value();
     };
     EXPECT_TRUE(believed("4", "9", "0"));
     EXPECT_FALSE(believed("4", "0", "0"));                                      // a run has its first row at least
@@ -120,50 +120,50 @@ TEST(KeptRun, IsMadeOnceAndAgainWhereTheFileIsBroken) {
     const fs::path folder = scratch / "runs";
     int made = 0;
     const auto make = [&made] { return ++made, a_run(); };
-    const jvari::Run first = kept_run(folder, "key", make), second = kept_run(folder, "key", make);
+    const jvari::Run first = bench::trust::kept_run(folder, "key", make), second = bench::trust::kept_run(folder, "key", make);
     EXPECT_EQ(made, 1);
     EXPECT_EQ(first.trace.tap, second.trace.tap);
     overwrite(folder / "key.run", "half");
-    kept_run(folder, "key", make);
+    bench::trust::kept_run(folder, "key", make);
     EXPECT_EQ(made, 2);
-    kept_run(folder, "key", make);
+    bench::trust::kept_run(folder, "key", make);
     EXPECT_EQ(made, 2);
-    kept_run({}, "key", make);
+    bench::trust::kept_run({}, "key", make);
     EXPECT_EQ(made, 3);
 }
 
 TEST(KeptRun, OfLessThanHalfASecondIsNotKeptAndAFolderThatCannotBeIsNoError) {
     const Scratch scratch;
     const fs::path folder = scratch / "runs";
-    kept_run(folder, "key", [] { return a_run(0.1); });
+    bench::trust::kept_run(folder, "key", [] { return a_run(0.1); });
     EXPECT_FALSE(fs::exists(folder / "key.run"));
     overwrite(folder, "a file");
-    EXPECT_GT(kept_run(folder, "key", [] { return a_run(); }).trace.rows, 0);
+    EXPECT_GT(bench::trust::kept_run(folder, "key", [] { return a_run(); }).trace.rows, 0);
 }
 
 TEST(KeptRun, HasAKeyOfEverythingThatItsNumbersDependOn) {
     const Scene scene = released();
-    const std::string key = run_key(exact_contact, scene, settings);
-    EXPECT_EQ(run_key(exact_contact, released(), settings), key);
-    EXPECT_NE(run_key(sundials, scene, settings), key);
+    const std::string key = bench::trust::run_key(exact_contact, scene, settings);
+    EXPECT_EQ(bench::trust::run_key(exact_contact, released(), settings), key);
+    EXPECT_NE(bench::trust::run_key(sundials, scene, settings), key);
     Scene longer = scene;
     longer.duration *= 2;
-    EXPECT_NE(run_key(exact_contact, longer, settings), key);
+    EXPECT_NE(bench::trust::run_key(exact_contact, longer, settings), key);
     Settings other = settings;
     other.modes = 21;
-    EXPECT_NE(run_key(exact_contact, scene, other), key);
+    EXPECT_NE(bench::trust::run_key(exact_contact, scene, other), key);
     other = settings;
     other.tap_rate = 48000;
-    EXPECT_NE(run_key(exact_contact, scene, other), key);
+    EXPECT_NE(bench::trust::run_key(exact_contact, scene, other), key);
     other = settings;
     other.options[0].second = "1e-9";
-    EXPECT_NE(run_key(exact_contact, scene, other), key);
+    EXPECT_NE(bench::trust::run_key(exact_contact, scene, other), key);
 }
 
 TEST(KeptRun, IsOfAProgramWhoseCommitSaysWhatItComputes) {
-    EXPECT_TRUE(keeps_runs("029d78bebcb3"));
-    EXPECT_FALSE(keeps_runs("029d78bebcb3-dirty"));
-    EXPECT_FALSE(keeps_runs("unknown"));
+    EXPECT_TRUE(bench::trust::keeps_runs("029d78bebcb3"));
+    EXPECT_FALSE(bench::trust::keeps_runs("029d78bebcb3-dirty"));
+    EXPECT_FALSE(bench::trust::keeps_runs("unknown"));
 }
 
 }  // namespace

@@ -26,6 +26,8 @@ above=
 for room in command report suite map compare trust store; do  # each room of bench sees itself and those after it here
     [ -z "$above" ] || forbid "bench/$room sees nothing of the rooms above it" "#include \"bench/($above)/" $(files bench/$room)
     above=${above:+$above|}$room
+    forbid "bench/$room opens the namespace of its room" "^namespace jvari(::bench::[a-z]+)? \\{$" \
+        $(grep -LE "^namespace jvari::bench::$room \\{$" $(files bench/$room))
 done
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
 forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 // ---- The file
 
 TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
-    const Suite s = parse_suite(R"(
+    const bench::suite::Suite s = bench::suite::parse_suite(R"(
         [[map]]
         name = "a"
         scene = "free_string"
@@ -27,9 +27,9 @@ TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
         options = { grid = 100 }
         set = { "string.0.damping.law" = "none" }
     )",
-                                "a.toml");
+                                                            "a.toml");
     ASSERT_EQ(s.maps.size(), 1u);
-    const Map& m = s.maps[0];
+    const bench::map::Map& m = s.maps[0];
     ASSERT_EQ(m.x.values.size(), 7u);
     EXPECT_EQ(m.x.at[1], 1e6);
     EXPECT_EQ(m.x.at[6], 1e16);
@@ -37,7 +37,8 @@ TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
     EXPECT_TRUE(m.y.whole);
     EXPECT_FALSE(m.x.whole);
     EXPECT_TRUE(m.reproduce);
-    EXPECT_EQ(m.fixed, (std::vector<Assignment>{{"rate", "48000"}, {"option:grid", "100"}, {"string.0.damping.law", "\"none\""}}));
+    EXPECT_EQ(m.fixed,
+              (std::vector<bench::map::Assignment>{{"rate", "48000"}, {"option:grid", "100"}, {"string.0.damping.law", "\"none\""}}));
 }
 
 TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
@@ -80,8 +81,11 @@ TEST(MapFile, MorePointsThanCanBeRunAreRefusedWithTheirNumber) {
 
 TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
     int asked = 0;
-    const auto past_pi = [&asked](double x) { return ++asked, x < 3.14159265 ? Verdict::sound : Verdict::diverged; };
-    const Bracket b = bisect({1, 100, Verdict::sound, Verdict::diverged}, 20, false, past_pi);
+    const auto past_pi = [&asked](double x) {
+        return ++asked, x < 3.14159265 ? bench::map::Verdict::sound : bench::map::Verdict::diverged;
+    };
+    const bench::map::Bracket b =
+        bench::map::bisect({1, 100, bench::map::Verdict::sound, bench::map::Verdict::diverged}, 20, false, past_pi);
     EXPECT_EQ(asked, 20);
     EXPECT_LT(b.low, 3.14159265);
     EXPECT_GE(b.high, 3.14159265);
@@ -89,21 +93,25 @@ TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
 }
 
 TEST(Bisection, OfWholeNumbersEndsAtNeighbours) {
-    const auto past = [](double x) { return x <= 137 ? Verdict::sound : Verdict::refused; };
-    const Bracket b = bisect({100, 400, Verdict::sound, Verdict::refused}, 60, true, past);
+    const auto past = [](double x) { return x <= 137 ? bench::map::Verdict::sound : bench::map::Verdict::refused; };
+    const bench::map::Bracket b = bench::map::bisect({100, 400, bench::map::Verdict::sound, bench::map::Verdict::refused}, 60, true, past);
     EXPECT_EQ(b.low, 137);
     EXPECT_EQ(b.high, 138);
 }
 
 TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereSoundnessEnds) {
-    const auto three = [](double x) { return x < 2 ? Verdict::sound : x < 3 ? Verdict::adhesive : Verdict::diverged; };
-    const Bracket end = bisect({1, 10, Verdict::sound, Verdict::diverged}, 30, false, three);
+    const auto three = [](double x) {
+        return x < 2 ? bench::map::Verdict::sound : x < 3 ? bench::map::Verdict::adhesive : bench::map::Verdict::diverged;
+    };
+    const bench::map::Bracket end =
+        bench::map::bisect({1, 10, bench::map::Verdict::sound, bench::map::Verdict::diverged}, 30, false, three);
     EXPECT_NEAR(end.low, 2, 1e-6);
-    EXPECT_EQ(end.at_high, Verdict::adhesive);
+    EXPECT_EQ(end.at_high, bench::map::Verdict::adhesive);
     const auto mirrored = [&three](double x) { return three(11 - x); };
-    const Bracket start = bisect({1, 10, Verdict::diverged, Verdict::sound}, 30, false, mirrored);
+    const bench::map::Bracket start =
+        bench::map::bisect({1, 10, bench::map::Verdict::diverged, bench::map::Verdict::sound}, 30, false, mirrored);
     EXPECT_NEAR(start.high, 9, 1e-6);
-    EXPECT_EQ(start.at_low, Verdict::adhesive);
+    EXPECT_EQ(start.at_low, bench::map::Verdict::adhesive);
 }
 
 // ---- Boundaries against theory
@@ -133,25 +141,25 @@ constexpr const char* limits = R"(
     refine = 8
 )";
 
-MapRun run_of(const Suite& suite, const fs::path& folder = {}, bool resume = false, int jobs = 1) {
-    static const Catalogue catalogue;
-    Truths truths(catalogue);
-    return run_maps(suite.maps, truths, "\"tests\"", folder, resume, jobs, Console(false, true));
+bench::map::MapRun run_of(const bench::suite::Suite& suite, const fs::path& folder = {}, bool resume = false, int jobs = 1) {
+    static const bench::compare::Catalogue catalogue;
+    bench::map::Truths truths(catalogue);
+    return bench::map::run_maps(suite.maps, truths, "\"tests\"", folder, resume, jobs, bench::store::Console(false, true));
 }
 
 TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
-    const Suite suite = parse_suite(limits, "a.toml");
-    const MapRun run = run_of(suite);
+    const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
+    const bench::map::MapRun run = run_of(suite);
     ASSERT_EQ(run.boundaries.size(), 3u);
-    for (const Boundary& b : run.boundaries) {
+    for (const bench::map::Boundary& b : run.boundaries) {
         EXPECT_LT(std::abs(b.relative_difference()), 0.01) << b.map->name << " " << b.scheme->name << " " << b.theory;
-        EXPECT_EQ(b.high, Verdict::sound);
-        EXPECT_NE(b.low, Verdict::sound);
+        EXPECT_EQ(b.high, bench::map::Verdict::sound);
+        EXPECT_NE(b.low, bench::map::Verdict::sound);
     }
 }
 
 TEST(Maps, TrueEnergyOfTheImpulseInvariantControlIsGainedBelowTheRateOfEqualShares) {
-    const Suite suite = parse_suite(R"(
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[map]]
         name = "a"
         scene = "tanpura_c3_release"
@@ -165,18 +173,18 @@ TEST(Maps, TrueEnergyOfTheImpulseInvariantControlIsGainedBelowTheRateOfEqualShar
         theory = "equal_shares"
         refine = 7
     )",
-                                    "a.toml");
-    const MapRun run = run_of(suite);
+                                                                "a.toml");
+    const bench::map::MapRun run = run_of(suite);
     ASSERT_EQ(run.boundaries.size(), 1u);  // none of mode 60: equal shares are less than its own. None of the scheme that balances
-    const Boundary& b = run.boundaries[0];
+    const bench::map::Boundary& b = run.boundaries[0];
     EXPECT_EQ(b.y, "133");
-    EXPECT_EQ(b.low, Verdict::energy_gaining);
-    EXPECT_EQ(b.high, Verdict::sound);
+    EXPECT_EQ(b.low, bench::map::Verdict::energy_gaining);
+    EXPECT_EQ(b.high, bench::map::Verdict::sound);
     EXPECT_LT(std::abs(b.relative_difference()), 0.05) << b.theory;
 }
 
 TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
-    const Suite suite = parse_suite(R"(
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[map]]
         name = "a"
         scene = "free_string"
@@ -185,15 +193,16 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
         y = { key = "amplitude", values = [1, 2] }
         duration = 0.005
     )",
-                                    "a.toml");
-    const MapRun run = run_of(suite);
-    const Table t = maps_table(run);
+                                                                "a.toml");
+    const bench::map::MapRun run = run_of(suite);
+    const bench::store::Table t = bench::map::maps_table(run);
     ASSERT_EQ(t.rows.size(), 8u);
     EXPECT_EQ(t.at(0, "outcome"), "sound");
     EXPECT_EQ(t.at(0, "reference"), "exact_linear");
     EXPECT_EQ(t.at(1, "outcome"), "refused");
     EXPECT_NE(t.at(1, "detail").find("half the sample rate"), std::string::npos) << t.at(1, "detail");
-    const Table boundaries = boundaries_table(run, {{{"modal_two_point", Verdict::refused}, "failures/a.toml"}});
+    const bench::store::Table boundaries =
+        bench::map::boundaries_table(run, {{{"modal_two_point", bench::map::Verdict::refused}, "failures/a.toml"}});
     ASSERT_GE(boundaries.rows.size(), 2u);
     EXPECT_EQ(boundaries.at(0, "between"), "sound|refused");
     EXPECT_EQ(boundaries.at(0, "reproducer"), "failures/a.toml");
@@ -203,15 +212,15 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
 
 TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     const Scratch scratch;
-    const Suite suite = parse_suite(limits, "a.toml");
-    const MapRun whole = run_of(suite, scratch.path);
+    const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
+    const bench::map::MapRun whole = run_of(suite, scratch.path);
     EXPECT_EQ(whole.read_back, 0);
     int removed = 0;  // as if the suite had been stopped: a part of its points, and one that was cut off
     for (const auto& entry : fs::directory_iterator(scratch.path)) {
         if (++removed % 3 == 0) fs::remove(entry.path());
         if (removed % 7 == 0) std::ofstream(entry.path()) << "{";
     }
-    const MapRun resumed = run_of(suite, scratch.path, true, 2);
+    const bench::map::MapRun resumed = run_of(suite, scratch.path, true, 2);
     EXPECT_GT(resumed.read_back, 0);
     EXPECT_GT(resumed.ran, 0);
     EXPECT_EQ(resumed.ran + resumed.read_back, whole.ran);
@@ -225,13 +234,13 @@ TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
 
 TEST(Maps, APointIsBelievedWhereItIsAsItWasWritten) {
     const Scratch scratch;
-    const Suite suite = parse_suite(limits, "a.toml");
-    const MapRun whole = run_of(suite, scratch.path);
+    const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
+    const bench::map::MapRun whole = run_of(suite, scratch.path);
     const fs::path file = fs::directory_iterator(scratch.path)->path();
     const std::string kept = content(file.string());
     const auto ran_with = [&](const std::string& text) {
         std::ofstream(file, std::ios::binary) << text;
-        const MapRun resumed = run_of(suite, scratch.path, true);
+        const bench::map::MapRun resumed = run_of(suite, scratch.path, true);
         EXPECT_EQ(csv(maps_table(resumed)), csv(maps_table(whole)));
         return resumed.ran;
     };
@@ -241,9 +250,9 @@ TEST(Maps, APointIsBelievedWhereItIsAsItWasWritten) {
         const auto value = altered.find(':', altered.find(std::string("\"") + key + "\"")) + 1;
         altered.replace(value, altered.find_first_of(",}", value) - value, "77");
         EXPECT_EQ(ran_with(altered), 1) << key;
-        EXPECT_EQ(ran_with(sealed(unsealed(kept))), 0);
+        EXPECT_EQ(ran_with(bench::store::sealed(bench::store::unsealed(kept))), 0);
         if (std::string(key) == "steps") continue;  // a number in place of a number: that is for the checksum alone to tell
-        EXPECT_EQ(ran_with(sealed(altered.substr(0, altered.find(",\n \"checksum")) + "}")), 1) << key;
+        EXPECT_EQ(ran_with(bench::store::sealed(altered.substr(0, altered.find(",\n \"checksum")) + "}")), 1) << key;
     }
 }
 
@@ -259,7 +268,7 @@ TEST(Maps, TheProgramWritesTablesForASuiteOfMapsAlone) {
     )";
     const auto r = jvari(scratch, "suite " + (scratch / "s.toml") + " --out " + (scratch / "out"), "JVARI_NODE_MODULES=/nowhere");
     EXPECT_EQ(r.code, 0) << r.err;
-    const Table t = read_csv(content(scratch / "out/maps.csv"));
+    const bench::store::Table t = bench::store::read_csv(content(scratch / "out/maps.csv"));
     ASSERT_EQ(t.rows.size(), 2u);
     EXPECT_EQ(t.at(1, "outcome"), "sound");
     EXPECT_TRUE(fs::exists(scratch / "out/boundaries.csv"));

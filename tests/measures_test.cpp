@@ -22,15 +22,15 @@ const Descriptor& scheme_named(const std::string& name) {
     throw std::runtime_error(name);
 }
 
-Table rows_for(const std::string& scheme, const std::string& scene_name, double rate, std::vector<std::string> set = {},
-               double duration = 0.3) {
-    const Scene scene = load_scene(scene_name, set, duration);
+bench::store::Table rows_for(const std::string& scheme, const std::string& scene_name, double rate, std::vector<std::string> set = {},
+                             double duration = 0.3) {
+    const Scene scene = bench::compare::load_scene(scene_name, set, duration);
     Settings settings;
     settings.sample_rate = rate;
     const Descriptor& d = scheme_named(scheme);
     const Run r = run(d, scene, settings);
-    const CellSet cells;
-    return dispersion_rows({scene, d, settings, r.trace, nullptr, 0, cells});
+    const bench::suite::CellSet cells;
+    return bench::suite::dispersion_rows({scene, d, settings, r.trace, nullptr, 0, cells});
 }
 
 // ---- Dispersion
@@ -38,7 +38,7 @@ Table rows_for(const std::string& scheme, const std::string& scene_name, double 
 TEST(Dispersion, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
     for (const char* name : {"modal_two_point", "modal_two_point_trapezoidal", "modal_spatial_newton", "modal_quadratised_three_point",
                              "finite_difference_explicit", "finite_difference_theta", "finite_difference_hamiltonian"}) {
-        const Table t = rows_for(name, "free_string", 88200, {"string.0.initial.position=0.2137"});
+        const bench::store::Table t = rows_for(name, "free_string", 88200, {"string.0.initial.position=0.2137"});
         ASSERT_EQ(t.rows.size(), 30u) << name;
         for (std::size_t i = 0; i < t.rows.size(); ++i) {
             EXPECT_NEAR(t.number(i, "own_cents"), t.number(i, "trace_cents"), 1e-5) << name << " mode " << i + 1;
@@ -49,8 +49,8 @@ TEST(Dispersion, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
 
 TEST(Dispersion, ExactCoefficientsAreExactAndTrapezoidalOnesWarpByTheirArctangent) {
     const double dt = 1 / 44100.0;
-    const Table exact = rows_for("modal_two_point", "free_string", 44100),
-                warped = rows_for("modal_two_point_trapezoidal", "free_string", 44100);
+    const bench::store::Table exact = rows_for("modal_two_point", "free_string", 44100),
+                              warped = rows_for("modal_two_point_trapezoidal", "free_string", 44100);
     for (std::size_t i = 0; i < exact.rows.size(); ++i) {
         const double omega = 2 * pi * exact.number(i, "frequency_hz");
         EXPECT_NEAR(exact.number(i, "own_cents"), 0, 1e-9);
@@ -61,7 +61,7 @@ TEST(Dispersion, ExactCoefficientsAreExactAndTrapezoidalOnesWarpByTheirArctangen
 }
 
 TEST(Dispersion, TheSitarOfIntegerLengthIsSharpByAsMuchAsThePaperSays) {
-    const Table t = rows_for("sitar_waveguide", "sitar_c5_decay", 44100);
+    const bench::store::Table t = rows_for("sitar_waveguide", "sitar_c5_decay", 44100);
     ASSERT_GT(t.rows.size(), 10u);
     EXPECT_NEAR(t.number(0, "own_cents"), 5.78, 0.01);  // 42 samples: 525 Hz in place of 523.25
     EXPECT_NEAR(t.number(0, "trace_cents"), t.number(0, "own_cents"), 1e-6);
@@ -70,7 +70,7 @@ TEST(Dispersion, TheSitarOfIntegerLengthIsSharpByAsMuchAsThePaperSays) {
 }
 
 TEST(Dispersion, AStringAgainstABridgeHasNoModesOfItsOwnToHear) {
-    const Table t = rows_for("modal_two_point", "tanpura_c3_release", 44100, {}, 0.05);
+    const bench::store::Table t = rows_for("modal_two_point", "tanpura_c3_release", 44100, {}, 0.05);
     ASSERT_FALSE(t.rows.empty());
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         EXPECT_EQ(t.at(i, "trace_cents"), "");
@@ -81,10 +81,10 @@ TEST(Dispersion, AStringAgainstABridgeHasNoModesOfItsOwnToHear) {
 // ---- Static compliance at the bridge
 
 double compliance(const std::string& scheme, double rate) {
-    const Scene scene = load_scene("tanpura_c3_release", {}, 0.001);
+    const Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.001);
     Settings settings;
     settings.sample_rate = rate;
-    return fact(run(scheme_named(scheme), scene, settings).facts, "static_compliance");
+    return bench::compare::fact(run(scheme_named(scheme), scene, settings).facts, "static_compliance");
 }
 
 TEST(Compliance, ExactModesDoNotMakeAnExactForcedResponse) {  // 0.926 and 1.045: an independent prototype's, C3, 133 modes, 44.1 kHz
@@ -105,8 +105,8 @@ TEST(Compliance, GoesToTheTrueOneWithTheSquareOfTheStep) {
 
 // ---- Observed orders
 
-Table cells_with(const std::vector<std::vector<std::string>>& rows) {
-    Table t;
+bench::store::Table cells_with(const std::vector<std::vector<std::string>>& rows) {
+    bench::store::Table t;
     t.columns = {"cell",
                  "scene",
                  "scheme",
@@ -127,7 +127,7 @@ Table cells_with(const std::vector<std::vector<std::string>>& rows) {
 }
 
 TEST(ConvergenceTable, FitsWhatServesAndSaysFromWhereToWhere) {
-    const Table t = convergence_of(cells_with({
+    const bench::store::Table t = bench::compare::convergence_of(cells_with({
         {"1", "s", "a", "", "100", "10", "ok", "", "", "1.5", "1e-9", "", "", "", ""},   // nothing of the waveform is right
         {"2", "s", "a", "", "200", "20", "ok", "", "", "0.04", "1e-9", "", "", "", ""},  // order 2
         {"3", "s", "a", "", "400", "40", "ok", "", "", "0.01", "1e-9", "", "", "", ""},
@@ -152,7 +152,7 @@ TEST(ConvergenceTable, FitsWhatServesAndSaysFromWhereToWhere) {
 }
 
 TEST(ConvergenceTable, ModesThatAreSweptAreSeriesOfTheirOwn) {
-    const Table t = convergence_of(cells_with({
+    const bench::store::Table t = bench::compare::convergence_of(cells_with({
         {"1", "s", "a", "", "100", "10", "ok", "", "", "0.1", "0", "", "", "", ""},
         {"2", "s", "a", "", "200", "10", "ok", "", "", "0.05", "0", "", "", "", ""},
         {"3", "s", "a", "", "100", "20", "ok", "", "", "0.1", "0", "", "", "", ""},

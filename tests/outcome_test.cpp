@@ -25,7 +25,7 @@ Scene string_over_barrier() {
 }
 
 struct MadeUp {  // 100 rows at 1 kHz of a string that swings with 1 J: |y| <= sqrt(1 J 2 m/(2 x 4 N)) = 0.5 m
-    Scene scene = listened(string_over_barrier());
+    Scene scene = bench::map::listened(string_over_barrier());
     Settings settings{2000, 1000, 0, {}};
     Run run;
     Trace truth;
@@ -45,97 +45,97 @@ struct MadeUp {  // 100 rows at 1 kHz of a string that swings with 1 J: |y| <= s
         truth = t;
     }
     double& energy(int column, int row) { return run.trace.energy[100 * column + row]; }
-    Judgement judgement(Balance b = Balance::exact, bool with_truth = true) {
+    bench::map::Judgement judgement(Balance b = Balance::exact, bool with_truth = true) {
         const Descriptor d = promising(b);
-        return judge(figures_of(d, scene, settings, run, with_truth ? &truth : nullptr));
+        return bench::map::judge(bench::map::figures_of(d, scene, settings, run, with_truth ? &truth : nullptr));
     }
-    Verdict verdict(Balance b = Balance::exact) { return judgement(b).verdict; }
+    bench::map::Verdict verdict(Balance b = Balance::exact) { return judgement(b).verdict; }
 };
 
 TEST(Outcome, ARunWithNothingAgainstItIsSound) {
-    EXPECT_EQ(MadeUp().verdict(), Verdict::sound);
+    EXPECT_EQ(MadeUp().verdict(), bench::map::Verdict::sound);
     EXPECT_EQ(MadeUp().judgement(Balance::exact, false).detail, "");
 }
 
 TEST(Outcome, TheRunsOwnStatusIsTakenWithItsStep) {
     MadeUp m;
     m.run.status = {Outcome::diverged, 17};
-    EXPECT_EQ(m.verdict(), Verdict::diverged);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::diverged);
     EXPECT_EQ(m.judgement().step, 17);
     m.run.status.outcome = Outcome::not_converged;
-    EXPECT_EQ(m.verdict(), Verdict::not_converged);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::not_converged);
 }
 
 TEST(Outcome, ADisplacementBeyondWhatTenfoldEnergyAllowsIsDivergence) {
     MadeUp m;
     m.run.trace.tap[150] = 0.99 * 0.5 * std::sqrt(10.0);
-    EXPECT_NE(m.verdict(), Verdict::diverged);
+    EXPECT_NE(m.verdict(), bench::map::Verdict::diverged);
     m.run.trace.tap[150] = -1.01 * 0.5 * std::sqrt(10.0);
-    EXPECT_EQ(m.verdict(), Verdict::diverged);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::diverged);
 }
 
 TEST(Outcome, EnergyThatTheLedgerDoesNotExplainIsAGain) {
     MadeUp m;
     for (int n = 50; n < 100; ++n) m.energy(0, n) = 2;  // supplied: no gain
     m.energy(1, 50) = 1;
-    EXPECT_EQ(m.verdict(), Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
     m.energy(0, 80) = 2 + 4e-6;
-    EXPECT_EQ(m.verdict(), Verdict::energy_gaining);  // 2e-6 of the 2 J that were there
-    EXPECT_EQ(m.verdict(Balance::none), Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::energy_gaining);  // 2e-6 of the 2 J that were there
+    EXPECT_EQ(m.verdict(Balance::none), bench::map::Verdict::sound);
     m.energy(0, 80) = 2.04;
-    EXPECT_EQ(m.verdict(Balance::none), Verdict::energy_gaining);
+    EXPECT_EQ(m.verdict(Balance::none), bench::map::Verdict::energy_gaining);
 }
 
 TEST(Outcome, EnergyThatIsLostIsNoGain) {
     MadeUp m;
     for (int n = 1; n < 100; ++n) m.energy(0, n) = 0.5;
-    EXPECT_EQ(m.verdict(), Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
 }
 
 TEST(Outcome, EnergyThatIsDissipatedOnPaperAndKeptIsAGain) {
     MadeUp m;
     m.energy(2, 10) = 0.5;
-    EXPECT_EQ(m.verdict(), Verdict::energy_gaining);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::energy_gaining);
 }
 
 TEST(Outcome, ALossThatFeedsEnergyInIsAGain) {
     MadeUp m;
     m.energy(2, 10) = -0.5;
     for (int n = 10; n < 100; ++n) m.energy(0, n) = 1.5;  // the ledger closes
-    EXPECT_EQ(m.verdict(), Verdict::energy_gaining);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::energy_gaining);
 }
 
 TEST(Outcome, ColumnsLeftEmptySayNothing) {
     MadeUp m;
     std::fill(m.run.trace.energy.begin(), m.run.trace.energy.end(), 0.0);
-    EXPECT_EQ(m.verdict(Balance::none), Verdict::sound);
+    EXPECT_EQ(m.verdict(Balance::none), bench::map::Verdict::sound);
 }
 
 TEST(Outcome, APullIsMeasuredAgainstTheHardestPushOfOneStep) {
     MadeUp m;  // 3 N over a row of two steps: 6 N at most
     m.run.facts[0].value = -0.9 * 6e-6;
-    EXPECT_EQ(m.verdict(), Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
     m.run.facts[0].value = -1.1 * 6e-6;
-    EXPECT_EQ(m.verdict(), Verdict::adhesive);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::adhesive);
 }
 
 TEST(Outcome, ATenthOfErrorIsInaccurate) {
     MadeUp m;
     for (int n = 200; n < 300; ++n) m.run.trace.tap[n] *= 1.09;
-    EXPECT_EQ(m.verdict(), Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
     for (int n = 200; n < 300; ++n) m.run.trace.tap[n] = m.truth.tap[n] * 1.11;
-    EXPECT_EQ(m.verdict(), Verdict::inaccurate);
-    EXPECT_EQ(m.judgement(Balance::exact, false).verdict, Verdict::sound);  // nothing to be compared with
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::inaccurate);
+    EXPECT_EQ(m.judgement(Balance::exact, false).verdict, bench::map::Verdict::sound);  // nothing to be compared with
 }
 
 TEST(Outcome, TheGravestNameWins) {
     const Status stopped{Outcome::not_converged, 3};
-    EXPECT_EQ(judge({stopped, 9, 1, 1, 1, Balance::exact}).verdict, Verdict::diverged);
-    EXPECT_EQ(judge({stopped, nan, 1, 1, 1, Balance::exact}).verdict, Verdict::not_converged);
-    EXPECT_EQ(judge({{}, nan, 1, 1, 1, Balance::exact}).verdict, Verdict::energy_gaining);
-    EXPECT_EQ(judge({{}, nan, nan, 1, 1, Balance::exact}).verdict, Verdict::adhesive);
-    EXPECT_EQ(judge({{}, nan, nan, nan, 1, Balance::exact}).verdict, Verdict::inaccurate);
-    EXPECT_EQ(judge({{}, nan, nan, nan, nan, Balance::exact}).verdict, Verdict::sound);
+    EXPECT_EQ(bench::map::judge({stopped, 9, 1, 1, 1, Balance::exact}).verdict, bench::map::Verdict::diverged);
+    EXPECT_EQ(bench::map::judge({stopped, nan, 1, 1, 1, Balance::exact}).verdict, bench::map::Verdict::not_converged);
+    EXPECT_EQ(bench::map::judge({{}, nan, 1, 1, 1, Balance::exact}).verdict, bench::map::Verdict::energy_gaining);
+    EXPECT_EQ(bench::map::judge({{}, nan, nan, 1, 1, Balance::exact}).verdict, bench::map::Verdict::adhesive);
+    EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, 1, Balance::exact}).verdict, bench::map::Verdict::inaccurate);
+    EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, nan, Balance::exact}).verdict, bench::map::Verdict::sound);
 }
 
 }  // namespace

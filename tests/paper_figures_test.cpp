@@ -16,7 +16,7 @@ namespace {
 using Series = std::map<double, double>;
 
 // x -> y of the rows that carry these fields.
-Series series(const Table& t, const std::map<std::string, std::string>& where, const std::string& x, const std::string& y) {
+Series series(const bench::store::Table& t, const std::map<std::string, std::string>& where, const std::string& x, const std::string& y) {
     Series s;
     for (std::size_t i = 0; i < t.rows.size(); ++i)
         if (!t.at(i, x).empty() && std::ranges::all_of(where, [&](const auto& w) { return t.at(i, w.first) == w.second; }))
@@ -40,8 +40,8 @@ double rms_difference(const Series& a, const Series& b, double from, double to) 
     return std::sqrt(mean_between(squares, from, to));
 }
 
-Table committed(const std::string& file) {
-    return read_csv(read_whole(JVARI_RESULTS "/" + file));
+bench::store::Table committed(const std::string& file) {
+    return bench::store::read_csv(bench::store::read_whole(JVARI_RESULTS "/" + file));
 }
 
 // ---- van Walstijn, Bridges & Mehes 2016
@@ -66,7 +66,7 @@ double from_two_lines(const Series& profile) {
 }
 
 TEST(Tanpura, Figure6TheMotionBecomesHelmholtzLikeAndAt44100HzStopsDoingSo) {
-    const Table t = committed(tanpura + "profile.csv");
+    const bench::store::Table t = committed(tanpura + "profile.csv");
     const auto distance = [&t](const std::string& scheme, const std::string& instant) {
         Series whole;
         for (const auto& [x, y] : series(t, {{"scheme", scheme}, {"time_s", instant}}, "position_m", "displacement_m"))
@@ -88,7 +88,7 @@ TEST(Tanpura, Figure6TheMotionBecomesHelmholtzLikeAndAt44100HzStopsDoingSo) {
 }
 
 TEST(Tanpura, Figure6TheThreadGivesAHundredTimesMoreThanTheBridge) {
-    const Table t = committed(tanpura + "profile.csv"), cells = committed(tanpura + "errors.csv");
+    const bench::store::Table t = committed(tanpura + "profile.csv"), cells = committed(tanpura + "errors.csv");
     double thread = 0, deepest = 0;
     for (std::size_t i = 0; i < t.rows.size(); ++i)
         if (t.at(i, "scheme") == "modal_two_point" && t.number(i, "position_m") == 0.005)
@@ -119,7 +119,7 @@ int turns_down(const Series& s, double swing) {  // maxima after which it falls 
 }
 
 TEST(Tanpura, Figure7AWavepacketEmergesAtTheBridgeAndWithoutStiffnessThereIsNone) {
-    const Table t = committed(tanpura + "trace.csv");
+    const bench::store::Table t = committed(tanpura + "trace.csv");
     const auto turns = [&t](const char* stiffness, const char* window) {
         return turns_down(series(t, {{"string.0.bending_stiffness", stiffness}, {"window_s", window}}, "time_s", "value"), 0.2);
     };
@@ -130,7 +130,7 @@ TEST(Tanpura, Figure7AWavepacketEmergesAtTheBridgeAndWithoutStiffnessThereIsNone
 }
 
 TEST(Tanpura, Section41TheCentroidFallsAbove2kHzAndRisesAbove500Hz) {
-    const Table t = committed(tanpura + "centroid.csv");
+    const bench::store::Table t = committed(tanpura + "centroid.csv");
     std::map<std::string, std::pair<double, double>> fall;  // of each position of the thread: at 0.1 s and at 0.6 s
     for (const char* position : {"0.004", "0.005", "0.006", "0.008"}) {
         const Series s = series(t, {{"string.0.thread.position", position}}, "time_s", "centroid_hz");
@@ -144,7 +144,7 @@ TEST(Tanpura, Section41TheCentroidFallsAbove2kHzAndRisesAbove500Hz) {
 }
 
 TEST(Tanpura, Figure9TheBridgeIsTooStrongAbove15kHzAtEveryRateAndTheNutTooWeakAt44100Hz) {
-    const Table t = committed(tanpura + "envelope.csv");
+    const bench::store::Table t = committed(tanpura + "envelope.csv");
     const auto envelope = [&t](const char* tap, const char* rate) {
         return series(t, {{"tap", tap}, {"rate", rate}}, "frequency_hz", "level_db");
     };
@@ -163,7 +163,7 @@ TEST(Tanpura, Figure9TheBridgeIsTooStrongAbove15kHzAtEveryRateAndTheNutTooWeakAt
 }
 
 TEST(Tanpura, Figure8TheDrivingForceGrowsForHalfASecondByItself) {
-    const Table t = committed(tanpura + "extent.csv");
+    const bench::store::Table t = committed(tanpura + "extent.csv");
     for (const char* tap : {"driving", "nut"}) {
         const Series low = series(t, {{"tap", tap}}, "time_s", "low"), high = series(t, {{"tap", tap}}, "time_s", "high");
         double attack = 0, largest = 0, when = 0;
@@ -179,8 +179,8 @@ TEST(Tanpura, Figure8TheDrivingForceGrowsForHalfASecondByItself) {
 }
 
 TEST(Tanpura, TheCommittedProfilesAreWhatTheProgramMakes) {
-    const Table kept = committed(tanpura + "profile.csv");
-    const Suite suite = parse_suite(R"(
+    const bench::store::Table kept = committed(tanpura + "profile.csv");
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[cells]]
         scenes = ["tanpura_c3"]
         schemes = ["modal_two_point"]
@@ -190,9 +190,10 @@ TEST(Tanpura, TheCommittedProfilesAreWhatTheProgramMakes) {
         measure = ["profile"]
         profile = { instants = [49.0e-3, 208.4e-3, 212.0e-3], from = 0, to = 1, positions = 11 }
     )",
-                                    "a.toml");
-    const SuitePlan plan = plan_of(suite, Catalogue(), {});
-    const Table made = rows_of(Facet::profile, plan, run_suite(plan, "", false, 1, Console(false, true)).records);
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const bench::store::Table made = bench::suite::rows_of(
+        bench::suite::Facet::profile, plan, bench::suite::run_suite(plan, "", false, 1, bench::store::Console(false, true)).records);
     ASSERT_EQ(made.rows.size(), 33u);
     for (std::size_t i = 0; i < made.rows.size(); ++i) {
         const Series s = series(kept, {{"scheme", "modal_two_point"}, {"time_s", made.at(i, "time_s")}}, "position_m", "displacement_m");
@@ -216,7 +217,7 @@ const auto none = of("two_point_bridge", "0.2004", "-1"), point = of("two_point_
            far_point = of("two_point_bridge", "0.8016", "0"), parabola = of("sitar_parabola");
 
 TEST(Obstacle, Figure2ConvergesWithTheRateAndHalfWayAt256kHz) {
-    const Table t = committed(obstacle + "errors.csv");
+    const bench::store::Table t = committed(obstacle + "errors.csv");
     const auto error = [&t](const char* column) {
         return series(t, {{"scene", "two_point_bridge"}, {"string.0.initial.position", ""}, {"string.0.barrier.0.stiffness", ""}}, "rate",
                       column);
@@ -232,7 +233,7 @@ TEST(Obstacle, Figure2ConvergesWithTheRateAndHalfWayAt256kHz) {
     EXPECT_NEAR(bands.at(512e3), 1.7, 0.2);
     EXPECT_NEAR(bands.at(1024e3), 0.5, 0.1);
     EXPECT_GT(whole.at(1024e3), 0.2);  // the waveform of a whole second is not converged at the paper's rate
-    const Table extent = committed(obstacle + "extent.csv");
+    const bench::store::Table extent = committed(obstacle + "extent.csv");
     const auto late = [&extent](const char* rate) {
         return mean_between(series(extent, {{"rate", rate}, {"tap", "v10mm"}}, "time_s", "high"), 0.85, 0.95);
     };
@@ -248,7 +249,7 @@ TEST(Obstacle, Section41TheStringGoesTenTimesDeeperThanThePaperSays) {
 }
 
 TEST(Obstacle, Figure3And8WithoutAnObstacleEveryFifthPartialIsSilentAndWithOneAllSound) {
-    const Table t = committed(obstacle + "envelope.csv");
+    const bench::store::Table t = committed(obstacle + "envelope.csv");
     const auto partials = [&t](const auto& where) {
         const Series envelope = series(t, where, "frequency_hz", "level_db");
         Series levels;
@@ -268,7 +269,7 @@ TEST(Obstacle, Figure3And8WithoutAnObstacleEveryFifthPartialIsSilentAndWithOneAl
 }
 
 TEST(Obstacle, Figure4And7TheVelocityIsPositiveHalfOfTheTimeAndTheDisplacementNearlyAlways) {
-    const Table trace = committed(obstacle + "trace.csv"), extent = committed(obstacle + "extent.csv");
+    const bench::store::Table trace = committed(obstacle + "trace.csv"), extent = committed(obstacle + "extent.csv");
     for (auto where : {point, far_point, parabola}) {
         const Series low = series(extent, with(where, "v10mm"), "time_s", "low"),
                      high = series(extent, with(where, "v10mm"), "time_s", "high");
@@ -290,14 +291,14 @@ TEST(Obstacle, Figure4And7TheVelocityIsPositiveHalfOfTheTimeAndTheDisplacementNe
 }
 
 TEST(Obstacle, Figure4TheReleaseAt4L5HasTheRicherPrecursor) {
-    const Table t = committed(obstacle + "centroid.csv");
+    const bench::store::Table t = committed(obstacle + "centroid.csv");
     const Series near = series(t, point, "time_s", "centroid_hz"), far = series(t, far_point, "time_s", "centroid_hz");
     EXPECT_NEAR(mean_between(near, 0.2, 0.8), 2600, 150);
     EXPECT_NEAR(mean_between(far, 0.2, 0.8), 4940, 150);
 }
 
 TEST(Obstacle, Figure5And7TheEnergyFallsFasterOverAnObstacleAndFasterFrom4L5) {
-    const Table t = committed(obstacle + "extent.csv");
+    const bench::store::Table t = committed(obstacle + "extent.csv");
     const auto energy = [&t](const auto& where, double time) {
         return mean_between(series(t, with(where, "energy"), "time_s", "high"), time - 0.016, time + 0.016);
     };
@@ -317,8 +318,8 @@ TEST(Obstacle, Figure8TheFormantDescends) {
 }
 
 TEST(Obstacle, TheCommittedTracesAreWhatTheProgramMakes) {
-    const Table kept = committed(obstacle + "trace.csv");
-    const Suite suite = parse_suite(R"(
+    const bench::store::Table kept = committed(obstacle + "trace.csv");
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[cells]]
         scenes = ["two_point_bridge"]
         schemes = ["modal_spatial_newton"]
@@ -331,9 +332,10 @@ TEST(Obstacle, TheCommittedTracesAreWhatTheProgramMakes) {
         measure = ["trace"]
         trace = { taps = ["v10mm"], windows = [[0.0, 0.0052]] }
     )",
-                                    "a.toml");
-    const SuitePlan plan = plan_of(suite, Catalogue(), {});
-    const Table made = rows_of(Facet::trace, plan, run_suite(plan, "", false, 1, Console(false, true)).records);
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const bench::store::Table made = bench::suite::rows_of(
+        bench::suite::Facet::trace, plan, bench::suite::run_suite(plan, "", false, 1, bench::store::Console(false, true)).records);
     auto where = point;
     where["window_s"] = "0";
     const Series s = series(kept, where, "time_s", "value");

@@ -25,7 +25,7 @@ namespace {
 constexpr double floors = 1000, rounding = 1e-9, centroid = 1e3;  // [Hz]
 
 using Rows = std::map<std::string, std::size_t>;
-Rows rows_by_name(const Table& t, const std::vector<std::string>& names) {
+Rows rows_by_name(const bench::store::Table& t, const std::vector<std::string>& names) {
     Rows rows;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         std::string key;
@@ -63,14 +63,14 @@ bool is_closed_form(const std::string& column) {  // or a count that the setting
 }
 
 // The row's own sensitivity: the largest noise floor of its relative L2 errors.
-double sensitivity(const Table& t, std::size_t i) {
+double sensitivity(const bench::store::Table& t, std::size_t i) {
     double largest = 0;
     for (const std::string& column : t.columns)
         if (column.starts_with("floor_error_l2_whole")) largest = std::fmax(largest, t.number(i, column));
     return largest;
 }
 
-double tolerance_of(const std::string& column, const Table& then, std::size_t i) {
+double tolerance_of(const std::string& column, const bench::store::Table& then, std::size_t i) {
     const double old = std::abs(then.number(i, column)), motion = (floors * sensitivity(then, i) + 1e-6) * old;
     if (const double floor = then.number(i, "floor_" + column); !std::isnan(floor))
         return floors * floor + rounding * (old + (column.starts_with("centroid_hz") ? centroid : 0));
@@ -85,7 +85,7 @@ double tolerance_of(const std::string& column, const Table& then, std::size_t i)
     return motion;
 }
 
-void expect_below_floor(const Table& t, std::size_t i, const std::string& name) {
+void expect_below_floor(const bench::store::Table& t, std::size_t i, const std::string& name) {
     const std::string named = " " + t.at(i, "below_floor") + " ";
     for (const std::string& column : t.columns)
         if (column.starts_with("floor_") && t.column(column.substr(6)) < t.column("below_floor")) {
@@ -103,7 +103,8 @@ TEST(Regression, TheSmokeSuiteIsWhatItWasWhenItWasRecorded) {
     const Outcome o = jvari(scratch, "suite " + (scratch / "smoke.toml") + " --jobs 2 --quiet --out " + (scratch / "now"));
     ASSERT_EQ(o.code, 0) << o.err;
 
-    const Table then = read_csv(content(kept / "errors.csv")), now = read_csv(content(scratch / "now/errors.csv"));
+    const bench::store::Table then = bench::store::read_csv(content(kept / "errors.csv")),
+                              now = bench::store::read_csv(content(scratch / "now/errors.csv"));
     const std::vector<std::string> names{"scene", "scheme", "options", "rate"};
     const Rows was = rows_by_name(then, names), is = rows_by_name(now, names);
     ASSERT_EQ(was.size(), is.size());
@@ -123,7 +124,8 @@ TEST(Regression, TheSmokeSuiteIsWhatItWasWhenItWasRecorded) {
     EXPECT_EQ(then.columns, now.columns);
     EXPECT_GT(tally.compared, 10000);
 
-    const Table modes_then = read_csv(content(kept / "dispersion.csv")), modes_now = read_csv(content(scratch / "now/dispersion.csv"));
+    const bench::store::Table modes_then = bench::store::read_csv(content(kept / "dispersion.csv")),
+                              modes_now = bench::store::read_csv(content(scratch / "now/dispersion.csv"));
     const std::vector<std::string> mode{"scene", "scheme", "options", "rate", "mode"};
     const Rows mode_was = rows_by_name(modes_then, mode), mode_is = rows_by_name(modes_now, mode);
     ASSERT_EQ(mode_was.size(), mode_is.size());

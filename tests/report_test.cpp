@@ -28,9 +28,9 @@ Json data_of(const std::string& page) {
     return Json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
-std::vector<std::string> choices_of(const Chart& c, const std::string& signal) {
+std::vector<std::string> choices_of(const bench::report::Chart& c, const std::string& signal) {
     std::vector<std::string> choices;
-    for (const Menu& m : c.menus)
+    for (const bench::report::Menu& m : c.menus)
         if (m.signal == signal)
             for (const auto& [value, text] : m.choices) choices.push_back(Json::parse(value));
     return choices;
@@ -61,10 +61,12 @@ TEST(Report, SectionsWithoutDataDoNotAppear) {
     const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(data_of(content(folder / "report.html")).at("sections").empty());  // no boundaries: a chart alone, and nothing draws
-    const Results r = read_results(folder.path);
+    const bench::report::Results r = bench::report::read_results(folder.path);
     EXPECT_EQ(map_section(r).charts.size(), 2u);
-    for (const Section& s : {work_precision_section(r), dispersion_section(r), convergence_section(r), cost_section(r),
-                             spectrogram_section(r), waveform_section(r), cell_section(r)})
+    for (const bench::report::Section& s :
+         {bench::report::work_precision_section(r), bench::report::dispersion_section(r), bench::report::convergence_section(r),
+          bench::report::cost_section(r), bench::report::spectrogram_section(r), bench::report::waveform_section(r),
+          bench::report::cell_section(r)})
         EXPECT_TRUE(s.charts.empty() && s.table.rows.empty() && s.sounds.empty()) << s.id;
 }
 
@@ -95,7 +97,7 @@ TEST(Report, AManifestThatIsNestedTooDeepIsRefused) {
 
 TEST(Report, SoundsLieBelowTheFolder) {
     const Scratch outside;
-    std::ofstream(outside / "private.wav", std::ios::binary) << wav_of({44100, 1, std::vector<std::int16_t>(4410, 7)});
+    std::ofstream(outside / "private.wav", std::ios::binary) << bench::store::wav_of({44100, 1, std::vector<std::int16_t>(4410, 7)});
     for (const std::string& file : {outside / "private.wav", "../" + outside.path.filename().string() + "/private.wav"}) {
         const MadeUp folder(every_file);
         std::ofstream(folder / "sounds.csv") << "scheme,rate,modes,tap,quantity,sample_rate,peak,file,reference_file\none,44100,1,nut,"
@@ -113,7 +115,7 @@ TEST(Report, PicturesOfDifferentProblemsHaveDifferentNames) {
                                             "a, name = [x]",      start + " = 1",      start + " = 2", "a, n = a b",   "a, n = a,b"};
     std::set<std::string> files;
     for (const std::string& p : problems) {
-        const std::string file = twin_file("map", p, problems);
+        const std::string file = bench::report::twin_file("map", p, problems);
         EXPECT_TRUE(files.insert(file).second) << file;
         EXPECT_LE(file.size(), 108u);
         EXPECT_EQ(file.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.+-"), std::string::npos) << file;
@@ -125,8 +127,8 @@ TEST(Report, PicturesOfDifferentProblemsHaveDifferentNames) {
 
 TEST(Report, OnlyRunsOfOneSceneAtOneSweptPointAreCompared) {
     const MadeUp folder(every_file);
-    const Results r = read_results(folder.path);
-    const Section s = work_precision_section(r);
+    const bench::report::Results r = bench::report::read_results(folder.path);
+    const bench::report::Section s = bench::report::work_precision_section(r);
     ASSERT_EQ(s.charts.size(), 1u);
     const std::vector<std::string> problems{"a, string.0.tension = 30", "a, string.0.tension = 31", "b, string.0.tension = 30",
                                             "b, string.0.tension = 31"};
@@ -148,7 +150,8 @@ TEST(Report, OnlyRunsOfOneSceneAtOneSweptPointAreCompared) {
 
 TEST(Report, NoiseFloorAndCertificateAreOfTheSceneAndTheErrorThatIsShown) {
     const MadeUp folder(every_file);
-    const Json bands = value_of(Json::parse(work_precision_section(read_results(folder.path)).charts[0].spec), "bands");
+    const Json bands =
+        value_of(Json::parse(bench::report::work_precision_section(bench::report::read_results(folder.path)).charts[0].spec), "bands");
     EXPECT_EQ(bands.at("a, string.0.tension = 30|error_l2_50ms").at("floor"), 2e-3);
     EXPECT_EQ(bands.at("a, string.0.tension = 30|error_l2_50ms").at("certificate"), 4e-3);
     EXPECT_EQ(bands.at("b, string.0.tension = 30|error_l2_50ms").at("floor"), 1e-12);
@@ -158,7 +161,7 @@ TEST(Report, NoiseFloorAndCertificateAreOfTheSceneAndTheErrorThatIsShown) {
 
 TEST(Report, TheCheapestThatReachesAnAccuracyIsNamedWhereSomeReachItAndSomeDoNot) {
     const MadeUp folder(every_file);
-    const Json spec = Json::parse(work_precision_section(read_results(folder.path)).charts[0].spec);
+    const Json spec = Json::parse(bench::report::work_precision_section(bench::report::read_results(folder.path)).charts[0].spec);
     std::map<std::string, std::vector<std::string>> of_problem;
     for (const Json& g : spec.at("datasets").at("goals")) {
         EXPECT_EQ(g.at("error"), "error_l2_50ms");
@@ -171,7 +174,7 @@ TEST(Report, TheCheapestThatReachesAnAccuracyIsNamedWhereSomeReachItAndSomeDoNot
 
 TEST(Report, OrdersAreThoseOfTheFileWhereItHasThemElseOfTheCells) {
     const MadeUp folder(every_file);
-    const Section s = convergence_section(read_results(folder.path));
+    const bench::report::Section s = bench::report::convergence_section(bench::report::read_results(folder.path));
     const Json orders = value_of(Json::parse(s.charts.at(0).spec), "orders");
     EXPECT_EQ(orders.at("a, string.0.tension = 30|one|error_l2_50ms"), "1.99 \u00b1 0.05");  // convergence.csv
     const std::string own = orders.at("b, string.0.tension = 31|one|error_l2_50ms");         // 0.15 x 4^-k
@@ -184,7 +187,7 @@ TEST(Report, OrdersAreThoseOfTheFileWhereItHasThemElseOfTheCells) {
 
 TEST(Report, ErrorsBelowTheirNoiseFloorHaveNoOrder) {
     const MadeUp folder({"manifest.json", "cells.csv"});
-    const Section s = convergence_section(read_results(folder.path));
+    const bench::report::Section s = bench::report::convergence_section(bench::report::read_results(folder.path));
     int seen = 0;
     for (std::size_t i = 0; i < s.table.rows.size(); ++i)
         if (s.table.at(i, "scene") == "a, string.0.tension = 30" && s.table.at(i, "scheme") == "one" &&
@@ -197,7 +200,7 @@ TEST(Report, ErrorsBelowTheirNoiseFloorHaveNoOrder) {
 
 TEST(Report, DispersionIsDrawnRateByRateWithDecaysRelativeToTheTrueOnes) {
     const MadeUp folder(every_file);
-    const Section s = dispersion_section(read_results(folder.path));
+    const bench::report::Section s = bench::report::dispersion_section(bench::report::read_results(folder.path));
     ASSERT_EQ(s.charts.size(), 1u);
     EXPECT_EQ(choices_of(s.charts[0], "rate_field"), (std::vector<std::string>{"44100", "88200"}));
     const Json rows = Json::parse(s.charts[0].spec).at("datasets").at("rows");
@@ -208,7 +211,7 @@ TEST(Report, DispersionIsDrawnRateByRateWithDecaysRelativeToTheTrueOnes) {
 
 TEST(Report, CostHasAChartOfWhatScalesAndOneOfWhatEachElementAdds) {
     const MadeUp folder(every_file);
-    const Section s = cost_section(read_results(folder.path));
+    const bench::report::Section s = bench::report::cost_section(bench::report::read_results(folder.path));
     ASSERT_EQ(s.charts.size(), 2u);
     EXPECT_EQ(choices_of(s.charts[0], "what_field"), (std::vector<std::string>{"modes", "contacts"}));
     EXPECT_EQ(Json::parse(s.charts[1].spec).at("datasets").at("rows").size(), 10u);
@@ -216,7 +219,7 @@ TEST(Report, CostHasAChartOfWhatScalesAndOneOfWhatEachElementAdds) {
 
 TEST(Report, MapsHoldTheirBoundariesAndTheory) {
     const MadeUp folder(every_file);
-    const Section s = map_section(read_results(folder.path));
+    const bench::report::Section s = bench::report::map_section(bench::report::read_results(folder.path));
     ASSERT_EQ(s.charts.size(), 2u);
     EXPECT_EQ(choices_of(s.charts[0], "series_field"), (std::vector<std::string>{"one", "two"}));
     const Json spec = Json::parse(s.charts[0].spec);
@@ -235,8 +238,8 @@ TEST(Report, MapsHoldTheirBoundariesAndTheory) {
 TEST(Report, PicturesOfOthersStandInThePageAndItsOwnDoNot) {
     const MadeUp folder(every_file);
     std::ofstream(folder / "dispersion.svg") << "<svg/>";
-    const Results r = read_results(folder.path);
-    const Section s = picture_section(r, {"dispersion.svg"});
+    const bench::report::Results r = bench::report::read_results(folder.path);
+    const bench::report::Section s = bench::report::picture_section(r, {"dispersion.svg"});
     ASSERT_EQ(s.pictures.size(), 1u);
     EXPECT_EQ(s.pictures[0].name, "others");
 }
@@ -250,7 +253,7 @@ TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReferen
     const std::string command = "suite " + scratch / "a.toml" + " --json --out " + scratch / "out", none = "JVARI_NODE_MODULES=/nowhere";
     ASSERT_EQ(jvari(scratch, command, none).code, 0);
     const std::string first = content(scratch / "out/sounds.csv"), page = content(scratch / "out/report.html");
-    const Results r = read_results(scratch.path / "out");
+    const bench::report::Results r = bench::report::read_results(scratch.path / "out");
     ASSERT_EQ(r.sounds.rows.size(), 6u);  // of each tension the reference and two rates; the penalty force diverges
     for (std::size_t i = 0; i < 6; ++i) {
         const bool truth = i % 3 == 0;
@@ -258,7 +261,8 @@ TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReferen
         EXPECT_EQ(r.sounds.at(i, "reference_file"), truth ? "" : r.sounds.at(i / 3 * 3, "file"));
         EXPECT_EQ(r.sounds.at(i, "problem"),
                   i < 3 ? "tanpura_c3_release, string.0.tension = 30" : "tanpura_c3_release, string.0.tension = 31");
-        EXPECT_EQ(read_wav(scratch.path / "out" / r.sounds.at(i, "file"), 1).samples.size(), 1324u);  // rows at 0 and 30 ms too
+        EXPECT_EQ(bench::store::read_wav(scratch.path / "out" / r.sounds.at(i, "file"), 1).samples.size(),
+                  1324u);  // rows at 0 and 30 ms too
     }
     EXPECT_NE(r.sounds.at(0, "file"), r.sounds.at(3, "file"));
     ASSERT_EQ(jvari(scratch, command + " --resume", none).code, 0);
@@ -271,13 +275,14 @@ TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReferen
 }
 
 TEST(Report, WhatDoesNotFitIsLeftOutFromTheLastOnAndThePageSaysSo) {
-    Page page;
+    bench::report::Page page;
     page.manifest = "{}";
     page.sections = {{"sounds", "Sounds"}, {"figures", "Figures"}};
     page.sections[0].sounds.assign(10, {"a", "44100 Hz", std::string(30000, 'x')});
     page.sections[1].pictures.assign(2, {"b", std::string(30000, 'y')});
     EXPECT_EQ(fitting_page_of(page), page_of(page));
-    const std::string text = fitting_page_of(page, page_of(page).size() - 150000);  // two pictures and two sounds of 40 kB
+    const std::string text =
+        bench::report::fitting_page_of(page, bench::report::page_of(page).size() - 150000);  // two pictures and two sounds of 40 kB
     const Json sections = data_of(text).at("sections");
     ASSERT_EQ(sections.size(), 2u);
     EXPECT_EQ(sections[1].at("pictures").size(), 0u);
@@ -288,15 +293,15 @@ TEST(Report, WhatDoesNotFitIsLeftOutFromTheLastOnAndThePageSaysSo) {
 }
 
 TEST(Report, ATableThatWouldBeTooLargeKeepsItsFirstColumnsAndSaysSo) {
-    Page page;
+    bench::report::Page page;
     page.manifest = "{}";
     page.sections = {{"cells", "Cells"}};
-    Section& s = page.sections[0];
+    bench::report::Section& s = page.sections[0];
     s.table.columns = {"scheme", "rate", "much"};
     s.first_columns = {"scheme", "rate"};
     s.table.rows.assign(2000, {"a", "44100", std::string(1000, 'x')});
-    const std::string text = page_of(page);
-    EXPECT_LT(text.size(), table_limit);
+    const std::string text = bench::report::page_of(page);
+    EXPECT_LT(text.size(), bench::report::table_limit);
     const Json section = data_of(text).at("sections").at(0);
     EXPECT_EQ(section.at("table").at("columns"), (std::vector<std::string>{"scheme", "rate"}));
     EXPECT_EQ(section.at("left_out").size(), 1u);

@@ -22,14 +22,15 @@ struct Timed {
     int modes, contacts;
     double ns;
 };
-Table cells_of(const std::vector<Timed>& all) {
-    Table t;
+bench::store::Table cells_of(const std::vector<Timed>& all) {
+    bench::store::Table t;
     t.columns = {"cell",  "scene",  "to",          "element",      "scheme",     "options",    "rate",
                  "modes", "status", "ns_per_step", "cost_s_per_s", "cost_lower", "cost_upper", "fact_contact_points"};
     for (const Timed& c : all) {
         const double cost = 1e-9 * c.ns * c.rate;
-        t.rows.push_back({"id", "a", c.swept, c.element, c.scheme, "", text_of(c.rate), std::to_string(c.modes), "ok", text_of(c.ns),
-                          text_of(cost), text_of(0.9 * cost), text_of(1.1 * cost), c.contacts > 0 ? std::to_string(c.contacts) : ""});
+        t.rows.push_back({"id", "a", c.swept, c.element, c.scheme, "", bench::store::text_of(c.rate), std::to_string(c.modes), "ok",
+                          bench::store::text_of(c.ns), bench::store::text_of(cost), bench::store::text_of(0.9 * cost),
+                          bench::store::text_of(1.1 * cost), c.contacts > 0 ? std::to_string(c.contacts) : ""});
     }
     return t;
 }
@@ -39,7 +40,7 @@ TEST(Scaling, ACostThatGrowsWithAPowerHasThatPowerForItsExponent) {
     for (const double rate : {44100.0, 88200.0, 176400.0}) rates.push_back({"g", "", "", rate, int(rate / 441), 0, 0.01 * rate});
     for (const int n : {2, 4, 8}) contacts.push_back({"s", "", std::to_string(1e-3 * n), 44100, 100, n, 7.0 * n * n});
     for (const auto& [all, what, exponent] : {std::tuple{modes, "modes", 1.5}, {rates, "rate", 1.0}, {contacts, "contacts", 2.0}}) {
-        const Table cells = cells_of(all), t = scaling_of(cells, {all_rows(cells)});
+        const bench::store::Table cells = cells_of(all), t = bench::compare::scaling_of(cells, {bench::store::all_rows(cells)});
         ASSERT_EQ(t.rows.size(), all.size()) << what;
         for (std::size_t i = 0; i < all.size(); ++i) {
             EXPECT_EQ(t.at(i, "what"), what);
@@ -53,8 +54,8 @@ TEST(Scaling, ACostThatGrowsWithAPowerHasThatPowerForItsExponent) {
 }
 
 TEST(Scaling, TheSweptKeyThatVariesTheContactsStandsInXAlone) {
-    const Table cells = cells_of({{"s", "", "0.002", 44100, 100, 2, 10}, {"s", "", "0.004", 44100, 100, 4, 20}});
-    const Table t = scaling_of(cells, {all_rows(cells)});
+    const bench::store::Table cells = cells_of({{"s", "", "0.002", 44100, 100, 2, 10}, {"s", "", "0.004", 44100, 100, 4, 20}});
+    const bench::store::Table t = bench::compare::scaling_of(cells, {bench::store::all_rows(cells)});
     ASSERT_EQ(t.rows.size(), 2u);
     EXPECT_EQ(t.at(0, "to"), "");
     EXPECT_EQ(t.at(0, "at"), "44100 Hz, 100 modes");
@@ -63,9 +64,9 @@ TEST(Scaling, TheSweptKeyThatVariesTheContactsStandsInXAlone) {
 }
 
 TEST(Scaling, AnElementAddsWhatTheSceneCostsMoreThanWithoutIt) {
-    const Table cells =
+    const bench::store::Table cells =
         cells_of({{"m", "", "", 44100, 100, 0, 50}, {"m", "-thread", "", 44100, 100, 0, 40}, {"m", "+probe", "", 44100, 100, 0, 80}});
-    const Table t = scaling_of(cells, {all_rows(cells)});
+    const bench::store::Table t = bench::compare::scaling_of(cells, {bench::store::all_rows(cells)});
     ASSERT_EQ(t.rows.size(), 2u);
     EXPECT_EQ(t.at(0, "what"), "thread");
     EXPECT_NEAR(t.number(0, "extra_ns"), 10, 1e-9);
@@ -76,45 +77,48 @@ TEST(Scaling, AnElementAddsWhatTheSceneCostsMoreThanWithoutIt) {
 }
 
 TEST(Scaling, RowsOfDifferentSetsAreNotCompared) {
-    const Table cells =
+    const bench::store::Table cells =
         cells_of({{"m", "", "", 44100, 100, 0, 50}, {"m", "", "", 44100, 200, 0, 90}, {"m", "-thread", "", 44100, 100, 0, 40}});
-    EXPECT_EQ(scaling_of(cells, {{0}, {1}, {2}}).rows.size(), 0u);
-    EXPECT_EQ(scaling_of(cells, {{0, 1}, {2}}).rows.size(), 2u);
+    EXPECT_EQ(bench::compare::scaling_of(cells, {{0}, {1}, {2}}).rows.size(), 0u);
+    EXPECT_EQ(bench::compare::scaling_of(cells, {{0, 1}, {2}}).rows.size(), 2u);
 }
 
 TEST(Scaling, ARowThatFailedOrWasNotTimedHasNoPlaceInIt) {
-    Table cells = cells_of({{"m", "", "", 44100, 100, 0, 50}, {"m", "", "", 44100, 200, 0, 90}, {"m", "", "", 44100, 400, 0, 100}});
+    bench::store::Table cells =
+        cells_of({{"m", "", "", 44100, 100, 0, 50}, {"m", "", "", 44100, 200, 0, 90}, {"m", "", "", 44100, 400, 0, 100}});
     cells.rows[1][cells.column("status")] = "diverged";
     cells.rows[2][cells.column("ns_per_step")] = "";
-    EXPECT_EQ(scaling_of(cells, {all_rows(cells)}).rows.size(), 0u);
+    EXPECT_EQ(bench::compare::scaling_of(cells, {all_rows(cells)}).rows.size(), 0u);
 }
 
 // ---- Elements
 
 TEST(Elements, EachIsTakenAwayWithTheTapsOfItsForceAndNothingElse) {
-    const Scene whole = load_scene("tanpura_c3_release", {}, 0.01);
+    const Scene whole = bench::compare::load_scene("tanpura_c3_release", {}, 0.01);
     const auto names = [](const Scene& s) {
         std::string all;
         for (const Tap& t : s.taps) all += t.name + " ";
         return all;
     };
-    for (const Element e : elements()) {
-        const Scene s = without(e, whole);
+    for (const bench::compare::Element e : bench::compare::elements()) {
+        const Scene s = bench::compare::without(e, whole);
         EXPECT_NO_THROW(validate(s));
-        EXPECT_EQ(s.strings[0].thread.has_value(), e != Element::thread);
-        EXPECT_EQ(s.strings[0].barriers.empty(), e == Element::contact);
-        EXPECT_EQ(s.strings[0].bending_stiffness == 0, e == Element::stiffness);
-        EXPECT_EQ(names(s), e == Element::thread    ? "nut y03 bridge "
-                            : e == Element::contact ? "nut y03 thread "
-                            : e == Element::taps    ? "nut "
-                                                    : "nut y03 bridge thread ");
+        EXPECT_EQ(s.strings[0].thread.has_value(), e != bench::compare::Element::thread);
+        EXPECT_EQ(s.strings[0].barriers.empty(), e == bench::compare::Element::contact);
+        EXPECT_EQ(s.strings[0].bending_stiffness == 0, e == bench::compare::Element::stiffness);
+        EXPECT_EQ(names(s), e == bench::compare::Element::thread    ? "nut y03 bridge "
+                            : e == bench::compare::Element::contact ? "nut y03 thread "
+                            : e == bench::compare::Element::taps    ? "nut "
+                                                                    : "nut y03 bridge thread ");
     }
 }
 
 TEST(Elements, ASceneThatHasNoneOfItIsRefused) {
-    const Scene parabola = load_scene("sitar_parabola", {}, 0.01);
-    EXPECT_THROW(without(Element::thread, parabola), UsageError);
-    EXPECT_THROW(without(Element::contact, without(Element::contact, parabola)), UsageError);
+    const Scene parabola = bench::compare::load_scene("sitar_parabola", {}, 0.01);
+    EXPECT_THROW(bench::compare::without(bench::compare::Element::thread, parabola), bench::store::UsageError);
+    EXPECT_THROW(
+        bench::compare::without(bench::compare::Element::contact, bench::compare::without(bench::compare::Element::contact, parabola)),
+        bench::store::UsageError);
 }
 
 TEST(Elements, ASetHasACellForTheSceneAndForEachChangeOfIt) {
@@ -126,17 +130,18 @@ duration = 0.01
 elements = ["thread", "contact", "stiffness", "taps", "probe"]
 measure = ["errors", "cost"]
 )";
-    const Suite suite = parse_suite(text, "a.toml");
-    const Catalogue catalogue;
-    const SuitePlan plan = plan_of(suite, catalogue, {});
+    const bench::suite::Suite suite = bench::suite::parse_suite(text, "a.toml");
+    const bench::compare::Catalogue catalogue;
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, catalogue, {});
     ASSERT_EQ(plan.cells.size(), 6u);
     EXPECT_TRUE(plan.cells[0].point->swept.empty());
     for (std::size_t i = 1; i < 6; ++i) {
         ASSERT_EQ(plan.cells[i].point->swept.size(), 1u);
-        EXPECT_EQ(plan.cells[i].point->swept[0], std::pair(std::string("element"), change_of(elements()[i - 1])));
+        EXPECT_EQ(plan.cells[i].point->swept[0],
+                  std::pair(std::string("element"), bench::compare::change_of(bench::compare::elements()[i - 1])));
         EXPECT_NE(plan.cells[i].id, plan.cells[0].id);
     }
-    EXPECT_EQ(sets_of(plan), std::vector<Rows>{(Rows{0, 1, 2, 3, 4, 5})});
+    EXPECT_EQ(sets_of(plan), std::vector<bench::store::Rows>{(bench::store::Rows{0, 1, 2, 3, 4, 5})});
 }
 
 TEST(Elements, AreRefusedWhereTheyAreUnknownOrNotTimed) {

@@ -12,7 +12,7 @@
 namespace jvari::test {
 namespace {
 
-const Console quiet(false, true);
+const bench::store::Console quiet(false, true);
 void wait(int milliseconds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
@@ -21,7 +21,7 @@ TEST(SideBySide, EachIsDoneOnceOnAsManyThreadsAsAskedFor) {
     for (const int jobs : {0, 1, 3, 100}) {
         std::vector<std::atomic<int>> times(20);
         std::atomic<int> together = 0, most = 0;
-        side_by_side(std::vector<double>(20, 1), jobs, quiet, "", [&](std::size_t i, Done& done) {
+        bench::store::side_by_side(std::vector<double>(20, 1), jobs, quiet, "", [&](std::size_t i, bench::store::Done& done) {
             const int n = ++together;
             for (int seen = most; n > seen && !most.compare_exchange_weak(seen, n);) {
             }
@@ -38,7 +38,7 @@ TEST(SideBySide, EachIsDoneOnceOnAsManyThreadsAsAskedFor) {
             EXPECT_GE(most, 2);
         }
     }
-    side_by_side({}, 4, quiet, "", [](std::size_t, Done&) { FAIL(); });
+    bench::store::side_by_side({}, 4, quiet, "", [](std::size_t, bench::store::Done&) { FAIL(); });
 }
 
 TEST(SideBySide, TheFirstFailureInOrderIsThrownWhicheverComesFirstAndEndsTheRest) {
@@ -46,7 +46,7 @@ TEST(SideBySide, TheFirstFailureInOrderIsThrownWhicheverComesFirstAndEndsTheRest
         std::set<std::size_t> begun;
         std::mutex mutex;
         try {
-            side_by_side(std::vector<double>(50, 1), 3, quiet, "", [&](std::size_t i, Done&) {
+            bench::store::side_by_side(std::vector<double>(50, 1), 3, quiet, "", [&](std::size_t i, bench::store::Done&) {
                 {
                     const std::lock_guard lock(mutex);
                     begun.insert(i);

@@ -19,7 +19,7 @@ std::vector<double> sine(double amplitude, double offset, int count) {
     return signal;
 }
 
-double rms_of(const Sound& s) {
+double rms_of(const bench::store::Sound& s) {
     double sum = 0, mean = 0;
     for (double v : s.samples) mean += v / static_cast<double>(s.samples.size());
     for (double v : s.samples) sum += (v - mean) * (v - mean);
@@ -30,51 +30,52 @@ TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
     const std::pair<const char*, const char*> vectors[] = {
         {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
     for (const auto& [bytes, text] : vectors) {
-        EXPECT_EQ(base64(bytes), text);
-        EXPECT_EQ(bytes_of_base64(text), bytes);
+        EXPECT_EQ(bench::store::base64(bytes), text);
+        EXPECT_EQ(bench::store::bytes_of_base64(text), bytes);
     }
     std::string all;
     for (int k = 0; k < 256; ++k) all += static_cast<char>(k);
-    EXPECT_EQ(bytes_of_base64(base64(all)), all);
-    EXPECT_THROW(bytes_of_base64("abc"), std::runtime_error);
-    EXPECT_THROW(bytes_of_base64("ab!d"), std::runtime_error);
-    EXPECT_THROW(bytes_of_base64("Zg==Zg=="), std::runtime_error);  // it ends at its padding
+    EXPECT_EQ(bench::store::bytes_of_base64(bench::store::base64(all)), all);
+    EXPECT_THROW(bench::store::bytes_of_base64("abc"), std::runtime_error);
+    EXPECT_THROW(bench::store::bytes_of_base64("ab!d"), std::runtime_error);
+    EXPECT_THROW(bench::store::bytes_of_base64("Zg==Zg=="), std::runtime_error);  // it ends at its padding
 }
 
 TEST(Sounds, APeakAndSixteenBitsGiveTheSignalBack) {
     const auto signal = sine(3e-4, 1e-4, 4410);
-    const Sound s = sound_of(signal, 44100);
+    const bench::store::Sound s = bench::store::sound_of(signal, 44100);
     ASSERT_EQ(s.samples.size(), signal.size());
     for (std::size_t n = 0; n < signal.size(); ++n) EXPECT_NEAR(s.samples[n] * s.peak / 32767, signal[n], 0.51 * s.peak / 32767);
 }
 
 TEST(Sounds, WhatCannotBeHeardIsNone) {
-    EXPECT_TRUE(sound_of(std::vector<double>{0, 0, 0}, 44100).samples.empty());
-    EXPECT_TRUE(sound_of(std::vector<double>{0, 1, NAN}, 44100).samples.empty());
-    EXPECT_TRUE(sound_of(std::vector<double>{0, 1, HUGE_VAL}, 44100).samples.empty());
-    EXPECT_TRUE(sound_of(std::vector<double>{0, 1, 2}, 44100.5).samples.empty());
+    EXPECT_TRUE(bench::store::sound_of(std::vector<double>{0, 0, 0}, 44100).samples.empty());
+    EXPECT_TRUE(bench::store::sound_of(std::vector<double>{0, 1, NAN}, 44100).samples.empty());
+    EXPECT_TRUE(bench::store::sound_of(std::vector<double>{0, 1, HUGE_VAL}, 44100).samples.empty());
+    EXPECT_TRUE(bench::store::sound_of(std::vector<double>{0, 1, 2}, 44100.5).samples.empty());
 }
 
 TEST(Sounds, AFileGivesItsSamplesBack) {
-    const Sound s = sound_of(sine(1, 0, 1000), 48000);
-    const std::string wav = wav_of(s);
+    const bench::store::Sound s = bench::store::sound_of(sine(1, 0, 1000), 48000);
+    const std::string wav = bench::store::wav_of(s);
     EXPECT_EQ(wav.substr(0, 4), "RIFF");
     EXPECT_EQ(wav.size(), 44u + 2000u);
     std::string name = (std::filesystem::temp_directory_path() / "jvari-sound-XXXXXX").string();
     close(mkstemp(name.data()));
     std::ofstream(name, std::ios::binary) << wav;
-    const Sound back = read_wav(name, s.peak);
+    const bench::store::Sound back = bench::store::read_wav(name, s.peak);
     std::filesystem::remove(name);
     EXPECT_EQ(back.samples, s.samples);
     EXPECT_EQ(back.rate, 48000);
 }
 
 TEST(Sounds, LoudAndQuietAreHeardAtOneLevelAndWithoutTheirMean) {
-    const Sound loud = sound_of(sine(1, 0, 44100), 44100), quiet = sound_of(sine(1e-3, 5e-3, 44100), 44100);
+    const bench::store::Sound loud = bench::store::sound_of(sine(1, 0, 44100), 44100),
+                              quiet = bench::store::sound_of(sine(1e-3, 5e-3, 44100), 44100);
     EXPECT_GT(rms_of(loud), 5 * rms_of(quiet));  // its mean takes the place of its swing
-    const double level = std::fmin(loudest_level(loud), loudest_level(quiet));
+    const double level = std::fmin(bench::store::loudest_level(loud), bench::store::loudest_level(quiet));
     EXPECT_NEAR(level, 0.9 / std::sqrt(2), 1e-3);
-    const Sound a = levelled(loud, level, 10), b = levelled(quiet, level, 0.5);
+    const bench::store::Sound a = bench::store::levelled(loud, level, 10), b = bench::store::levelled(quiet, level, 0.5);
     EXPECT_EQ(a.samples.size(), 44100u);
     EXPECT_EQ(b.samples.size(), 22050u);
     EXPECT_NEAR(rms_of(a), level, 0.005 * level);

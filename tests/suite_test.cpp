@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 // ---- The file
 
 TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
-    const Suite suite = parse_suite(R"(
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[cells]]
         scenes = ["free_string", "sitar_c5_decay"]
         schemes = ["modal_two_point", "sitar_fdm"]
@@ -37,21 +37,21 @@ TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
         duration = 0.01
         sweep = { "string.0.tension" = [30], "tap.0.name" = ["a"] }
     )",
-                                    "a.toml");
-    const auto points = points_of(suite);
+                                                                "a.toml");
+    const auto points = bench::suite::points_of(suite);
     ASSERT_EQ(points.size(), 2u * 2 * 2 + 1);
     EXPECT_EQ(points[1].request.set, (std::vector<std::string>{"string.0.tension=31.5", "tap.0.name=\"a\""}));
-    const SuitePlan plan = plan_of(suite, Catalogue(), {});
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
     EXPECT_EQ(plan.cells.size(), 2u * 2 * 2 * 2 * 3);  // the second set repeats six cells of the first
     std::set<std::string> ids;
-    for (const PlannedCell& c : plan.cells) ids.insert(c.id);
+    for (const bench::suite::PlannedCell& c : plan.cells) ids.insert(c.id);
     EXPECT_EQ(ids.size(), plan.cells.size());
     EXPECT_EQ(plan.points[1].scene.strings[0].tension, 31.5);
     EXPECT_EQ(plan.points[0].scene.duration, 0.01);
 }
 
 TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
-    const Suite suite = parse_suite(R"(
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[cells]]
         scenes = ["sitar_c5_ideal"]
         schemes = ["sitar_waveguide", "sitar_fdm"]
@@ -59,11 +59,11 @@ TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
         options = { "sitar_waveguide:length" = ["integer", "fractional"] }
         measure = ["spectrogram"]
     )",
-                                    "a.toml");
-    const SuitePlan plan = plan_of(suite, Catalogue(), {});
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
     ASSERT_EQ(plan.cells.size(), 3u);  // sitar_fdm is the same at both points, and no reference differs
-    EXPECT_EQ(options_text(plan.cells[0].cell.settings.options), "length=integer");
-    EXPECT_EQ(options_text(plan.cells[2].cell.settings.options), "length=fractional");
+    EXPECT_EQ(bench::store::options_text(plan.cells[0].cell.settings.options), "length=integer");
+    EXPECT_EQ(bench::store::options_text(plan.cells[2].cell.settings.options), "length=fractional");
 }
 
 TEST(SuiteFile, DotsAreCountedInKeysAlone) {
@@ -109,18 +109,19 @@ TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {
 }
 
 TEST(SuiteFile, EverySuiteOfTheLibraryCanBePlanned) {
-    for (const std::string& name : library_suites()) {
-        const Suite suite = read_suite(name);
-        EXPECT_FALSE(plan_of(suite, Catalogue(), {}).cells.empty() && suite.maps.empty()) << name;
+    for (const std::string& name : bench::suite::library_suites()) {
+        const bench::suite::Suite suite = bench::suite::read_suite(name);
+        EXPECT_FALSE(plan_of(suite, bench::compare::Catalogue(), {}).cells.empty() && suite.maps.empty()) << name;
     }
-    EXPECT_EQ(plan_of(read_suite("paper-deshmukh"), Catalogue(), {}).cells.size(), 16u);  // eight variants, two schemes
+    EXPECT_EQ(plan_of(bench::suite::read_suite("paper-deshmukh"), bench::compare::Catalogue(), {}).cells.size(),
+              16u);  // eight variants, two schemes
 }
 
 // ---- Running
 
 std::atomic<int> makes = 0;
 const Descriptor& original() {
-    static const Catalogue catalogue;
+    static const bench::compare::Catalogue catalogue;
     return catalogue.find("modal_two_point");
 }
 std::unique_ptr<Scheme> counted(const Descriptor&, const Scene& scene, const Settings& settings) {
@@ -144,8 +145,8 @@ public:
 
 struct Workshop {  // the schemes of the program, and three for the tests
     Descriptor counting{original()}, slow{original()}, unwilling{original()}, stumbling{original()};
-    Catalogue catalogue;
-    Console console{false, true};
+    bench::compare::Catalogue catalogue;
+    bench::store::Console console{false, true};
     Workshop() {
         counting.name = "counting";
         counting.make = counted;
@@ -178,15 +179,15 @@ constexpr const char* counting_suite = R"(
 TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
     const Scratch scratch;
     const Workshop w;
-    const Suite suite = parse_suite(counting_suite, "a.toml");
-    const SuitePlan plan = plan_of(suite, w.catalogue, {});
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
     ASSERT_EQ(plan.cells.size(), 8u);
     makes = 0;
-    const SuiteRun first = run_suite(plan, scratch.path, false, 2, w.console);
+    const bench::suite::SuiteRun first = bench::suite::run_suite(plan, scratch.path, false, 2, w.console);
     EXPECT_EQ(first.ran, 8);
     EXPECT_EQ(first.timed, 8);
     EXPECT_EQ(makes, 8 * (1 + 2));  // each once for its errors and twice for the clock
-    const SuiteRun second = run_suite(plan, scratch.path, true, 2, w.console);
+    const bench::suite::SuiteRun second = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
     EXPECT_EQ(makes, 8 * (1 + 2));
     EXPECT_EQ(second.read_back, 8);
     EXPECT_EQ(second.ran + second.timed, 0);
@@ -194,7 +195,7 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
     EXPECT_EQ(second.records[0].levels.level, first.records[0].levels.level);
     EXPECT_EQ(scratch.files(), 8);
 
-    const Table t = table_of(plan, first.records);
+    const bench::store::Table t = bench::suite::table_of(plan, first.records);
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         EXPECT_EQ(t.at(i, "status"), "ok") << t.at(i, "reason");
         EXPECT_GT(t.number(i, "error_l2_whole"), 0);
@@ -207,33 +208,35 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
 TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone) {
     const Scratch scratch;
     const Workshop w;
-    const Suite suite = parse_suite(counting_suite, "a.toml");
-    const SuitePlan plan = plan_of(suite, w.catalogue, {});
-    const std::string whole = csv(errors_only(table_of(plan, run_suite(plan, "", false, 1, w.console).records)));
-    run_suite(plan, scratch.path, false, 3, w.console);
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const std::string whole = bench::store::csv(
+        bench::compare::errors_only(bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.console).records)));
+    bench::suite::run_suite(plan, scratch.path, false, 3, w.console);
     fs::remove(scratch.path / (plan.cells[1].id + ".json"));
     fs::remove(scratch.path / (plan.cells[6].id + ".json"));
     fs::resize_file(scratch.path / (plan.cells[3].id + ".json"), 100);  // not ours: files appear whole
     fs::copy_file(scratch.path / (plan.cells[5].id + ".json"), scratch.path / (plan.cells[4].id + ".json"),
                   fs::copy_options::overwrite_existing);  // another cell's
     makes = 0;
-    const SuiteRun resumed = run_suite(plan, scratch.path, true, 3, w.console);
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 3, w.console);
     EXPECT_EQ(resumed.ran, 4);
     EXPECT_EQ(makes, 4 * (1 + 2));
-    EXPECT_EQ(csv(errors_only(table_of(plan, resumed.records))), whole);
+    EXPECT_EQ(bench::store::csv(bench::compare::errors_only(table_of(plan, resumed.records))), whole);
 }
 
 TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
     const Scratch scratch;
     const Workshop w;
-    const Suite suite = parse_suite(counting_suite, "a.toml");
-    const SuitePlan plan = plan_of(suite, w.catalogue, {});
-    const std::string whole = csv(errors_only(table_of(plan, run_suite(plan, scratch.path, false, 2, w.console).records)));
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const std::string whole = bench::store::csv(bench::compare::errors_only(
+        bench::suite::table_of(plan, bench::suite::run_suite(plan, scratch.path, false, 2, w.console).records)));
     const std::string path = scratch / (plan.cells[2].id + ".json"), kept = content(path);
     const auto ran_with = [&](const std::string& text) {
         std::ofstream(path, std::ios::binary) << text;
-        const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
-        EXPECT_EQ(csv(errors_only(table_of(plan, resumed.records))), whole);
+        const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
+        EXPECT_EQ(bench::store::csv(bench::compare::errors_only(table_of(plan, resumed.records))), whole);
         return resumed.ran;
     };
     EXPECT_EQ(ran_with(kept), 0);
@@ -246,7 +249,7 @@ TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
 
 TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures, be the checksum right
     const Scratch scratch;
-    const Suite suite = parse_suite(R"(
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[cells]]
         scenes = ["free_string"]
         schemes = ["modal_two_point"]
@@ -254,69 +257,70 @@ TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures
         duration = 0.01
         measure = ["errors", "sound"]
     )",
-                                    "a.toml");
+                                                                "a.toml");
     const Workshop w;
-    const SuitePlan plan = plan_of(suite, w.catalogue, {});
-    run_suite(plan, scratch.path, false, 1, w.console);
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::suite::run_suite(plan, scratch.path, false, 1, w.console);
     const std::string path = scratch / (plan.cells[0].id + ".json");
-    auto json = nlohmann::ordered_json::parse(unsealed(content(path)));
+    auto json = nlohmann::ordered_json::parse(bench::store::unsealed(content(path)));
     json["rows"]["sound"]["rows"][0] = nlohmann::ordered_json::array();
-    std::ofstream(path) << sealed(json.dump());
+    std::ofstream(path) << bench::store::sealed(json.dump());
     EXPECT_EQ(run_suite(plan, scratch.path, true, 1, w.console).ran, 1);
 }
 
 TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
     const Scratch scratch;
     const Workshop w;
-    const Suite suite = parse_suite(counting_suite, "a.toml");
-    const SuitePlan plan = plan_of(suite, w.catalogue, {});
-    run_suite(plan, scratch.path, false, 2, w.console);
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::suite::run_suite(plan, scratch.path, false, 2, w.console);
     const std::string another = "0123456-another";
     const auto recorded_by_another = [&](int cell, const std::string& what) {  // a file of this cell's name, of another program
         const fs::path path = scratch.path / (plan.cells[cell].id + ".json");
-        std::string text = unsealed(content(path));
+        std::string text = bench::store::unsealed(content(path));
         const std::string own = nlohmann::json(what).dump();
         const auto at = text.find(own, text.find("\"program\""));
         ASSERT_NE(at, std::string::npos) << what;
-        std::ofstream(path) << sealed(text.replace(at, own.size(), nlohmann::json(another).dump()));
+        std::ofstream(path) << bench::store::sealed(text.replace(at, own.size(), nlohmann::json(another).dump()));
     };
-    recorded_by_another(1, machine().commit);
-    recorded_by_another(2, machine().build);
-    recorded_by_another(5, machine().version);
-    const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
+    recorded_by_another(1, bench::store::machine().commit);
+    recorded_by_another(2, bench::store::machine().build);
+    recorded_by_another(5, bench::store::machine().version);
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
     EXPECT_EQ(resumed.ran, 3);
     EXPECT_EQ(resumed.read_back, 5);
 }
 
 TEST(SuiteRun, TheIdentityOfAProgramIsItsVersionCommitBuildAndPlugins) {
     const Scratch scratch;
-    const std::string own = program_identity({});
-    EXPECT_EQ(own, program_identity({}));
-    for (std::string Machine::*part : {&Machine::version, &Machine::commit, &Machine::build}) {
-        Machine other = machine();
+    const std::string own = bench::store::program_identity({});
+    EXPECT_EQ(own, bench::store::program_identity({}));
+    for (std::string bench::store::Machine::*part :
+         {&bench::store::Machine::version, &bench::store::Machine::commit, &bench::store::Machine::build}) {
+        bench::store::Machine other = bench::store::machine();
         other.*part += "x";
         EXPECT_NE(program_identity({}, other), own);
     }
     std::ofstream(scratch / "plugin") << "a";
-    const std::string with_plugin = program_identity({scratch / "plugin"});
+    const std::string with_plugin = bench::store::program_identity({scratch / "plugin"});
     EXPECT_NE(with_plugin, own);
     std::ofstream(scratch / "plugin") << "b";
-    EXPECT_NE(program_identity({scratch / "plugin"}), with_plugin);
+    EXPECT_NE(bench::store::program_identity({scratch / "plugin"}), with_plugin);
 }
 
 TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
     const Scratch scratch;
     const Workshop w;
-    const Suite suite = parse_suite(counting_suite, "a.toml");
-    const SuitePlan plan = plan_of(suite, w.catalogue, {});
-    run_suite(plan, scratch.path, false, 2, w.console);
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::suite::run_suite(plan, scratch.path, false, 2, w.console);
     const fs::path path = scratch.path / (plan.cells[2].id + ".json");
     auto json = nlohmann::ordered_json::parse(content(path));
     json.erase("checksum");
     json["timed"] = false;
-    std::ofstream(path) << sealed(json.dump());
+    std::ofstream(path) << bench::store::sealed(json.dump());
     makes = 0;
-    const SuiteRun resumed = run_suite(plan, scratch.path, true, 2, w.console);
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
     EXPECT_EQ(resumed.ran, 0);
     EXPECT_EQ(resumed.timed, 1);
     EXPECT_EQ(makes, 2);
@@ -324,7 +328,7 @@ TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
 
 TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
     const Workshop w;
-    const Suite suite = parse_suite(R"(
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[cells]]
         scenes = ["free_string"]
         schemes = ["modal_two_point", "unwilling", "throwing", "slow"]
@@ -334,9 +338,9 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         time_limit_s = 0.02
         measure = ["errors", "cost", "spectrogram"]
     )",
-                                    "a.toml");
-    const SuitePlan plan = plan_of(suite, w.catalogue, {});
-    const Table t = table_of(plan, run_suite(plan, "", false, 2, w.console).records);
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 2, w.console).records);
     const std::pair<const char*, const char*> expected[] = {
         {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.02 s"}};
     ASSERT_EQ(t.rows.size(), 4u);
@@ -349,7 +353,7 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
 
 TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
     const Workshop w;
-    const Suite suite = parse_suite(R"(
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[cells]]
         scenes = ["free_string"]
         schemes = ["modal_two_point"]
@@ -359,9 +363,9 @@ TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
         time_limit_s = 0.2
         measure = ["errors"]
     )",
-                                    "a.toml");
-    const SuitePlan plan = plan_of(suite, w.catalogue, {});
-    const Table t = table_of(plan, run_suite(plan, "", false, 1, w.console).records);
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.console).records);
     EXPECT_EQ(t.at(0, "status"), "ok");
     EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
     EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.2 s");
@@ -426,7 +430,7 @@ TEST(SuiteCommand, ExitCodesAreThoseOfTheProgram) {
 TEST(Spectrograms, ASineStandsInItsRowWithItsPower) {
     std::vector<double> signal(44100);
     for (std::size_t n = 0; n < signal.size(); ++n) signal[n] = 0.01 * std::sin(2 * M_PI * 1012.0 * static_cast<double>(n) / 44100);
-    const Levels l = levels_of(signal, 44100);
+    const bench::suite::Levels l = bench::suite::levels_of(signal, 44100);
     ASSERT_EQ(l.rows, 100);
     EXPECT_NEAR(l.frames, 60, 1);
     for (int m = 0; m < l.frames; ++m) {
@@ -439,12 +443,12 @@ TEST(Spectrograms, ASineStandsInItsRowWithItsPower) {
 }
 
 TEST(Spectrograms, OneScaleForAllAndNoMoreRectanglesThanAsked) {
-    Levels noise{60, 100, 0, 0.016, 80, {}};
+    bench::suite::Levels noise{60, 100, 0, 0.016, 80, {}};
     for (int k = 0; k < 6000; ++k) noise.level.push_back(-437 - (k * 7919) % 600);
-    Levels quiet = noise;
+    bench::suite::Levels quiet = noise;
     for (int& level : quiet.level) level -= 2000;
     const auto spec = nlohmann::json::parse(
-        spectrogram_spec("a", "b", {{"s", "x", "ok", noise}, {"t", "x", "ok", quiet}, {"t", "y", "refused", {}}}, 2000));
+        bench::report::spectrogram_spec("a", "b", {{"s", "x", "ok", noise}, {"t", "x", "ok", quiet}, {"t", "y", "refused", {}}}, 2000));
     const auto& grid = spec.at("concat");
     ASSERT_EQ(grid.size(), 4u);
     const auto rectangles = [&grid](int k) { return grid[k].at("data").at("values").size(); };

@@ -10,7 +10,7 @@ namespace jvari::test {
 
 inline std::string refusal_of(const std::string& text) {
     try {
-        parse_suite(text, "a.toml");
+        bench::suite::parse_suite(text, "a.toml");
     } catch (const SceneFileError& e) {
         return e.what();
     }

@@ -11,7 +11,7 @@
 #include "bench/store/console.hpp"
 #include "bench/store/machine.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
 constexpr const char* about = "jvari: numerical schemes for strings against obstacles, compared by speed and accuracy on the same scenes.";
@@ -72,16 +72,16 @@ void add_jobs(CLI::App& verb, int& jobs) {
         ->check(counting);
 }
 
-std::vector<SchemeOption> scheme_options(const std::vector<std::string>& texts) {
-    std::vector<SchemeOption> options;
+std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts) {
+    std::vector<compare::SchemeOption> options;
     for (const std::string& text : texts) {
         const auto equals = text.find('=');
-        if (equals == std::string::npos || equals == 0) throw UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
+        if (equals == std::string::npos || equals == 0) throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
         const std::string key = text.substr(0, equals);
         const auto colon = key.find(':');
-        SchemeOption o{colon == std::string::npos ? "" : key.substr(0, colon), colon == std::string::npos ? key : key.substr(colon + 1),
-                       text.substr(equals + 1)};
-        if (o.name.empty() || colon == 0) throw UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
+        compare::SchemeOption o{colon == std::string::npos ? "" : key.substr(0, colon),
+                                colon == std::string::npos ? key : key.substr(colon + 1), text.substr(equals + 1)};
+        if (o.name.empty() || colon == 0) throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
         options.push_back(std::move(o));
     }
     return options;
@@ -89,7 +89,7 @@ std::vector<SchemeOption> scheme_options(const std::vector<std::string>& texts) 
 
 void must_be_assignments(const std::vector<std::string>& set) {
     for (const std::string& s : set)
-        if (s.find('=') == std::string::npos || s.front() == '=') throw UsageError("--set " + s + ": expected KEY.PATH=VALUE");
+        if (s.find('=') == std::string::npos || s.front() == '=') throw store::UsageError("--set " + s + ": expected KEY.PATH=VALUE");
 }
 }  // namespace
 
@@ -97,7 +97,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     CLI::App app(about, "jvari");
     app.footer(examples);
     app.require_subcommand(1);
-    app.set_version_flag("--version", fmt::format("jvari {} ({})", machine().version, machine().commit));
+    app.set_version_flag("--version", fmt::format("jvari {} ({})", store::machine().version, store::machine().commit));
     app.get_formatter()->column_width(34);
 
     ListRequest list;
@@ -216,27 +216,27 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     if (argc > 1 && argv[1][0] != '-') {
         std::vector<std::string> verbs;
         for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
-        if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) throw UsageError(unknown("verb", argv[1], verbs));
+        if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) throw store::UsageError(store::unknown("verb", argv[1], verbs));
     }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {
         std::ostringstream text, nothing;
         app.exit(asked, text, nothing);
-        Console(false, false).print(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
+        store::Console(false, false).print(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
         return std::nullopt;
     } catch (const CLI::ParseError& e) {
-        throw UsageError(std::string(e.what()) + " (see jvari " + (argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : "") +
-                         "--help)");
+        throw store::UsageError(std::string(e.what()) + " (see jvari " + (argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : "") +
+                                "--help)");
     }
     must_be_assignments(run.set);
     must_be_assignments(compare.set);
     must_be_assignments(certify.set);
     run.options = scheme_options(run_options);
     compare.options = scheme_options(compare_options);
-    if (!run.wav_format.empty() && run.out.empty()) throw UsageError("--wav-format: there is no --out FILE.wav");
+    if (!run.wav_format.empty() && run.out.empty()) throw store::UsageError("--wav-format: there is no --out FILE.wav");
     if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts")
-        throw UsageError("--markdown goes with `jvari list schemes`, `jvari list options` or `jvari list facts`");
+        throw store::UsageError("--markdown goes with `jvari list schemes`, `jvari list options` or `jvari list facts`");
 
     if (list_verb->parsed()) return list;
     if (run_verb->parsed()) return run;
@@ -246,4 +246,4 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     return report;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

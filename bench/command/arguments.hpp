@@ -9,7 +9,7 @@
 
 #include "bench/compare/request.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 struct Common {
     bool json = false, quiet = false;
@@ -29,11 +29,11 @@ struct RunRequest : Common {
     std::optional<double> tap_rate;  // [Hz]
     bool energy = false;
     std::vector<std::string> set;
-    std::vector<SchemeOption> options;
+    std::vector<compare::SchemeOption> options;
     std::string out, wav_format;
 };
 
-struct CompareCall : Common, CompareRequest {};
+struct CompareCall : Common, compare::CompareRequest {};
 
 struct ReportRequest : Common {
     std::string folder;
@@ -58,4 +58,4 @@ using Request = std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest,
 // Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -15,7 +15,7 @@
 #include "bench/trust/certificate_file.hpp"
 #include "bench/trust/certificate_library.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -24,14 +24,15 @@ namespace fs = std::filesystem;
 fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed scene does not take the place of the one it was made from
     if (!r.out.empty()) {
         if (fs::path(r.out).extension() != ".json" || r.out.ends_with(".cost.json"))
-            throw UsageError(fmt::format("--out {}: expected a name that ends in .json (its costs go beside it, to .cost.json)", r.out));
+            throw store::UsageError(
+                fmt::format("--out {}: expected a name that ends in .json (its costs go beside it, to .cost.json)", r.out));
         return r.out;
     }
     const fs::path folder = "results/certificates";
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error) throw UsageError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
-    return folder / (file_stem(scene.name) + (r.set.empty() ? "" : "-" + timeless_hash(scene).substr(0, 8)) + ".json");
+    if (error) throw store::UsageError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+    return folder / (trust::file_stem(scene.name) + (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) + ".json");
 }
 
 std::string entries_text(const Certificate& c) {
@@ -39,7 +40,7 @@ std::string entries_text(const Certificate& c) {
     for (std::size_t i = 0; i < c.entries.size(); ++i) {
         const auto& e = c.entries[i];
         const std::string name = e.reference + (e.sample_rate > 0 ? fmt::format(" at {:.10g} Hz", e.sample_rate) : "") +
-                                 (e.options.empty() ? "" : " " + options_text(e.options));
+                                 (e.options.empty() ? "" : " " + store::options_text(e.options));
         if (!e.reason.empty()) text += fmt::format("  {:>2}  {:<44} refused: {}\n", i + 1, name, e.reason);
         else
             text += fmt::format("  {:>2}  {:<44} {:<14} {:>7.4g} s {:>9}\n", i + 1, name, name_of(e.status.outcome), e.reached,
@@ -104,8 +105,8 @@ std::string text_of(const Certificate& c) {
            "\nnoise floor: the first against itself, started a relative 1e-12 apart";
 }
 
-Certificate made(const Scene& scene, CertifySettings settings, const Console& console) {
-    Console::Progress progress(console, "certify");
+Certificate made(const Scene& scene, CertifySettings settings, const store::Console& console) {
+    store::Console::Progress progress(console, "certify");
     double from = 0, part = 1;
     std::string what;
     settings.progress = [&](const std::string& reference, int done, int of) {
@@ -119,25 +120,25 @@ Certificate made(const Scene& scene, CertifySettings settings, const Console& co
 }  // namespace
 
 int certify_command(const CertifyRequest& r) {
-    const Console console(r.json, r.quiet);
-    const Catalogue catalogue(r.plugins);
-    const Scene scene = load_scene(r.scene, r.set, r.duration);
+    const store::Console console(r.json, r.quiet);
+    const compare::Catalogue catalogue(r.plugins);
+    const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
     CertifySettings settings;
     settings.modes = r.modes;
     settings.tap_rate = r.tap_rate.value_or(44100);
     settings.oversampled_rate = r.oversampled_rate.value_or(0);
     if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size()) > 1e8)
-        throw UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
-    KeptCertificate kept = planned_certificate(scene, settings);
+        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+    trust::KeptCertificate kept = trust::planned_certificate(scene, settings);
     const fs::path path = path_for(r, scene);
-    must_be_writable(path);
-    must_be_writable(cost_path(path));
+    store::must_be_writable(path);
+    store::must_be_writable(trust::cost_path(path));
 
     bool cached = false;
     std::error_code error;
     if (!r.again && fs::exists(path, error)) {
         std::string why;
-        if (auto found = read_certificate(path, why)) {
+        if (auto found = trust::read_certificate(path, why)) {
             cached = found->key == kept.key;
             if (cached) kept = std::move(*found);
             else console.note(path.string() + " is of another scene, version or setting; it is made again");
@@ -146,11 +147,11 @@ int certify_command(const CertifyRequest& r) {
         }
     }
     if (cached) {
-        read_costs(path, kept);
+        trust::read_costs(path, kept);
     } else {
         kept.certificate = made(scene, settings, console);
-        write_fresh(cost_path(path), cost_json_of(kept));
-        write_fresh(path, json_of(kept));
+        store::write_fresh(trust::cost_path(path), trust::cost_json_of(kept));
+        store::write_fresh(path, trust::json_of(kept));
     }
     console.print(text_of(kept.certificate));
     console.print((cached ? "read: " : "written: ") + path.string());
@@ -160,14 +161,14 @@ int certify_command(const CertifyRequest& r) {
         std::any_of(entries.begin(), entries.end(), [](const auto& e) { return e.reason.empty() && e.status.outcome == Outcome::ok; });
     Json costs = Json::array();
     for (const auto& e : entries) costs.push_back(e.wall_seconds);
-    console.print_json(indented({{"scene", scene.name},
-                                 {"status", good ? "ok" : "failed"},
-                                 {"cached", cached},
-                                 {"file", path.string()},
-                                 {"cost_file", cost_path(path).string()},
-                                 {"certificate", Json::parse(json_of(kept))},
-                                 {"wall_seconds", costs}}));
-    return good ? done : run_failed;
+    console.print_json(store::indented({{"scene", scene.name},
+                                        {"status", good ? "ok" : "failed"},
+                                        {"cached", cached},
+                                        {"file", path.string()},
+                                        {"cost_file", trust::cost_path(path).string()},
+                                        {"certificate", Json::parse(trust::json_of(kept))},
+                                        {"wall_seconds", costs}}));
+    return good ? store::done : store::run_failed;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -3,7 +3,7 @@
 
 #include "bench/command/arguments.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 int list_command(const ListRequest&);
 int run_command(const RunRequest&);
@@ -12,4 +12,4 @@ int suite_command(const SuiteRequest&);
 int certify_command(const CertifyRequest&);
 int report_command(const ReportRequest&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

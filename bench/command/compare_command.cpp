@@ -16,7 +16,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -25,20 +25,22 @@ namespace fs = std::filesystem;
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (!fs::is_directory(folder)) throw UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
-    must_be_writable(folder / "cells.csv");
+    if (!fs::is_directory(folder))
+        throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
+    store::must_be_writable(folder / "cells.csv");
 }
 
-int exit_code(const Comparison& c) {
-    const auto good = [](const Cell& cell) { return !cell.refused && cell.summary.status.outcome == Outcome::ok; };
-    if (c.cells.empty() || std::any_of(c.cells.begin(), c.cells.end(), good)) return done;
-    return std::all_of(c.cells.begin(), c.cells.end(), [](const Cell& cell) { return cell.refused; }) ? refused : run_failed;
+int exit_code(const compare::Comparison& c) {
+    const auto good = [](const compare::Cell& cell) { return !cell.refused && cell.summary.status.outcome == Outcome::ok; };
+    if (c.cells.empty() || std::any_of(c.cells.begin(), c.cells.end(), good)) return store::done;
+    return std::all_of(c.cells.begin(), c.cells.end(), [](const compare::Cell& cell) { return cell.refused; }) ? store::refused
+                                                                                                               : store::run_failed;
 }
 
-std::string floor_text(const Comparison& c) {
+std::string floor_text(const compare::Comparison& c) {
     std::string text;
-    for (std::size_t k = 0; k < measures().size(); ++k) {
-        const Measure& m = measures()[k];
+    for (std::size_t k = 0; k < compare::measures().size(); ++k) {
+        const compare::Measure& m = compare::measures()[k];
         const double floor = c.floor[c.headline.tap(m)][k];
         if (m.less_is_better && !std::isnan(floor))
             text += fmt::format("{}{} {:.1e}", text.empty() ? "noise floor: " : ", ", m.column, floor);
@@ -46,8 +48,8 @@ std::string floor_text(const Comparison& c) {
     return text;
 }
 
-std::string certificate_text(const Comparison& c) {
-    const Trust& t = c.trust;
+std::string certificate_text(const compare::Comparison& c) {
+    const trust::Trust& t = c.trust;
     if (!t.any()) return "no certificate: " + t.missing;
     return fmt::format("{} is certain to the figures of the first line, by {}{}", c.reference_name, t.against,
                        t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + ")") +
@@ -57,29 +59,29 @@ std::string certificate_text(const Comparison& c) {
 }  // namespace
 
 int compare_command(const CompareCall& r) {
-    const Console console(r.json, r.quiet);
-    const Catalogue catalogue(r.plugins);
-    note_slow_plugins(console);
+    const store::Console console(r.json, r.quiet);
+    const compare::Catalogue catalogue(r.plugins);
+    compare::note_slow_plugins(console);
     if (!r.out.empty()) make_folder(r.out);
-    const Comparison c = compare(r, catalogue, console);
-    const Table cells = cells_of(c);
-    const std::string manifest = manifest_of(c, r);
+    const compare::Comparison c = compare::compare(r, catalogue, console);
+    const store::Table cells = compare::cells_of(c);
+    const std::string manifest = compare::manifest_of(c, r);
 
-    const Table cheapest = cheapest_of(cells, c.scene.name);
+    const store::Table cheapest = compare::cheapest_of(cells, c.scene.name);
     Json files = Json::array();
     if (!r.out.empty()) {
         const fs::path folder = r.out;
-        if (const Table orders = convergence_of(cells, c.scene.name); !orders.rows.empty()) {
-            write_fresh(folder / "convergence.csv", csv(orders));
+        if (const store::Table orders = compare::convergence_of(cells, c.scene.name); !orders.rows.empty()) {
+            store::write_fresh(folder / "convergence.csv", store::csv(orders));
             files.push_back((folder / "convergence.csv").string());
         }
-        write_fresh(folder / "cells.csv", csv(cells));
-        write_fresh(folder / "errors.csv", csv(errors_only(cells)));
-        write_fresh(folder / "cost.csv", csv(cost_only(cells)));
-        write_fresh(folder / "manifest.json", manifest + "\n");
-        write_sounds(c, folder);
+        store::write_fresh(folder / "cells.csv", store::csv(cells));
+        store::write_fresh(folder / "errors.csv", store::csv(compare::errors_only(cells)));
+        store::write_fresh(folder / "cost.csv", store::csv(compare::cost_only(cells)));
+        store::write_fresh(folder / "manifest.json", manifest + "\n");
+        compare::write_sounds(c, folder);
         for (const char* name : {"cells.csv", "errors.csv", "cost.csv", "manifest.json"}) files.push_back((folder / name).string());
-        for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
+        for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
     }
 
     const double rate = c.reference_summary.rate;
@@ -88,19 +90,19 @@ int compare_command(const CompareCall& r) {
                               c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
                               c.scene.taps.at(c.headline.bridge).name));
     console.print(headline_text(cells) + "\n" + certificate_text(c) + "\n" + floor_text(c));
-    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
+    if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = exit_code(c);
-    console.print_json(indented({{"scene", c.scene.name},
-                                 {"reference", c.reference_name},
-                                 {"status", code == done      ? "ok"
-                                            : code == refused ? "refused"
-                                                              : "failed"},
-                                 {"manifest", Json::parse(manifest)},
-                                 {"cells", Json::parse(rows_json(with_bounds(cells)))},
-                                 {"cheapest", Json::parse(rows_json(cheapest))},
-                                 {"files", files}}));
+    console.print_json(store::indented({{"scene", c.scene.name},
+                                        {"reference", c.reference_name},
+                                        {"status", code == store::done      ? "ok"
+                                                   : code == store::refused ? "refused"
+                                                                            : "failed"},
+                                        {"manifest", Json::parse(manifest)},
+                                        {"cells", Json::parse(store::rows_json(compare::with_bounds(cells)))},
+                                        {"cheapest", Json::parse(store::rows_json(cheapest))},
+                                        {"files", files}}));
     return code;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -8,23 +8,23 @@
 #include "bench/compare/bound.hpp"
 #include "schemes/facts.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
-std::string cell_text(const Table& t, std::size_t row, const char* column, const char* format) {
+std::string cell_text(const store::Table& t, std::size_t row, const char* column, const char* format) {
     const double x = t.number(row, column);
     return std::isnan(x) ? "-" : fmt::format(fmt::runtime(format), x);
 }
 
 // "x 1.3 %": half the distance of the quartiles over the median.
-std::string spread_text(const Table& t, std::size_t row) {
+std::string spread_text(const store::Table& t, std::size_t row) {
     const double median = t.number(row, "wall_seconds"),
                  half = 0.5 * (t.number(row, "wall_seconds_upper") - t.number(row, "wall_seconds_lower"));
     return std::isnan(half / median) ? "" : fmt::format("+-{:.0f}%", 100 * half / median);
 }
 }  // namespace
 
-std::string headline_text(const Table& t) {
+std::string headline_text(const store::Table& t) {
     static const std::string certificate = "(reference certain to)";
     std::size_t width = certificate.size();
     for (std::size_t i = 0; i < t.rows.size(); ++i) width = std::max(width, t.at(i, "scheme").size());
@@ -32,7 +32,7 @@ std::string headline_text(const Table& t) {
         fmt::format("  {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}  {:>8} {:>8} {:>8}  {:>9} {:<6} {:>9} {:>8}\n", "scheme", width, "rate",
                     "modes", "L2 10ms", "L2 50ms", "L2 whole", "horizon", "1/3 oct", "residual", "s per s", "", "real time", "ns/step");
     const auto figure = [&t](const char* column) {
-        const double x = t.rows.empty() ? std::nan("") : bound_of(t, 0, column).certificate;
+        const double x = t.rows.empty() ? std::nan("") : compare::bound_of(t, 0, column).certificate;
         return std::isnan(x) ? "-" : fmt::format("{:.2e}", x);
     };
     text += fmt::format("  {:<{}}  {:>9} {:>6}  {:>9} {:>9} {:>9}\n", certificate, width, "", "", figure("error_l2_10ms"),
@@ -53,24 +53,27 @@ std::string headline_text(const Table& t) {
                             t.at(i, "pareto") == "1"    ? "*"
                             : !t.at(i, "flags").empty() ? "!"
                                                         : " ",
-                            t.at(i, "scheme"), width, rate, t.at(i, "modes"), error_text(bound_of(t, i, "error_l2_10ms"), "{:.2e}"),
-                            error_text(bound_of(t, i, "error_l2_50ms"), "{:.2e}"), error_text(bound_of(t, i, "error_l2_whole"), "{:.2e}"),
+                            t.at(i, "scheme"), width, rate, t.at(i, "modes"),
+                            compare::error_text(compare::bound_of(t, i, "error_l2_10ms"), "{:.2e}"),
+                            compare::error_text(compare::bound_of(t, i, "error_l2_50ms"), "{:.2e}"),
+                            compare::error_text(compare::bound_of(t, i, "error_l2_whole"), "{:.2e}"),
                             cell_text(t, i, "horizon_s", "{:.4f} s"), cell_text(t, i, "third_octave_db", "{:.2f} dB"),
                             cell_text(t, i, "energy_residual_accumulated", "{:.1e}"), cell_text(t, i, "cost_s_per_s", "{:.3g}"),
                             spread_text(t, i), cell_text(t, i, "times_real_time", "{:.3g}"), cell_text(t, i, "ns_per_step", "{:.1f}"));
     }
-    text += fmt::format("* on the Pareto front of {} and cost; +- is half the distance of the quartiles", headline_error(t, all_rows(t)));
-    const auto says = [&t](Bound::Says what) {
+    text += fmt::format("* on the Pareto front of {} and cost; +- is half the distance of the quartiles",
+                        compare::headline_error(t, store::all_rows(t)));
+    const auto says = [&t](compare::Bound::Says what) {
         for (std::size_t i = 0; i < t.rows.size(); ++i)
             for (const char* column : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"})
-                if (bound_of(t, i, column).says() == what) return true;
+                if (compare::bound_of(t, i, column).says() == what) return true;
         return false;
     };
-    if (says(Bound::Says::at_most))
+    if (says(compare::Bound::Says::at_most))
         text += "\n\u2264 error and what the reference is certain to, together, where that is more than a tenth of the error";
-    if (says(Bound::Says::unknown)) text += "\nnot known: together they reach 1";
+    if (says(compare::Bound::Says::unknown)) text += "\nnot known: together they reach 1";
     if (!flagged.empty()) text += "\n! not to be trusted, whatever the error says\n" + flagged.substr(0, flagged.size() - 1);
     return missing.empty() ? text : text + "\nfailed or refused\n" + missing.substr(0, missing.size() - 1);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

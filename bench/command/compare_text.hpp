@@ -5,8 +5,8 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
-std::string headline_text(const Table& cells);  // the front marked, and what is not to be trusted
+std::string headline_text(const store::Table& cells);  // the front marked, and what is not to be trusted
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -12,13 +12,13 @@
 #include "bench/suite/suite_file.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
 
 struct Shelf {  // what is listed
-    Catalogue catalogue;
+    compare::Catalogue catalogue;
     std::vector<std::pair<std::string, Scene>> scenes;            // library name, scene
     std::vector<std::pair<std::string, std::string>> unreadable;  // library name, why
 };
@@ -42,7 +42,7 @@ Json scenes_json(const Shelf& shelf) {
                        {"source", scene.source},
                        {"duration", scene.duration},
                        {"strings", scene.strings.size()},
-                       {"needs", names_in(needed_by(scene))},
+                       {"needs", compare::names_in(needed_by(scene))},
                        {"taps", taps}});
     }
     for (const auto& [name, why] : shelf.unreadable) all.push_back({{"name", name}, {"error", why}});
@@ -55,7 +55,8 @@ Json matrix_json(const Shelf& shelf) {
         for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
             for (const Descriptor* d : *list) {
                 const Features missing = needed_by(scene) - d->represents;
-                all.push_back({{"scene", name}, {"scheme", d->name}, {"represents", missing.empty()}, {"missing", names_in(missing)}});
+                all.push_back(
+                    {{"scene", name}, {"scheme", d->name}, {"represents", missing.empty()}, {"missing", compare::names_in(missing)}});
             }
     return all;
 }
@@ -74,7 +75,7 @@ std::string scenes_text(const Shelf& shelf) {
         std::vector<std::string> taps;
         for (const Tap& tap : scene.taps) taps.push_back(tap.name);
         text += fmt::format("  {:<{}}  {}\n  {:<{}}  {} s; taps {}; needs {}\n", name, width, scene.source, "", width, scene.duration,
-                            joined(taps), joined(names_in(needed_by(scene))));
+                            joined(taps), joined(compare::names_in(needed_by(scene))));
     }
     for (const auto& [name, why] : shelf.unreadable) text += fmt::format("  {}  cannot be read: {}\n", name, why);
     return text;
@@ -104,8 +105,8 @@ std::string taps_text() {
 
 Json suites_json() {
     Json all = Json::array();
-    for (const std::string& name : library_suites()) try {
-            const Suite suite = read_suite(name);
+    for (const std::string& name : suite::library_suites()) try {
+            const suite::Suite suite = suite::read_suite(name);
             all.push_back({{"name", name}, {"source", suite.source}, {"sets", suite.sets.size()}});
         } catch (const std::runtime_error& e) {
             all.push_back({{"name", name}, {"error", e.what()}});
@@ -125,8 +126,8 @@ std::string suites_text() {
 }  // namespace
 
 int list_command(const ListRequest& r) {
-    const Console console(r.json, r.quiet);
-    Shelf shelf{Catalogue(r.plugins), {}, {}};
+    const store::Console console(r.json, r.quiet);
+    Shelf shelf{compare::Catalogue(r.plugins), {}, {}};
     const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
     if (asked("scenes"))
         for (const std::string& name : library_scenes()) try {
@@ -141,8 +142,8 @@ int list_command(const ListRequest& r) {
                                   : r.what == "facts" ? list_facts().markdown
                                                       : list_descriptors("", all).markdown;
         console.print(table);
-        console.print_json(indented({{"markdown", table}}));
-        return done;
+        console.print_json(store::indented({{"markdown", table}}));
+        return store::done;
     }
     Json json = Json::object();
     std::string text;
@@ -165,8 +166,8 @@ int list_command(const ListRequest& r) {
     }
     text.pop_back();
     console.print(text);
-    console.print_json(indented(json));
-    return done;
+    console.print_json(store::indented(json));
+    return store::done;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

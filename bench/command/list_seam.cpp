@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -40,7 +40,7 @@ bool same(const Option& a, const Option& b) {
            std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const std::string& p, const std::string& q) { return p == q; });
 }
 
-std::vector<Listed> options_of(const Catalogue& catalogue) {
+std::vector<Listed> options_of(const compare::Catalogue& catalogue) {
     std::vector<Listed> all;
     for (const auto* list : {&catalogue.schemes, &catalogue.references})
         for (const Descriptor* d : *list)
@@ -80,7 +80,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
         for (const Option& o : d->options) options.push_back(o.name);
         json.push_back({{"name", d->name},
                         {"source", d->source},
-                        {"represents", names_in(d->represents)},
+                        {"represents", compare::names_in(d->represents)},
                         {"approximates", approximates},
                         {"note", note},
                         {"options", options},
@@ -90,7 +90,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
 
         text += fmt::format("  {:<{}}  {}\n  {:<{}}  energy balance {}{}; represents {}\n", d->name, width, d->source, "", width,
                             name_of(d->balance), d->clock == Clock::continuous ? "; continuous time" : "",
-                            joined(names_in(d->represents - not_quite)));
+                            joined(compare::names_in(d->represents - not_quite)));
         if (!not_quite.empty()) text += fmt::format("  {:<{}}  approximates {}\n", "", width, joined(approximations_of(*d, "")));
         if (!note.empty()) text += fmt::format("  {:<{}}  {}\n", "", width, note);
 
@@ -109,7 +109,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
                 "\n● as the scene says; ◐ changed, at any rate and with any number of modes, and a fact of the run says how.\n\n" + notes};
 }
 
-Listing list_options(const Catalogue& catalogue) {
+Listing list_options(const compare::Catalogue& catalogue) {
     Json json = Json::array();
     std::string text = "options\n", markdown = "| option | default | meaning | schemes |\n|---|---|---|---|\n";
     for (const Listed& l : options_of(catalogue)) {
@@ -135,4 +135,4 @@ Listing list_facts() {
     return {json.dump(), text, markdown};
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -6,14 +6,14 @@
 
 #include "bench/compare/catalogue.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 // One thing listed in its three forms.
 struct Listing {
     std::string json, text, markdown;
 };
 Listing list_descriptors(const char* title, const std::vector<const Descriptor*>&);  // markdown: the capability table of the README
-Listing list_options(const Catalogue&);
+Listing list_options(const compare::Catalogue&);
 Listing list_facts();
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -7,7 +7,7 @@
 #include "bench/store/console.hpp"
 #include "bench/store/indented.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -15,14 +15,14 @@ namespace fs = std::filesystem;
 }  // namespace
 
 int report_command(const ReportRequest& r) {
-    const Console console(r.json, r.quiet);
+    const store::Console console(r.json, r.quiet);
     Json files = Json::array();
-    for (const std::string& name : write_report(r.folder, console)) {
+    for (const std::string& name : report::write_report(r.folder, console)) {
         files.push_back((fs::path(r.folder) / name).string());
         console.print("written: " + (fs::path(r.folder) / name).string());
     }
-    console.print_json(indented({{"folder", r.folder}, {"files", files}}));
-    return done;
+    console.print_json(store::indented({{"folder", r.folder}, {"files", files}}));
+    return store::done;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -15,7 +15,7 @@
 #include "bench/store/trace_file.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -25,20 +25,20 @@ Settings settings_for(const RunRequest& r, const Descriptor& d) {
     const double rate = r.rate.value_or(44100);
     const bool continuous = d.clock == Clock::continuous;
     s.sample_rate = continuous ? 0 : rate;
-    s.tap_rate = r.tap_rate.value_or(continuous || whole_multiple(rate, 44100) ? 44100 : rate);
+    s.tap_rate = r.tap_rate.value_or(continuous || store::whole_multiple(rate, 44100) ? 44100 : rate);
     s.modes = r.modes;
-    if (!continuous && !whole_multiple(rate, s.tap_rate))
-        throw UsageError(fmt::format("--tap-rate {}: the sample rate of {} Hz is no whole multiple of it", s.tap_rate, rate));
-    for (const SchemeOption& o : r.options) {
+    if (!continuous && !store::whole_multiple(rate, s.tap_rate))
+        throw store::UsageError(fmt::format("--tap-rate {}: the sample rate of {} Hz is no whole multiple of it", s.tap_rate, rate));
+    for (const compare::SchemeOption& o : r.options) {
         if (o.scheme.empty() || o.scheme == d.name) s.options.emplace_back(o.name, o.value);
-        else throw UsageError(fmt::format("--option {}:{}={}: this run is of {}", o.scheme, o.name, o.value, d.name));
+        else throw store::UsageError(fmt::format("--option {}:{}={}: this run is of {}", o.scheme, o.name, o.value, d.name));
     }
     return s;
 }
 
 // What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
 std::string dearest(const std::vector<Fact>& facts) {
-    const double coupled = fact(facts, facts::coupled_contact_points);
+    const double coupled = compare::fact(facts, facts::coupled_contact_points);
     if (!(coupled > 8)) return "";
     return fmt::format(
         ". Dear is its contact: {:.0f} points that push each other are solved together, each step by up to the cube of those that touch; a "
@@ -46,7 +46,7 @@ std::string dearest(const std::vector<Fact>& facts) {
         coupled);
 }
 
-std::string text_for(const Summary& s) {
+std::string text_for(const compare::Summary& s) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
     const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<28}{}", name, value); };
     if (s.status.outcome == Outcome::ok) line("status", "ok");
@@ -66,7 +66,7 @@ std::string text_for(const Summary& s) {
     return text;
 }
 
-Json json_of(const Summary& s) {
+Json json_of(const compare::Summary& s) {
     Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", name_of(s.status.outcome)}};
     if (s.status.outcome != Outcome::ok) j["step"] = s.status.step;
     j["rate"] = s.rate;  // NaN becomes null
@@ -87,7 +87,7 @@ Json json_of(const Summary& s) {
     return j;
 }
 
-TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene, const Settings& s) {
+store::TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene, const Settings& s) {
     return {r.out,
             r.wav_format,
             {{"scene", scene.name},
@@ -95,28 +95,28 @@ TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene,
              {"scene_hash", scene_hash(scene)},
              {"scheme", d.name},
              {"scheme_source", d.source},
-             {"sample_rate", text_of(s.sample_rate)},
-             {"program", "jvari " + machine().version},
-             {"commit", machine().commit}}};
+             {"sample_rate", store::text_of(s.sample_rate)},
+             {"program", "jvari " + store::machine().version},
+             {"commit", store::machine().commit}}};
 }
 }  // namespace
 
 int run_command(const RunRequest& r) {
-    const Console console(r.json, r.quiet);
-    const Catalogue catalogue(r.plugins);
-    note_slow_plugins(console);
+    const store::Console console(r.json, r.quiet);
+    const compare::Catalogue catalogue(r.plugins);
+    compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
-    const Scene scene = load_scene(r.scene, r.set, r.duration);
+    const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
     const Settings settings = settings_for(r, d);
-    const TraceFile file = file_for(r, d, scene, settings);
-    if (!r.out.empty()) check(file, scene, settings.tap_rate);
+    const store::TraceFile file = file_for(r, d, scene, settings);
+    if (!r.out.empty()) store::check(file, scene, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * r.energy) > 2e9)
-        throw UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
 
     Run result;
     {
-        Console::Progress progress(console, fmt::format("{} on {}", d.name, scene.name));
+        store::Console::Progress progress(console, fmt::format("{} on {}", d.name, scene.name));
         RunOptions options;
         options.energy = r.energy;
         options.progress = [&progress](long done, long rows) { progress.show(static_cast<double>(done) / static_cast<double>(rows)); };
@@ -125,20 +125,20 @@ int run_command(const RunRequest& r) {
         };
         result = run(d, scene, settings, options);
     }
-    const Summary summary = summary_of(d, scene, settings, result);
+    const compare::Summary summary = compare::summary_of(d, scene, settings, result);
     Json json = json_of(summary);
     std::string text = text_for(summary);
     if (!r.out.empty()) {
-        const std::string said = write(file, scene, result.trace);
+        const std::string said = store::write(file, scene, result.trace);
         json["out"] = r.out;
         if (!said.empty()) json["wav_scaling"] = said;
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
     }
     console.print(text);
-    console.print_json(indented(json));
-    if (result.status.outcome == Outcome::ok) return done;
+    console.print_json(store::indented(json));
+    if (result.status.outcome == Outcome::ok) return store::done;
     console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome), result.status.step, result.trace.rows));
-    return run_failed;
+    return store::run_failed;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -24,35 +24,35 @@
 #include "bench/suite/row_facet.hpp"
 #include "bench/suite/suite_run.hpp"
 
-namespace jvari {
+namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-Table clock_only(const Table& cells) {  // what errors_only leaves out, beside what names the cell
-    const Table rest = errors_only(cells);
+store::Table clock_only(const store::Table& cells) {  // what errors_only leaves out, beside what names the cell
+    const store::Table rest = compare::errors_only(cells);
     std::vector<std::string> names{"cell", "scene", "scheme", "rate", "modes", "status"};
     for (const std::string& name : cells.columns)
         if (rest.column(name) < 0) names.push_back(name);
     return cells.only(names);
 }
 
-std::string manifest_of(const Suite& suite, const SuitePlan& plan) {
+std::string manifest_of(const suite::Suite& suite, const suite::SuitePlan& plan) {
     std::map<std::string, std::string> sources;
-    for (const PlannedCell& c : plan.cells) sources[c.cell.scheme->name] = c.cell.scheme->source;
-    Json manifest = Json::parse(made_by());
+    for (const suite::PlannedCell& c : plan.cells) sources[c.cell.scheme->name] = c.cell.scheme->source;
+    Json manifest = Json::parse(store::made_by());
     manifest.update(
         {{"suite", suite.name}, {"source", suite.source}, {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}});
-    return indented(manifest);
+    return store::indented(manifest);
 }
 
-std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
+std::string table_text(const suite::SuitePlan& plan, const suite::SuiteRun& run) {
     std::string text;
     std::map<std::string, int> statuses;
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
-        const Table& row = run.records[i].row;
-        const PlannedCell& c = plan.cells[i];
+        const store::Table& row = run.records[i].row;
+        const suite::PlannedCell& c = plan.cells[i];
         const auto short_text = [&row](const char* column, const char* format) {
             const double x = row.number(0, column);
             return std::isnan(x) ? std::string() : fmt::format(fmt::runtime(format), x);
@@ -60,10 +60,10 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
         ++statuses[row.at(0, "status")];
         std::string what = c.point->scene.name;
         for (const auto& [key, value] : c.point->swept) what += " " + key + "=" + value;
-        const std::string options = options_text(c.cell.settings.options);
+        const std::string options = store::options_text(c.cell.settings.options);
         text += fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}  {}\n", what,
                             c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
-                            row.at(0, "status"), error_text(bound_of(row, 0, "error_l2_50ms"), "{:.2e}"),
+                            row.at(0, "status"), compare::error_text(compare::bound_of(row, 0, "error_l2_50ms"), "{:.2e}"),
                             short_text("cost_s_per_s", "{:.3g}"), row.at(0, "reason"));
     }
     text = fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}\n", "scene", "scheme", "rate", "modes", "status", "L2 50ms",
@@ -73,11 +73,11 @@ std::string table_text(const SuitePlan& plan, const SuiteRun& run) {
     return text;
 }
 
-std::string kept_text(const SuitePlan& plan, const Suite& suite, const fs::path& folder) {
+std::string kept_text(const suite::SuitePlan& plan, const suite::Suite& suite, const fs::path& folder) {
     std::error_code error;
     std::string text;
     if (!plan.cells.empty()) {
-        const auto kept = [&](const PlannedCell& c) { return fs::exists(folder / "cells" / (c.id + ".json"), error); };
+        const auto kept = [&](const suite::PlannedCell& c) { return fs::exists(folder / "cells" / (c.id + ".json"), error); };
         text = fmt::format("{} of {} cells", std::count_if(plan.cells.begin(), plan.cells.end(), kept), plan.cells.size());
     }
     if (!suite.maps.empty()) {
@@ -88,79 +88,81 @@ std::string kept_text(const SuitePlan& plan, const Suite& suite, const fs::path&
     return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", text, folder.string());
 }
 
-int exit_code(const std::vector<SuiteRecord>& records) {
-    const auto is = [](const char* status) { return [status](const SuiteRecord& r) { return r.row.at(0, "status") == status; }; };
-    if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return done;  // empty: a suite of maps alone
-    return std::all_of(records.begin(), records.end(), is("refused")) ? refused : run_failed;
+int exit_code(const std::vector<suite::SuiteRecord>& records) {
+    const auto is = [](const char* status) { return [status](const suite::SuiteRecord& r) { return r.row.at(0, "status") == status; }; };
+    if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return store::done;  // empty: a suite of maps alone
+    return std::all_of(records.begin(), records.end(), is("refused")) ? store::refused : store::run_failed;
 }
 
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder / "cells", error);
     if (!fs::is_directory(folder / "cells"))
-        throw UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
-    must_be_writable(folder / "cells.csv");
-    must_be_writable(folder / "cells" / "any.json");
-    for (const char* own : {"cells", "points", "sounds", "failures"}) sweep_parts(folder / own);
+        throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
+    store::must_be_writable(folder / "cells.csv");
+    store::must_be_writable(folder / "cells" / "any.json");
+    for (const char* own : {"cells", "points", "sounds", "failures"}) store::sweep_parts(folder / own);
 }
 }  // namespace
 
 int suite_command(const SuiteRequest& r) {
-    const Console console(r.json, r.quiet);
-    if (r.resume && r.out.empty()) throw UsageError("--resume: there is no --out DIR to resume from");
-    const Suite suite = read_suite(r.suite);
-    const Catalogue catalogue(r.plugins);
-    note_slow_plugins(console);
-    const SuitePlan plan = plan_of(suite, catalogue, r.plugins);
+    const store::Console console(r.json, r.quiet);
+    if (r.resume && r.out.empty()) throw store::UsageError("--resume: there is no --out DIR to resume from");
+    const suite::Suite suite = suite::read_suite(r.suite);
+    const compare::Catalogue catalogue(r.plugins);
+    compare::note_slow_plugins(console);
+    const suite::SuitePlan plan = suite::plan_of(suite, catalogue, r.plugins);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
-    std::optional<WhenInterrupted> last_word;
+    std::optional<store::WhenInterrupted> last_word;
     if (!r.out.empty()) {
         make_folder(folder);
         last_word.emplace([&] { console.note(kept_text(plan, suite, folder)); });
     }
-    const RecordedMaps maps = run_and_record_maps(suite.maps, catalogue, {program_identity(r.plugins), folder, r.resume, r.jobs}, console);
-    const SuiteRun run = run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
-    const Table cells = table_of(plan, run.records);
+    const map::RecordedMaps maps =
+        map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs}, console);
+    const suite::SuiteRun run = suite::run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
+    const store::Table cells = suite::table_of(plan, run.records);
     const std::string manifest = manifest_of(suite, plan);
-    const Table cheapest = cheapest_of(cells);
+    const store::Table cheapest = compare::cheapest_of(cells);
     Json files = maps.files;
     if (!r.out.empty()) {
         const auto write = [&](const char* name, const std::string& content) {
-            write_fresh(folder / name, content);
+            store::write_fresh(folder / name, content);
             files.push_back((folder / name).string());
         };
         if (!plan.cells.empty()) {
-            write("cells.csv", csv(cells));
-            write("errors.csv", csv(errors_only(cells)));
-            write("cost.csv", csv(clock_only(cells)));
+            write("cells.csv", store::csv(cells));
+            write("errors.csv", store::csv(compare::errors_only(cells)));
+            write("cost.csv", store::csv(clock_only(cells)));
         }
-        for (const RowFacet& f : row_facets())
-            if (const Table rows = rows_of(f.facet, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
-            else if (!rows.rows.empty()) write((std::string(name_of(f.facet)) + ".csv").c_str(), csv(rows));
-        if (const Table orders = convergence_of(cells); !orders.rows.empty()) write("convergence.csv", csv(orders));
-        if (const Table scaling = scaling_of(cells, sets_of(plan)); !scaling.rows.empty()) write("scaling.csv", csv(scaling));
+        for (const suite::RowFacet& f : suite::row_facets())
+            if (const store::Table rows = suite::rows_of(f.facet, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
+            else if (!rows.rows.empty()) write((std::string(suite::name_of(f.facet)) + ".csv").c_str(), store::csv(rows));
+        if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty()) write("convergence.csv", store::csv(orders));
+        if (const store::Table scaling = compare::scaling_of(cells, suite::sets_of(plan)); !scaling.rows.empty())
+            write("scaling.csv", store::csv(scaling));
         write("manifest.json", manifest + "\n");
-        for (const DrawnFigure& f : draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
-        for (const std::string& name : write_report(folder, console)) files.push_back((folder / name).string());
+        for (const report::DrawnFigure& f : report::draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
+        for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
     }
     // Files first: nothing is lost where nobody reads this.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
-    if (!cheapest.rows.empty()) console.print(cheapest_text(cheapest));
+    if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (!r.out.empty()) console.print("written: " + folder.string());
     const int code = exit_code(run.records);
-    const char* status = code == done ? "ok" : code == refused ? "refused" : "failed";
-    console.print_json(indented({{"suite", suite.name},
-                                 {"status", status},
-                                 {"ran", run.ran},
-                                 {"timed", run.timed},
-                                 {"read_back", run.read_back},
-                                 {"manifest", Json::parse(manifest)},
-                                 {"cells", Json::parse(rows_json(with_bounds(cells)))},
-                                 {"cheapest", Json::parse(rows_json(cheapest))},
-                                 {"files", files}}));
+    const char* status = code == store::done ? "ok" : code == store::refused ? "refused" : "failed";
+    console.print_json(store::indented({{"suite", suite.name},
+                                        {"status", status},
+                                        {"ran", run.ran},
+                                        {"timed", run.timed},
+                                        {"read_back", run.read_back},
+                                        {"manifest", Json::parse(manifest)},
+                                        {"cells", Json::parse(store::rows_json(compare::with_bounds(cells)))},
+                                        {"cheapest", Json::parse(store::rows_json(cheapest))},
+                                        {"files", files}}));
     return code;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::command

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 constexpr double small_share = 0.1;     // a certificate of a tenth of the error leaves its first digit
@@ -39,7 +39,7 @@ bool Bound::decides() const {
     return error > 0 && !(error <= floor) && !(error <= certificate);
 }
 
-Bound bound_of(const Table& cells, std::size_t row, const std::string& error_column) {
+Bound bound_of(const store::Table& cells, std::size_t row, const std::string& error_column) {
     Bound b;
     b.error = cells.number(row, error_column);
     b.floor = cells.number(row, "floor_" + error_column);
@@ -57,23 +57,23 @@ std::string error_text(const Bound& b, const char* format) {
     return "not known";
 }
 
-bool trusted(const Table& cells, std::size_t row) {
+bool trusted(const store::Table& cells, std::size_t row) {
     return cells.at(row, "status") == "ok" && cells.at(row, "flags").empty();
 }
 
-std::string headline_error(const Table& cells, const Rows& rows) {
+std::string headline_error(const store::Table& cells, const store::Rows& rows) {
     for (const char* column : relative_l2)
         if (std::any_of(rows.begin(), rows.end(), [&](std::size_t i) { return std::isfinite(cells.number(i, column)); })) return column;
     return "error_l2_whole";
 }
 
-Table with_bounds(Table cells) {
+store::Table with_bounds(store::Table cells) {
     for (const char* column : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"}) {
         std::vector<std::string> texts;
         for (std::size_t i = 0; i < cells.rows.size(); ++i) {
             const Bound b = bound_of(cells, i, column);
             const bool known = !std::isnan(b.certificate) && b.says() != Bound::Says::unknown && b.says() != Bound::Says::nothing;
-            texts.push_back(known ? text_of(b.most()) : "");
+            texts.push_back(known ? store::text_of(b.most()) : "");
         }
         cells.columns.push_back(column_of("bound", column));
         for (std::size_t i = 0; i < cells.rows.size(); ++i) cells.rows[i].push_back(texts[i]);
@@ -81,4 +81,4 @@ Table with_bounds(Table cells) {
     return cells;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -10,7 +10,7 @@
 
 #include "bench/store/cell_rows.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct Bound {
     double error = std::numeric_limits<double>::quiet_NaN();        // as measured; NaN: none
@@ -32,19 +32,19 @@ struct Bound {
 };
 
 // Of a row of cells.csv, or of a table like it, and one of its error columns.
-Bound bound_of(const Table& cells, std::size_t row, const std::string& error_column);
+Bound bound_of(const store::Table& cells, std::size_t row, const std::string& error_column);
 
 std::string error_text(const Bound&, const char* format);  // "1.30e-02", "\u22645.13e-02", "not known", "-" where there is no error
 
 // The rows' own figures say nothing against them: they reached their end, and have no flags.
-bool trusted(const Table& cells, std::size_t row);
+bool trusted(const store::Table& cells, std::size_t row);
 
 // The column that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else the whole run; the first with a finite
 // value in one of the rows.
-std::string headline_error(const Table& cells, const Rows&);
+std::string headline_error(const store::Table& cells, const store::Rows&);
 
 // `cells` with bound_l2_10ms, bound_l2_50ms and bound_l2_whole beside them: e + c of the headline errors; empty where c is too large to
 // tell or there is none.
-Table with_bounds(Table cells);
+store::Table with_bounds(store::Table cells);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

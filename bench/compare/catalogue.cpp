@@ -7,7 +7,7 @@
 #include "scenes/scene_file.hpp"
 #include "schemes/registry.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 Catalogue::Catalogue(const std::vector<std::string>& plugins) {
     for (const Descriptor& d : jvari::schemes()) schemes.push_back(&d);
@@ -17,12 +17,12 @@ Catalogue::Catalogue(const std::vector<std::string>& plugins) {
         try {
             brought = load_plugin(path).schemes();
         } catch (const std::runtime_error& e) {
-            throw UsageError(e.what());
+            throw store::UsageError(e.what());
         }
         for (const Descriptor& d : brought) {
             const auto same = [&d](const Descriptor* other) { return std::string(other->name) == d.name; };
             if (std::any_of(schemes.begin(), schemes.end(), same) || std::any_of(references.begin(), references.end(), same))
-                throw UsageError("plugin " + path + ": there is a scheme of the name " + d.name + " already");
+                throw store::UsageError("plugin " + path + ": there is a scheme of the name " + d.name + " already");
             schemes.push_back(&d);
         }
     }
@@ -35,14 +35,14 @@ const Descriptor& Catalogue::find(const std::string& name) const {
             if (name == d->name) return *d;
             names.emplace_back(d->name);
         }
-    throw UsageError(unknown("scheme or reference", name, names));
+    throw store::UsageError(store::unknown("scheme or reference", name, names));
 }
 
 bool Catalogue::is_reference(const Descriptor& d) const {
     return std::find(references.begin(), references.end(), &d) != references.end();
 }
 
-void note_slow_plugins(const Console& console) {
+void note_slow_plugins(const store::Console& console) {
     for (const LoadedPlugin& l : loaded_plugins())
         if (!l.plugin->optimised)
             console.note("warning: plugin " + l.path + " is compiled without optimisation: its times say nothing of its schemes");
@@ -61,4 +61,4 @@ std::vector<std::string> names_in(Features features) {
     return names;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

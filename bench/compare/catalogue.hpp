@@ -8,7 +8,7 @@
 #include "bench/store/console.hpp"
 #include "schemes/scheme.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct Catalogue {
     explicit Catalogue(const std::vector<std::string>& plugins = {});  // throws UsageError
@@ -20,11 +20,11 @@ struct Catalogue {
 };
 
 // Warns of plugins that were compiled without optimisation.
-void note_slow_plugins(const Console&);
+void note_slow_plugins(const store::Console&);
 
 // A file or a library name, with overrides "key.path=value"; throws SceneFileError, BadScene or UsageError.
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration);
 
 std::vector<std::string> names_in(Features);  // one by one
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

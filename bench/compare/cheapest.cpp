@@ -9,7 +9,7 @@
 #include "bench/compare/bound.hpp"
 #include "bench/store/cell_rows.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 struct Target {
@@ -20,13 +20,13 @@ constexpr Target targets[] = {{true, 0.1}, {true, 0.01}, {true, 0.001}, {false, 
 struct Goal {
     std::string measure;
     double most;
-    bool met(const Table& cells, std::size_t i) const { return bound_of(cells, i, measure).most() <= most; }
-    bool undecided(const Table& cells, std::size_t i) const { return !met(cells, i) && bound_of(cells, i, measure).least() <= most; }
+    bool met(const store::Table& cells, std::size_t i) const { return bound_of(cells, i, measure).most() <= most; }
+    bool undecided(const store::Table& cells, std::size_t i) const { return !met(cells, i) && bound_of(cells, i, measure).least() <= most; }
 };
 
 // Names of the other schemes of those rows, each once.
 template <class Which>
-std::string other_schemes(const Table& cells, const Rows& rows, const std::string& best, Which which) {
+std::string other_schemes(const store::Table& cells, const store::Rows& rows, const std::string& best, Which which) {
     std::string names;
     for (const std::size_t i : rows)
         if (const std::string& name = cells.at(i, "scheme");
@@ -36,7 +36,7 @@ std::string other_schemes(const Table& cells, const Rows& rows, const std::strin
 }
 
 // From `status` on.
-std::vector<std::string> fields_of(const Table& cells, const Rows& rows, const Goal& goal) {
+std::vector<std::string> fields_of(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
     std::optional<std::size_t> best;
     for (const std::size_t i : rows)
         if (goal.met(cells, i) && (!best || cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s"))) best = i;
@@ -52,8 +52,8 @@ std::vector<std::string> fields_of(const Table& cells, const Rows& rows, const G
             cells.at(*best, "options"),
             cells.at(*best, "rate"),
             cells.at(*best, "modes"),
-            text_of(b.error),
-            std::isnan(b.certificate) ? "" : text_of(b.most()),
+            store::text_of(b.error),
+            std::isnan(b.certificate) ? "" : store::text_of(b.most()),
             cells.at(*best, "cost_s_per_s"),
             other_schemes(
                 cells, rows, scheme,
@@ -64,9 +64,9 @@ std::vector<std::string> fields_of(const Table& cells, const Rows& rows, const G
 }
 }  // namespace
 
-Table cheapest_of(const Table& cells, const std::string& scene) {
-    const std::vector<std::string> swept = swept_keys(cells);
-    Table t;
+store::Table cheapest_of(const store::Table& cells, const std::string& scene) {
+    const std::vector<std::string> swept = store::swept_keys(cells);
+    store::Table t;
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
     for (const char* name :
@@ -74,8 +74,8 @@ Table cheapest_of(const Table& cells, const std::string& scene) {
         t.columns.push_back(name);
     std::vector<std::string> naming = swept;
     naming.insert(naming.begin(), "scene");
-    for (const Rows& group : alike(cells, all_rows(cells), naming)) {
-        Rows rows;
+    for (const store::Rows& group : store::alike(cells, store::all_rows(cells), naming)) {
+        store::Rows rows;
         for (const std::size_t i : group)
             if (trusted(cells, i) && cells.number(i, "cost_s_per_s") > 0) rows.push_back(i);
         if (rows.empty()) continue;  // nothing was timed
@@ -87,19 +87,19 @@ Table cheapest_of(const Table& cells, const std::string& scene) {
                 continue;  // the run is too short for it
             auto& row = t.rows.emplace_back(key);
             row.push_back(goal.measure);
-            row.push_back(text_of(goal.most));
+            row.push_back(store::text_of(goal.most));
             for (const std::string& field : fields_of(cells, rows, goal)) row.push_back(field);
         }
     }
     return t;
 }
 
-std::string goal_name(const Table& t, std::size_t row) {
+std::string goal_name(const store::Table& t, std::size_t row) {
     const double most = t.number(row, "target");
     return t.at(row, "measure") == "third_octave_db" ? fmt::format("{:g} dB", most) : fmt::format("{:g} %", 100 * most);
 }
 
-std::string cheapest_text(const Table& t) {
+std::string cheapest_text(const store::Table& t) {
     std::string text, last;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         std::string scene = t.rows[i][0];
@@ -121,4 +121,4 @@ std::string cheapest_text(const Table& t) {
     return text;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -3,7 +3,7 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 // From the rows of cells.csv. Columns scene, <swept keys>, measure (a column of cells.csv), target, status, scheme, options, rate, modes,
 // error, bound, cost_s_per_s, ties, perhaps. A row per scene and target.
@@ -12,9 +12,9 @@ namespace jvari {
 //   ties:    other schemes with a cell that meets the target and whose quartiles of cost touch.
 //   perhaps: other schemes with a cheaper cell (not_known: any cell) of which it is not certain.
 // Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene.
-Table cheapest_of(const Table& cells, const std::string& scene = "");
+store::Table cheapest_of(const store::Table& cells, const std::string& scene = "");
 
-std::string goal_name(const Table& cheapest, std::size_t row);  // "10 %", "3 dB"
-std::string cheapest_text(const Table& cheapest);               // for the terminal; "" without rows
+std::string goal_name(const store::Table& cheapest, std::size_t row);  // "10 %", "3 dB"
+std::string cheapest_text(const store::Table& cheapest);               // for the terminal; "" without rows
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -14,10 +14,10 @@
 #include "bench/trust/kept_run.hpp"
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
-ProgressOf told_to(Done& done) {
+ProgressOf told_to(store::Done& done) {
     return [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
 }
 
@@ -25,7 +25,7 @@ Run reference_run(const ReferenceChoice& choice, const Scene& scene, const Progr
     RunOptions options;
     options.progress = progress;
     const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
-    return choice.kept ? kept_run(kept_runs_folder(), run_key(*choice.scheme, scene, choice.settings), make) : make();
+    return choice.kept ? trust::kept_run(trust::kept_runs_folder(), trust::run_key(*choice.scheme, scene, choice.settings), make) : make();
 }
 
 double last_instant(const Run& r) {
@@ -42,7 +42,7 @@ void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progres
         Oversampled o = oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled, options);
         if (o.rate == r.choice.settings.sample_rate) {
             r.run = std::move(o.run);
-            r.trust = trust_of(o, last_instant(r.run));
+            r.trust = trust::trust_of(o, last_instant(r.run));
             return;
         }
         r.trust.missing = fmt::format("at {:.6g} Hz it {}", o.rate, name_of(o.run.status.outcome));
@@ -77,7 +77,7 @@ std::string certify_command(const CompareRequest& r, const Comparison& c) {  // 
 }
 }  // namespace
 
-Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const Console& console,
+Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const store::Console& console,
                         double time_limit) {
     std::string refusals;
     bool ordered = false;
@@ -85,13 +85,14 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
     for (std::size_t k = 0; k < in_turn.size(); ++k) try {
             if (in_turn[k].oversampled && k + 1 < in_turn.size() && !ordered) {
                 const std::span<ReferenceChoice> rest(in_turn.begin() + static_cast<long>(k), in_turn.end());
-                side_by_side({1}, 1, console, "stand-in",
-                             [&](std::size_t, Done& done) { least_error_first(rest, scene, within(time_limit, told_to(done))); });
+                store::side_by_side({1}, 1, console, "stand-in", [&](std::size_t, store::Done& done) {
+                    least_error_first(rest, scene, within(time_limit, told_to(done)));
+                });
                 ordered = true;
             }
             const ReferenceChoice& choice = in_turn[k];
             Reference r{choice, {}, {}, {}};
-            side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, Done& done) {
+            store::side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, store::Done& done) {
                 const ProgressOf progress = within(time_limit, told_to(done));
                 if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress);
                 else if (choice.oversampled) run_oversampled(r, scene, progress);
@@ -101,7 +102,7 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
                 refusals += fmt::format("; {} failed at its start", choice.scheme->name);
                 continue;
             }
-            if (!choice.oversampled) r.trust = trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
+            if (!choice.oversampled) r.trust = trust::trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
             return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();
@@ -124,7 +125,7 @@ Trace measure(Cell& cell, const Scene& scene, const Trace* reference, const Prog
     return std::move(result.trace);
 }
 
-Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const Console& console) {
+Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Console& console) {
     Comparison c;
     c.scene = load_scene(request.scene, request.set, request.duration);
     c.headline = headline_of(c.scene);
@@ -140,7 +141,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     c.reference_note = reference.choice.note;
     c.reference_summary = summary_of(*c.reference, c.scene, c.reference_settings, reference.run);
     c.floor = errors_of(reference.moved.trace, reference.run.trace);
-    c.reference_sound = sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
+    c.reference_sound = store::sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
     if (!c.reference_note.empty()) console.note(c.reference_note);
     if (!c.trust.any())
         console.note(reference.choice.oversampled
@@ -152,11 +153,11 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
 
     std::vector<double> sizes;
     for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0));
-    side_by_side(sizes, request.jobs, console, "errors", [&](std::size_t i, Done& done) {
+    store::side_by_side(sizes, request.jobs, console, "errors", [&](std::size_t i, store::Done& done) {
         Cell& cell = c.cells[i];
         try {
             const Trace trace = measure(cell, c.scene, &reference.run.trace, told_to(done));
-            if (cell.reason.empty()) cell.sound = sound_of(trace.column(c.headline.nut), trace.tap_rate);
+            if (cell.reason.empty()) cell.sound = store::sound_of(trace.column(c.headline.nut), trace.tap_rate);
         } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
             cell.refused = true;
             cell.reason = e.what();
@@ -168,4 +169,4 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     return c;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

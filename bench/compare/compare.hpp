@@ -17,7 +17,7 @@
 #include "bench/store/sound.hpp"
 #include "bench/trust/certificate_library.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct Cell {
     const Descriptor* scheme;
@@ -26,7 +26,7 @@ struct Cell {
     std::string reason;  // of a refusal or a failure
     Summary summary{};   // of the accuracy run; empty where refused
     Errors errors;
-    Sound sound{};                                                  // of the headline's nut tap, where the run reached its end
+    store::Sound sound{};                                           // of the headline's nut tap, where the run reached its end
     Spread wall{};                                                  // of the timed runs [s], of the whole scene or up to the failure
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
     int modes() const { return refused ? settings.modes : summary.modes; }
@@ -41,11 +41,11 @@ struct Comparison {
     Summary reference_summary;
     std::string reference_note;  // why this one, where it was not asked for
     Errors floor;                // of the reference started 1e-12 apart
-    Trust trust;                 // the figures of its certificate
-    Sound reference_sound;
+    trust::Trust trust;          // the figures of its certificate
+    store::Sound reference_sound;
     std::vector<Cell> cells;
 };
 
-Comparison compare(const CompareRequest&, const Catalogue&, const Console&);  // throws UsageError, BadScene, Refusal
+Comparison compare(const CompareRequest&, const Catalogue&, const store::Console&);  // throws UsageError, BadScene, Refusal
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

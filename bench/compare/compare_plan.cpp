@@ -13,7 +13,7 @@
 #include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 constexpr int oversampling =
@@ -22,12 +22,12 @@ constexpr int oversampling =
 double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
     if (r.tap_rate) return *r.tap_rate;
     const auto divides_all = [&rates](double f) {
-        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return whole_multiple(rate, f); });
+        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return store::whole_multiple(rate, f); });
     };
     const double lowest = *std::min_element(rates.begin(), rates.end());
     if (divides_all(44100)) return 44100;
     if (divides_all(lowest)) return lowest;
-    throw UsageError(fmt::format("--rates: neither 44100 nor {} divides all of them; say --tap-rate HZ", lowest));
+    throw store::UsageError(fmt::format("--rates: neither 44100 nor {} divides all of them; say --tap-rate HZ", lowest));
 }
 
 int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
@@ -140,7 +140,7 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
 
 Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
     if (scene.taps.empty())
-        throw UsageError("scene " + scene.name + " has no tap: there is nothing to compare. A [[tap]] says what to hear");
+        throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to compare. A [[tap]] says what to hear");
     std::vector<double> rates = r.rates;
     if (rates.empty())
         for (int multiple : {1, 2, 4, 8, 16, 32, 64}) rates.push_back(44100.0 * multiple);
@@ -152,7 +152,7 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
     settings.modes = modes_for(r, scene, rates.front());
     settings.sample_rate = rates.back();
     if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
-        throw UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
 
     Plan plan;
     std::vector<bool> used(r.options.size(), false);
@@ -176,10 +176,10 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
     }
     for (std::size_t k = 0; k < used.size(); ++k)
         if (!used[k])
-            throw UsageError(fmt::format("--option {}{}{}: {}", r.options[k].scheme, r.options[k].scheme.empty() ? "" : ":",
-                                         r.options[k].name,
-                                         r.options[k].scheme.empty() ? "no compared scheme has it" : "that scheme is not compared"));
+            throw store::UsageError(fmt::format("--option {}{}{}: {}", r.options[k].scheme, r.options[k].scheme.empty() ? "" : ":",
+                                                r.options[k].name,
+                                                r.options[k].scheme.empty() ? "no compared scheme has it" : "that scheme is not compared"));
     return plan;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

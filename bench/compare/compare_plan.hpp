@@ -7,7 +7,7 @@
 #include "bench/compare/compare.hpp"
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct ReferenceChoice {
     const Descriptor* scheme;
@@ -29,17 +29,17 @@ Plan plan_of(const CompareRequest&, const Catalogue&, const Scene&);
 
 struct Reference {
     ReferenceChoice choice;
-    Run run, moved;  // moved: started 1e-12 apart
-    Trust trust;     // what its certificate, or its own estimate, says of it
+    Run run, moved;      // moved: started 1e-12 apart
+    trust::Trust trust;  // what its certificate, or its own estimate, says of it
 };
 // The first of the choices that represents the scene and gets going, its two runs side by side where `jobs` are not 1; of the schemes that
 // may stand in the one that estimates its own error least goes first. Throws Refusal where none does, and PastItsLimit where one of the two
 // runs computes for longer than `time_limit` [s]: another in its place would make the errors a matter of the machine.
-Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const Console&, double time_limit = HUGE_VAL);
+Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const store::Console&, double time_limit = HUGE_VAL);
 
 // Runs the cell and fills summary, errors and reason; errors stay empty without a reference. Throws Refusal. What `progress` throws ends
 // it.
 using ProgressOf = std::function<void(long done, long rows)>;
 Trace measure(Cell&, const Scene&, const Trace* reference, const ProgressOf& progress);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -13,7 +13,7 @@
 #include "bench/store/machine.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -73,20 +73,20 @@ std::string flags_of(const Summary& s) {
 
 class Row {  // one row, and on the first one the columns
 public:
-    Row(Table& table, bool first) : table_(table), first_(first) { table_.rows.emplace_back(); }
+    Row(store::Table& table, bool first) : table_(table), first_(first) { table_.rows.emplace_back(); }
     void text(const std::string& column, const std::string& value) {
         if (first_) table_.columns.push_back(column);
         table_.rows.back().push_back(value);
     }
-    void number(const std::string& column, double value) { text(column, text_of(value)); }
+    void number(const std::string& column, double value) { text(column, store::text_of(value)); }
     void count(const std::string& column, long value, bool known) { text(column, known ? std::to_string(value) : ""); }
 
 private:
-    Table& table_;
+    store::Table& table_;
     bool first_;
 };
 
-void add_row(Table& table, const Comparison& c, const Cell& cell, const std::vector<std::string>& facts) {
+void add_row(store::Table& table, const Comparison& c, const Cell& cell, const std::vector<std::string>& facts) {
     Row row(table, table.rows.empty());
     const Summary& s = cell.summary;
     const bool ran = !cell.refused, failed = ran && s.status.outcome != Outcome::ok;
@@ -130,20 +130,20 @@ void add_row(Table& table, const Comparison& c, const Cell& cell, const std::vec
             if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column + "_" + c.scene.taps[tap].name, c.floor[tap][k]);
     row.text("reason", cell.reason);
     const auto figures = [&](int tap, const std::string& suffix) {
-        for (std::size_t w = 0; w < Trust::columns.size(); ++w) row.number(Trust::columns[w] + suffix, c.trust.at(tap, w));
+        for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) row.number(trust::Trust::columns[w] + suffix, c.trust.at(tap, w));
     };
     figures(c.headline.nut, "");
     for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap) figures(static_cast<int>(tap), "_" + c.scene.taps[tap].name);
 }
 
 Json certificate_json(const Comparison& c) {
-    const Trust& t = c.trust;
+    const trust::Trust& t = c.trust;
     if (!t.any()) return {{"missing", t.missing}};
     Json figures = Json::object();
-    for (std::size_t w = 0; w < Trust::columns.size(); ++w) {
-        figures[Trust::columns[w]] = t.at(c.headline.nut, w);
+    for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
+        figures[trust::Trust::columns[w]] = t.at(c.headline.nut, w);
         for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
-            figures[Trust::columns[w] + ("_" + c.scene.taps[tap].name)] = t.at(tap, w);
+            figures[trust::Trust::columns[w] + ("_" + c.scene.taps[tap].name)] = t.at(tap, w);
     }
     Json j{{"against", t.against}};
     if (!t.file.empty()) j["file"] = std::filesystem::path(t.file).filename().string();
@@ -153,31 +153,31 @@ Json certificate_json(const Comparison& c) {
 }
 }  // namespace
 
-Table cells_of(const Comparison& c) {
-    Table table;
+store::Table cells_of(const Comparison& c) {
+    store::Table table;
     const auto facts = fact_names(c);
     for (const Cell& cell : c.cells) add_row(table, c, cell, facts);
-    const Rows rows = all_rows(table);
+    const store::Rows rows = store::all_rows(table);
     const auto front = pareto_front(table, rows, headline_error(table, rows), "cost_s_per_s");
     for (const std::size_t i : rows) table.rows[i][table.column("pareto")] = front[i] ? "1" : "0";
     return table;
 }
 
-Table errors_only(const Table& cells) {
+store::Table errors_only(const store::Table& cells) {
     std::vector<std::string> names;
     for (const std::string& name : cells.columns)
         if (std::find(std::begin(cost_columns), std::end(cost_columns), name) == std::end(cost_columns)) names.push_back(name);
     return cells.only(names);
 }
 
-Table cost_only(const Table& cells) {
+store::Table cost_only(const store::Table& cells) {
     std::vector<std::string> names{"scheme", "rate", "modes", "status"};
     names.insert(names.end(), std::begin(cost_columns), std::end(cost_columns));
     return cells.only(names);
 }
 
 std::string manifest_of(const Comparison& c, const CompareRequest& r) {
-    const Table cells = cells_of(c);
+    const store::Table cells = cells_of(c);
     Json facts = Json::object(), floor = Json::object(), taps = Json::array(), schemes = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
     facts[facts::smallest_contact_force.name] = c.reference_summary.smallest_contact_force;
@@ -206,7 +206,7 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                    {"facts", facts}};
     const Json scene{{"name", c.scene.name},        {"asked_as", r.scene},          {"set", r.set}, {"source", c.scene.source},
                      {"hash", scene_hash(c.scene)}, {"duration", c.scene.duration}, {"taps", taps}};
-    Json manifest = Json::parse(made_by());
+    Json manifest = Json::parse(store::made_by());
     manifest.update({{"scene", scene},
                      {"tap_rate", c.reference_settings.tap_rate},
                      {"schemes", schemes},
@@ -214,9 +214,9 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                      {"headline",
                       {{"nut", c.scene.taps.at(c.headline.nut).name},
                        {"bridge", c.scene.taps.at(c.headline.bridge).name},
-                       {"error", headline_error(cells, all_rows(cells))}}},
+                       {"error", headline_error(cells, store::all_rows(cells))}}},
                      {"noise_floor", floor}});
-    return indented(manifest);
+    return store::indented(manifest);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

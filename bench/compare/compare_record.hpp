@@ -11,15 +11,15 @@
 #include "bench/compare/compare.hpp"
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
-Table cells_of(const Comparison&);
+store::Table cells_of(const Comparison&);
 std::string manifest_of(const Comparison&, const CompareRequest&);  // JSON
 
 // sounds/ and sounds.csv: the reference, and of each scheme its lowest and its highest rate; the rates between while all are small.
 void write_sounds(const Comparison&, const std::filesystem::path& folder);
 
-Table errors_only(const Table& cells);
-Table cost_only(const Table& cells);
+store::Table errors_only(const store::Table& cells);
+store::Table cost_only(const store::Table& cells);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -4,7 +4,7 @@
 
 #include "bench/compare/compare_record.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 constexpr std::size_t most_samples = 12'000'000;  // 24 MB of files
@@ -24,12 +24,12 @@ void write_sounds(const Comparison& c, const std::filesystem::path& folder) {
     const Tap& tap = c.scene.taps.at(c.headline.nut);
     std::size_t samples = 0;
     for (const Cell& cell : c.cells) samples += cell.sound.samples.size();
-    std::vector<NamedSound> sounds;
+    std::vector<store::NamedSound> sounds;
     const bool compared = !c.reference_sound.samples.empty();
     if (compared) sounds.push_back({{"reference", "", ""}, "reference", tap.name, name_of(tap.quantity), &c.reference_sound, ""});
     for (const Cell& cell : c.cells) {
         if (cell.sound.samples.empty() || (samples > most_samples && !at_an_end(c, cell))) continue;
-        const std::string rate = cell.scheme->clock == Clock::continuous ? "" : text_of(cell.settings.sample_rate);
+        const std::string rate = cell.scheme->clock == Clock::continuous ? "" : store::text_of(cell.settings.sample_rate);
         sounds.push_back({{cell.scheme->name, rate, std::to_string(cell.modes())},
                           cell.scheme->name + (rate.empty() ? "" : "-" + rate),
                           tap.name,
@@ -37,7 +37,7 @@ void write_sounds(const Comparison& c, const std::filesystem::path& folder) {
                           &cell.sound,
                           compared ? "reference" : ""});
     }
-    if (!sounds.empty()) write_sounds(folder, {"scheme", "rate", "modes"}, sounds);
+    if (!sounds.empty()) store::write_sounds(folder, {"scheme", "rate", "modes"}, sounds);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -8,7 +8,7 @@
 #include "bench/compare/bound.hpp"
 #include "bench/store/cell_rows.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 struct Window {
@@ -16,7 +16,7 @@ struct Window {
 };
 constexpr Window windows[] = {{"error_l2_10ms", "10ms"}, {"error_l2_50ms", "50ms"}, {"error_l2_whole", "whole"}};
 
-std::vector<std::string> taps_of(const Table& cells) {
+std::vector<std::string> taps_of(const store::Table& cells) {
     std::vector<std::string> taps;
     const std::string prefix = std::string(windows[0].column) + "_";
     for (const std::string& name : cells.columns)
@@ -25,15 +25,15 @@ std::vector<std::string> taps_of(const Table& cells) {
 }
 }  // namespace
 
-Table convergence_of(const Table& cells, const std::string& scene) {
-    Table t;
-    std::vector<std::string> naming = naming_columns(cells);
+store::Table convergence_of(const store::Table& cells, const std::string& scene) {
+    store::Table t;
+    std::vector<std::string> naming = store::naming_columns(cells);
     std::erase(naming, "scene");
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), naming.begin(), naming.end());
     if (cells.column("options") < 0) t.columns.push_back("options");
     for (const char* name : {"modes", "tap", "window", "order", "half_width", "points", "from_hz", "to_hz"}) t.columns.push_back(name);
-    for (const Rows& rows : differing_in_rate(cells, all_rows(cells), naming_columns(cells)))
+    for (const store::Rows& rows : store::differing_in_rate(cells, store::all_rows(cells), store::naming_columns(cells)))
         for (const std::string& tap : taps_of(cells))
             for (const Window& w : windows) {
                 const std::string column = std::string(w.column) + "_" + tap;
@@ -55,12 +55,12 @@ Table convergence_of(const Table& cells, const std::string& scene) {
                 for (const std::string& name : naming) row.push_back(cells.at(rows.front(), name));
                 if (cells.column("options") < 0) row.emplace_back();
                 row.push_back(modes.size() == 1 ? *modes.begin() : "");
-                for (const std::string& field :
-                     {tap, std::string(w.name), text_of(o.order), std::isfinite(o.half_width) ? text_of(o.half_width) : std::string(),
-                      std::to_string(o.points), text_of(*low), text_of(*high)})
+                for (const std::string& field : {tap, std::string(w.name), store::text_of(o.order),
+                                                 std::isfinite(o.half_width) ? store::text_of(o.half_width) : std::string(),
+                                                 std::to_string(o.points), store::text_of(*low), store::text_of(*high)})
                     row.push_back(field);
             }
     return t;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -4,12 +4,12 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 // Columns scene, <swept keys>, scheme, options, modes, tap, window, order, half_width (of the 95 % interval; empty with two points),
 // points, from_hz, to_hz. A row per series of two rates or more. Left out of a fit: failed cells, errors of 1 or more (nothing of the
 // waveform is right) and errors no larger than their noise floor or than what the reference is certain to. `modes` is empty where it
 // changes with the rate, as a grid does. `scene`: its name where the rows do not say (compare's).
-Table convergence_of(const Table& cells, const std::string& scene = "");
+store::Table convergence_of(const store::Table& cells, const std::string& scene = "");
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

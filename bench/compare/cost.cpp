@@ -7,7 +7,7 @@
 
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 constexpr double shortest_sample = 0.02;  // [s]
@@ -35,7 +35,7 @@ double sample(const Timed& t) {
 }
 }  // namespace
 
-void time_cells(const std::vector<Contender>& contenders, int repeats, const Console& console) {
+void time_cells(const std::vector<Contender>& contenders, int repeats, const store::Console& console) {
     std::vector<Timed> timed;
     double work = 0, finished = 0;
     for (const Contender& c : contenders) {
@@ -49,7 +49,7 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const Con
     // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike
     std::stable_sort(timed.begin(), timed.end(),
                      [](const Timed& a, const Timed& b) { return a.cell->settings.sample_rate < b.cell->settings.sample_rate; });
-    Console::Progress progress(console, "cost");
+    store::Console::Progress progress(console, "cost");
     for (int round = 0; round < repeats; ++round)
         for (Timed& t : timed) {
             if (round >= t.repeats) continue;
@@ -61,4 +61,4 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const Con
     for (Timed& t : timed) t.cell->wall = spread_of(t.samples);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -6,7 +6,7 @@
 
 #include "bench/compare/compare.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 // The worst block: the longest of 64 rows over the time those rows sound, in the run where it was shortest, so that it is the scheme's
 // worst and not what the machine did meanwhile. The first block of a run and failed runs do not count.
@@ -18,6 +18,6 @@ struct Contender {
     const Scene* scene;
     bool probe = false;  // timed with the energy probe on: what the probe costs
 };
-void time_cells(const std::vector<Contender>&, int repeats, const Console&);
+void time_cells(const std::vector<Contender>&, int repeats, const store::Console&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

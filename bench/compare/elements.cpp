@@ -6,7 +6,7 @@
 
 #include "bench/store/console.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 constexpr std::array all = {Element::thread, Element::contact, Element::stiffness, Element::taps, Element::probe};
@@ -58,9 +58,10 @@ Scene without(Element e, Scene scene) {
             break;
         case Element::probe: break;
     }
-    if (!had) throw UsageError(std::string("elements: it has no ") + (e == Element::taps ? "second tap" : name_of(e)) + " to go without");
+    if (!had)
+        throw store::UsageError(std::string("elements: it has no ") + (e == Element::taps ? "second tap" : name_of(e)) + " to go without");
     remove_idle_taps(scene);
     return scene;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -6,7 +6,7 @@
 
 #include "scenes/scene.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 enum class Element { thread, contact, stiffness, taps, probe };
 std::span<const Element> elements();
@@ -20,4 +20,4 @@ std::string change_of(Element);
 // Throws UsageError where the scene has nothing of it: it would cost nothing, and the clock would say otherwise.
 Scene without(Element, Scene);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -8,7 +8,7 @@
 #include "analysis/error.hpp"
 #include "analysis/spectrum.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -84,4 +84,4 @@ Headline headline_of(const Scene& scene) {
     return h;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

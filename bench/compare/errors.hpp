@@ -7,7 +7,7 @@
 #include "scenes/scene.hpp"
 #include "schemes/trace.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct Measure {
     std::string column;  // "error_l2_50ms"
@@ -29,4 +29,4 @@ struct Headline {
 };
 Headline headline_of(const Scene&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -6,7 +6,7 @@
 
 #include "bench/compare/bound.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 bool sound(const Point& p) {
@@ -21,7 +21,7 @@ bool beats(const Point& a, const Point& b) {
     return a.error <= b.error && a.cost < b.cost && !tie(a, b);
 }
 
-Point point_of(const Table& cells, std::size_t row, const std::string& error, const std::string& cost) {
+Point point_of(const store::Table& cells, std::size_t row, const std::string& error, const std::string& cost) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const Bound b = bound_of(cells, row, error);
     const bool known = trusted(cells, row) && b.says() != Bound::Says::unknown;
@@ -40,10 +40,10 @@ std::vector<bool> pareto_front(std::span<const Point> points) {
     return front;
 }
 
-std::vector<bool> pareto_front(const Table& cells, const Rows& rows, const std::string& error, const std::string& cost) {
+std::vector<bool> pareto_front(const store::Table& cells, const store::Rows& rows, const std::string& error, const std::string& cost) {
     std::vector<Point> points;
     for (const std::size_t row : rows) points.push_back(point_of(cells, row, error, cost));
     return pareto_front(points);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

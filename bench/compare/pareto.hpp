@@ -6,7 +6,7 @@
 
 #include "bench/store/cell_rows.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct Point {
     double cost, cost_lower, cost_upper;  // median and quartiles; all the same for a cost that does not scatter
@@ -20,6 +20,6 @@ std::vector<bool> pareto_front(std::span<const Point>);
 
 // Which of the rows of cells.csv are on the front of an error column and a cost column: of those that are trusted and whose error is
 // known.
-std::vector<bool> pareto_front(const Table& cells, const Rows&, const std::string& error, const std::string& cost);
+std::vector<bool> pareto_front(const store::Table& cells, const store::Rows&, const std::string& error, const std::string& cost);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct SchemeOption {                 // --option [scheme:]name=value
     std::string scheme, name, value;  // scheme "": every scheme that knows the name
@@ -23,4 +23,4 @@ struct CompareRequest {
     int jobs = 0;  // 0: as many as there are cores
 };
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

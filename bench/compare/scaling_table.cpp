@@ -11,7 +11,7 @@
 #include "bench/store/cell_rows.hpp"
 #include "schemes/facts.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 struct Nanoseconds {
@@ -19,15 +19,15 @@ struct Nanoseconds {
 };
 
 // cells.csv quotes quartiles of the cost per second of sound; a step is the same share of each.
-Nanoseconds step_of(const Table& cells, std::size_t row) {
+Nanoseconds step_of(const store::Table& cells, std::size_t row) {
     const double median = cells.number(row, "ns_per_step"), share = median / cells.number(row, "cost_s_per_s");
     return {median, share * cells.number(row, "cost_lower"), share * cells.number(row, "cost_upper")};
 }
 
 class Scaling {
 public:
-    explicit Scaling(const Table& cells) : cells_(cells) {
-        naming_ = naming_columns(cells);
+    explicit Scaling(const store::Table& cells) : cells_(cells) {
+        naming_ = store::naming_columns(cells);
         std::erase(naming_, "element");
         into_.columns = naming_;
         for (const char* name : {"at", "what", "x", "ns_per_step", "ns_lower", "ns_upper", "exponent", "exponent_half_width", "extra_ns",
@@ -35,21 +35,21 @@ public:
             into_.columns.push_back(name);
     }
 
-    void add(const Rows& set) {
+    void add(const store::Rows& set) {
         whole_.clear();
         changed_.clear();
         for (const std::size_t row : set)
             if (cells_.at(row, "status") == "ok" && cells_.number(row, "ns_per_step") > 0)
                 (cells_.at(row, "element").empty() ? whole_ : changed_).push_back(row);
         against("modes", "modes", with(naming_, {"rate"}), "");
-        for (const Rows& rows : differing_in_rate(cells_, whole_, naming_)) add_series("rate", "rate", rows, "");
-        for (const std::string& key : swept_keys(cells_)) {
+        for (const store::Rows& rows : store::differing_in_rate(cells_, whole_, naming_)) add_series("rate", "rate", rows, "");
+        for (const std::string& key : store::swept_keys(cells_)) {
             std::vector<std::string> held = with(naming_, {"rate", "modes"});
             if (std::erase(held, key) > 0) against("contacts", ("fact_" + std::string(facts::contact_points.name)).c_str(), held, key);
         }
         for (const std::size_t row : changed_) add_element(row);
     }
-    Table table() && { return std::move(into_); }
+    store::Table table() && { return std::move(into_); }
 
 private:
     static std::vector<std::string> with(std::vector<std::string> names, std::initializer_list<const char*> more) {
@@ -71,10 +71,10 @@ private:
     }
 
     void against(const char* what, const char* column, const std::vector<std::string>& held, const std::string& varied) {
-        for (const Rows& rows : alike(cells_, whole_, held)) add_series(what, column, rows, varied);
+        for (const store::Rows& rows : store::alike(cells_, whole_, held)) add_series(what, column, rows, varied);
     }
 
-    void add_series(const std::string& what, const char* column, const Rows& rows, const std::string& varied) {
+    void add_series(const std::string& what, const char* column, const store::Rows& rows, const std::string& varied) {
         std::vector<double> x, ns;
         std::set<std::string> modes;
         for (const std::size_t row : rows) {
@@ -89,16 +89,17 @@ private:
             const Nanoseconds step = step_of(cells_, rows[k]);
             auto& row = into_.rows.emplace_back(name_of_row(rows[k], varied));
             for (const std::string& field :
-                 {at(rows[k], what != "rate", what != "modes" && modes.size() == 1), what, text_of(x[k]), text_of(step.median),
-                  text_of(step.lower), text_of(step.upper), text_of(-fit.order),
-                  std::isfinite(fit.half_width) ? text_of(fit.half_width) : std::string(), std::string(), std::string(), std::string()})
+                 {at(rows[k], what != "rate", what != "modes" && modes.size() == 1), what, store::text_of(x[k]),
+                  store::text_of(step.median), store::text_of(step.lower), store::text_of(step.upper), store::text_of(-fit.order),
+                  std::isfinite(fit.half_width) ? store::text_of(fit.half_width) : std::string(), std::string(), std::string(),
+                  std::string()})
                 row.push_back(field);
         }
     }
 
     // The same scene, scheme, options and rate, whole; of the same modes where there are several.
     std::optional<std::size_t> whole_of(std::size_t changed) const {
-        Rows candidates, same_modes;
+        store::Rows candidates, same_modes;
         for (const std::size_t row : whole_) {
             if (name_of_row(row, "") != name_of_row(changed, "") || cells_.at(row, "rate") != cells_.at(changed, "rate")) continue;
             candidates.push_back(row);
@@ -117,24 +118,24 @@ private:
             const Nanoseconds &more = e == Element::probe ? step : other, &less = e == Element::probe ? other : step;
             auto& row = into_.rows.emplace_back(name_of_row(changed, ""));
             for (const std::string& field :
-                 {at(changed, true, true), std::string(name_of(e)), std::string(), text_of(step.median), text_of(step.lower),
-                  text_of(step.upper), std::string(), std::string(), text_of(more.median - less.median), text_of(more.lower - less.upper),
-                  text_of(more.upper - less.lower)})
+                 {at(changed, true, true), std::string(name_of(e)), std::string(), store::text_of(step.median), store::text_of(step.lower),
+                  store::text_of(step.upper), std::string(), std::string(), store::text_of(more.median - less.median),
+                  store::text_of(more.lower - less.upper), store::text_of(more.upper - less.lower)})
                 row.push_back(field);
         }
     }
 
-    const Table& cells_;
+    const store::Table& cells_;
     std::vector<std::string> naming_;  // what names a problem and a scheme, before the rate
-    Rows whole_, changed_;             // of the set: timed rows of scenes as they are, and of scenes with an element less or more
-    Table into_;
+    store::Rows whole_, changed_;      // of the set: timed rows of scenes as they are, and of scenes with an element less or more
+    store::Table into_;
 };
 }  // namespace
 
-Table scaling_of(const Table& cells, const std::vector<Rows>& sets) {
+store::Table scaling_of(const store::Table& cells, const std::vector<store::Rows>& sets) {
     Scaling scaling(cells);
-    for (const Rows& set : sets) scaling.add(set);
+    for (const store::Rows& set : sets) scaling.add(set);
     return std::move(scaling).table();
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

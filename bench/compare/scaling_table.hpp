@@ -3,7 +3,7 @@
 
 #include "bench/store/cell_rows.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 // Columns scene, <swept keys>, scheme, options, at (what was held: "44100 Hz, 133 modes"), what, x, ns_per_step, ns_lower, ns_upper (median
 // and quartiles), exponent, exponent_half_width, extra_ns, extra_lower, extra_upper.
@@ -14,6 +14,6 @@ namespace jvari {
 //          with it), extra_ns what it adds to the step; between extra_lower and extra_upper by the quartiles of both.
 // Rows that did not reach their end, or were not timed, have no place in it. `sets`: rows of one set of a suite, which were timed in one
 // interleaved run; rows of different sets are not compared. None where nothing was varied.
-Table scaling_of(const Table& cells, const std::vector<Rows>& sets);
+store::Table scaling_of(const store::Table& cells, const std::vector<store::Rows>& sets);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -5,7 +5,7 @@
 #include "analysis/energy.hpp"
 #include "scenes/modes.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -50,4 +50,4 @@ Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& sett
     return s;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -5,7 +5,7 @@
 
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct Summary {
     std::string scheme, scene;
@@ -30,4 +30,4 @@ inline double fact(const std::vector<Fact>& all, const FactName& known) {
     return fact(all, known.name);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -5,7 +5,7 @@
 #include <ctime>
 #include <utility>
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 namespace {
 double processor_seconds() {  // of this thread
@@ -22,4 +22,4 @@ std::function<void(long, long)> within(double seconds, std::function<void(long, 
     };
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

@@ -4,7 +4,7 @@
 #include <functional>
 #include <stdexcept>
 
-namespace jvari {
+namespace jvari::bench::compare {
 
 struct PastItsLimit : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -13,4 +13,4 @@ struct PastItsLimit : std::runtime_error {
 // `progress`, which throws PastItsLimit once this thread has computed `seconds` more. To be called on the thread that it was made on.
 std::function<void(long done, long rows)> within(double seconds, std::function<void(long done, long rows)> progress);
 
-}  // namespace jvari
+}  // namespace jvari::bench::compare

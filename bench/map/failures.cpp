@@ -9,13 +9,13 @@
 #include "bench/store/side_by_side.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 namespace {
 std::string scene_text(const Reproducer& r) {
     const Trial& t = r.trial;
-    std::string how = fmt::format("--scheme {} --rate {} --tap-rate {} --energy", t.scheme->name, text_of(t.settings.sample_rate),
-                                  text_of(t.settings.tap_rate));
+    std::string how = fmt::format("--scheme {} --rate {} --tap-rate {} --energy", t.scheme->name, store::text_of(t.settings.sample_rate),
+                                  store::text_of(t.settings.tap_rate));
     if (t.settings.modes > 0) how += fmt::format(" --modes {}", t.settings.modes);
     for (const auto& [name, value] : t.settings.options) how += fmt::format(" --option {}={}", name, value);
     return fmt::format("# Minimised by jvari suite: {} is {} here, {}.\n# jvari run {} {}\n{}", t.scheme->name, name_of(r.expected.verdict),
@@ -29,7 +29,7 @@ Verdict verdict_called(const std::string& name) {
 }
 }  // namespace
 
-std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jobs, const Console& console) {
+std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jobs, const store::Console& console) {
     std::map<std::pair<std::string, Verdict>, const JudgedPoint*> cheapest;
     for (const JudgedPoint& p : run.points) {
         const Verdict v = p.tried.judgement.verdict;
@@ -40,7 +40,7 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
     std::vector<Reproducer> all;
     for (const auto& [key, point] : cheapest)
         all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)), trial_at(point->at), point->tried.judgement});
-    side_by_side(std::vector<double>(all.size(), 1), jobs, console, "failures", [&](std::size_t i, Done&) {
+    store::side_by_side(std::vector<double>(all.size(), 1), jobs, console, "failures", [&](std::size_t i, store::Done&) {
         const Verdict wanted = all[i].expected.verdict;
         all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths).judgement.verdict == wanted; });
         all[i].trial.scene.name += "_minimised";
@@ -50,19 +50,20 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
 }
 
 void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>& all) {
-    Table index;
+    store::Table index;
     index.columns = {"file", "scheme", "rate", "modes", "options", "reference", "outcome", "step", "detail"};
     for (const Reproducer& r : all) {
-        write_fresh(folder / r.file, scene_text(r));
+        store::write_fresh(folder / r.file, scene_text(r));
         const Settings& s = r.trial.settings;
-        index.rows.push_back({r.file, r.trial.scheme->name, text_of(s.sample_rate), std::to_string(s.modes), options_text(s.options),
-                              r.trial.reference, name_of(r.expected.verdict), std::to_string(r.expected.step), r.expected.detail});
+        index.rows.push_back({r.file, r.trial.scheme->name, store::text_of(s.sample_rate), std::to_string(s.modes),
+                              store::options_text(s.options), r.trial.reference, name_of(r.expected.verdict),
+                              std::to_string(r.expected.step), r.expected.detail});
     }
-    write_fresh(folder / "index.csv", csv(index));
+    store::write_fresh(folder / "index.csv", store::csv(index));
 }
 
-std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const Catalogue& catalogue) {
-    const Table index = read_csv(read_whole(folder / "index.csv"));
+std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const compare::Catalogue& catalogue) {
+    const store::Table index = store::read_csv(store::read_whole(folder / "index.csv"));
     std::vector<Reproducer> all;
     for (std::size_t i = 0; i < index.rows.size(); ++i) {
         Reproducer r{index.at(i, "file"), {&catalogue.find(index.at(i, "scheme")), {}, {}, index.at(i, "reference")}, {}};
@@ -79,4 +80,4 @@ std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const
     return all;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -8,7 +8,7 @@
 
 #include "bench/map/map_tables.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 struct Reproducer {
     std::string file;  // within its folder
@@ -17,9 +17,9 @@ struct Reproducer {
 };
 
 // Of each scheme and outcome that is neither sound nor refused, the failure that took the fewest steps, among maps that reproduce theirs.
-std::vector<Reproducer> reproducers_of(const MapRun&, Truths&, int jobs, const Console&);
+std::vector<Reproducer> reproducers_of(const MapRun&, Truths&, int jobs, const store::Console&);
 
 void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>&);
-std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const Catalogue&);
+std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const compare::Catalogue&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -10,7 +10,7 @@
 #include "bench/map/map_theory.hpp"
 #include "bench/store/table_reader.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 namespace {
 constexpr const char* plain_keys[] = {"rate", "modes", "duration", "amplitude"};
@@ -27,7 +27,7 @@ std::optional<double> number_in(const std::string& text) {
     return x;
 }
 
-std::string value_text(const SuiteReader& read, const Value& v, const std::string& axis, const std::string& key) {
+std::string value_text(const store::SuiteReader& read, const Value& v, const std::string& axis, const std::string& key) {
     if (is_option(axis)) return read.option_text(v, key);
     if (axis == "modes") return std::to_string(read.count(v, key));
     for (const char* plain : plain_keys)
@@ -35,7 +35,7 @@ std::string value_text(const SuiteReader& read, const Value& v, const std::strin
     return read.toml(v, key);
 }
 
-MapAxis axis_of(const SuiteReader& read, const Value& v, const std::string& within) {
+MapAxis axis_of(const store::SuiteReader& read, const Value& v, const std::string& within) {
     read.table(v, within);
     read.only(v, within + ": ", {"key", "values", "from", "to", "points"});
     MapAxis a;
@@ -71,7 +71,7 @@ MapAxis axis_of(const SuiteReader& read, const Value& v, const std::string& with
     return a;
 }
 
-Map map_of(const SuiteReader& read, const Value& v, const std::string& within) {
+Map map_of(const store::SuiteReader& read, const Value& v, const std::string& within) {
     read.table(v, within);
     read.only(v, within + ": ",
               {"name", "scene", "schemes", "x", "y", "duration", "amplitude", "rate", "modes", "options", "set", "reference", "theory",
@@ -114,14 +114,14 @@ Map map_of(const SuiteReader& read, const Value& v, const std::string& within) {
     if (const Value* x = v.find("theory")) {
         m.theory = read.text(*x, within + ".theory");
         if (!is_theory(m.theory))
-            throw SceneFileError(read.place(*x) + ": " + within + ".theory: " + unknown("theory", m.theory, theories()));
+            throw SceneFileError(read.place(*x) + ": " + within + ".theory: " + store::unknown("theory", m.theory, theories()));
         if (m.x.at.empty()) read.refuse(*x, within + ".theory", "an axis x of numbers");
     }
     return m;
 }
 }  // namespace
 
-std::vector<Map> maps_of(const SuiteReader& read, const Value& root) {
+std::vector<Map> maps_of(const store::SuiteReader& read, const Value& root) {
     std::vector<Map> maps;
     const Value* v = root.find("map");
     if (!v) return maps;
@@ -136,4 +136,4 @@ std::vector<Map> maps_of(const SuiteReader& read, const Value& root) {
     return maps;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

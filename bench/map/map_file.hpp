@@ -16,9 +16,13 @@
 #include <vector>
 
 namespace jvari {
-
-class SuiteReader;
 struct Value;
+}
+namespace jvari::bench::store {
+class SuiteReader;
+}
+
+namespace jvari::bench::map {
 
 // "rate" [Hz], "modes", "duration" [s], "amplitude" (of initial shapes and plucks), "option:[SCHEME:]NAME", else a key of the scene.
 struct MapAxis {
@@ -41,6 +45,6 @@ struct Map {
 };
 
 // The maps of a suite's root table. Throws SceneFileError with file, line and key.
-std::vector<Map> maps_of(const SuiteReader&, const Value& root);
+std::vector<Map> maps_of(const store::SuiteReader&, const Value& root);
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -4,34 +4,35 @@
 #include "bench/map/map_tables.hpp"
 #include "bench/store/fresh_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 namespace fs = std::filesystem;
 
-RecordedMaps run_and_record_maps(const std::vector<Map>& maps, const Catalogue& catalogue, const MapRequest& r, const Console& console) {
+RecordedMaps run_and_record_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogue, const MapRequest& r,
+                                 const store::Console& console) {
     if (maps.empty()) return {};
     const bool kept = !r.folder.empty();
     if (kept)
         for (const char* name : {"points", "failures"}) {
             std::error_code error;
             fs::create_directories(r.folder / name, error);
-            must_be_writable(r.folder / name / "any");
+            store::must_be_writable(r.folder / name / "any");
         }
     Truths truths(catalogue);
     const MapRun run = run_maps(maps, truths, r.program, kept ? r.folder / "points" : fs::path(), r.resume, r.jobs, console);
     RecordedMaps recorded{{}, maps_text(run)};
     if (!kept) return recorded;
     const auto write = [&](const fs::path& name, const std::string& content) {
-        write_fresh(r.folder / name, content);
+        store::write_fresh(r.folder / name, content);
         recorded.files.push_back((r.folder / name).string());
     };
-    write("maps.csv", csv(maps_table(run)));
+    write("maps.csv", store::csv(maps_table(run)));
     const std::vector<Reproducer> failures = reproducers_of(run, truths, r.jobs, console);
     Reproducers files_of;
     for (const Reproducer& f : failures) files_of[{f.trial.scheme->name, f.expected.verdict}] = "failures/" + f.file;
     write_failures(r.folder / "failures", failures);
-    write("boundaries.csv", csv(boundaries_table(run, files_of)));
+    write("boundaries.csv", store::csv(boundaries_table(run, files_of)));
     return recorded;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -8,9 +8,11 @@
 #include "bench/compare/catalogue.hpp"
 #include "bench/map/map_file.hpp"
 
-namespace jvari {
-
+namespace jvari::bench::store {
 class Console;
+}
+
+namespace jvari::bench::map {
 
 struct MapRequest {
     std::string program;           // program_identity
@@ -23,6 +25,6 @@ struct RecordedMaps {
     std::vector<std::string> files;  // written
     std::string text;                // for the terminal; "" where there are no maps
 };
-RecordedMaps run_and_record_maps(const std::vector<Map>&, const Catalogue&, const MapRequest&, const Console&);
+RecordedMaps run_and_record_maps(const std::vector<Map>&, const compare::Catalogue&, const MapRequest&, const store::Console&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

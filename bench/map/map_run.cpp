@@ -18,18 +18,18 @@
 #include "bench/store/side_by_side.hpp"
 #include "bench/store/whole.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 Json number(double x) {  // JSON has no NaN and no infinity
-    return text_of(x);
+    return store::text_of(x);
 }
 
 std::string json_of(const Tried& t, const std::string& identity) {
-    return sealed(Json{
+    return store::sealed(Json{
         {"point", Json::parse(identity)},
         {"outcome", name_of(t.judgement.verdict)},
         {"detail", t.judgement.detail},
@@ -40,8 +40,7 @@ std::string json_of(const Tried& t, const std::string& identity) {
         {"pull", number(t.figures.pull)},
         {"error", number(t.figures.error)},
         {"reference", t.reference},
-        {"steps",
-         t.steps}}.dump(-1, ' ', false, Json::error_handler_t::replace));
+        {"steps", t.steps}}.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 Verdict verdict_named(const std::string& name) {
@@ -54,17 +53,17 @@ std::optional<Tried> read_back(const fs::path& path, const std::string& identity
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return std::nullopt;
     try {
-        const Json j = Json::parse(unsealed(read_whole(path)));
+        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
         if (j.at("point") != Json::parse(identity)) return std::nullopt;
         Tried t;
-        t.judgement = {verdict_named(j.at("outcome")), j.at("detail"), whole<long>(j.at("step"))};
-        t.figures.status = {outcome_named(j.at("status")), whole<long>(j.at("step"))};
-        t.figures.displacement = number_of(j.at("displacement"));
-        t.figures.energy_gain = number_of(j.at("energy_gain"));
-        t.figures.pull = number_of(j.at("pull"));
-        t.figures.error = number_of(j.at("error"));
+        t.judgement = {verdict_named(j.at("outcome")), j.at("detail"), store::whole<long>(j.at("step"))};
+        t.figures.status = {store::outcome_named(j.at("status")), store::whole<long>(j.at("step"))};
+        t.figures.displacement = store::number_of(j.at("displacement"));
+        t.figures.energy_gain = store::number_of(j.at("energy_gain"));
+        t.figures.pull = store::number_of(j.at("pull"));
+        t.figures.error = store::number_of(j.at("error"));
         t.reference = j.at("reference");
-        t.steps = whole<long>(j.at("steps"));
+        t.steps = store::whole<long>(j.at("steps"));
         return t;
     } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
         return std::nullopt;
@@ -79,7 +78,7 @@ public:
     Tried operator()(const PointPlace& at) {
         const Trial trial = trial_at(at);
         const std::string identity = Json{{"program", program_}, {"trial", Json::parse(identity_of(trial))}}.dump();
-        const fs::path file = folder_ / (hash_of(identity) + ".json");
+        const fs::path file = folder_ / (store::hash_of(identity) + ".json");
         if (resume_ && !folder_.empty())
             if (auto kept = read_back(file, identity)) {
                 ++kept_;
@@ -90,7 +89,7 @@ public:
         ++ran_;
         if (!folder_.empty()) {
             const std::lock_guard lock(writing_);  // two maps can hold the same point
-            write_fresh(file, json_of(tried, identity));
+            store::write_fresh(file, json_of(tried, identity));
         }
         return tried;
     }
@@ -107,19 +106,19 @@ private:
     std::atomic<int> ran_ = 0, kept_ = 0;
 };
 
-std::vector<const Descriptor*> schemes_of(const Map& m, const Catalogue& catalogue) {
+std::vector<const Descriptor*> schemes_of(const Map& m, const compare::Catalogue& catalogue) {
     std::vector<const Descriptor*> chosen;
     for (const std::string& name : m.schemes) chosen.push_back(&catalogue.find(name));
     if (!chosen.empty()) return chosen;
-    const Scene scene = load_scene(m.scene, {}, std::nullopt);
+    const Scene scene = compare::load_scene(m.scene, {}, std::nullopt);
     for (const Descriptor* d : catalogue.schemes)
         if ((needed_by(scene) - d->represents).empty()) chosen.push_back(d);
-    if (chosen.empty()) throw UsageError(fmt::format("map {}: no scheme represents scene {}", m.name, m.scene));
+    if (chosen.empty()) throw store::UsageError(fmt::format("map {}: no scheme represents scene {}", m.name, m.scene));
     return chosen;
 }
 
 std::string axis_text(const MapAxis& axis, double x) {
-    return axis.whole ? std::to_string(std::lround(x)) : text_of(x);
+    return axis.whole ? std::to_string(std::lround(x)) : store::text_of(x);
 }
 
 // Where the theory's margin changes its sign between the ends of the axis.
@@ -145,7 +144,7 @@ void compare_with_theory(std::vector<Boundary>& all) {
         const double theory = theory_along({all[i].map, all[i].scheme, "", all[i].y});
         const auto distance = [theory](const Boundary& b) {
             if (b.low != Verdict::sound && b.high != Verdict::sound) return HUGE_VAL;
-            return std::abs(0.5 * (number_of(b.x_low) + number_of(b.x_high)) - theory);
+            return std::abs(0.5 * (store::number_of(b.x_low) + store::number_of(b.x_high)) - theory);
         };
         const auto nearest = std::min_element(all.begin() + static_cast<long>(i), all.begin() + static_cast<long>(end),
                                               [&](const Boundary& a, const Boundary& b) { return distance(a) < distance(b); });
@@ -161,17 +160,17 @@ Trial trial_at(const PointPlace& p) {
     if (!p.map->y.key.empty()) all.emplace_back(p.map->y.key, p.y);
     try {
         return trial_of(p.map->scene, *p.scheme, p.map->reference, all);
-    } catch (const UsageError& e) {
-        throw UsageError("map " + p.map->name + ": " + e.what());
+    } catch (const store::UsageError& e) {
+        throw store::UsageError("map " + p.map->name + ": " + e.what());
     }
 }
 
 double Boundary::relative_difference() const {
-    return 0.5 * (number_of(x_low) + number_of(x_high)) / theory - 1;
+    return 0.5 * (store::number_of(x_low) + store::number_of(x_high)) / theory - 1;
 }
 
 MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string& program, const fs::path& folder, bool resume, int jobs,
-                const Console& console) {
+                const store::Console& console) {
     MapRun result;
     for (const Map& m : maps) {
         if (!m.reference.empty() && m.reference != "none") truths.catalogue().find(m.reference);
@@ -183,8 +182,8 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
     }
     for (const JudgedPoint& p : result.points) trial_at(p.at);  // scenes and keys that are none are said before anything runs
     Laboratory laboratory(truths, program, folder, resume);
-    side_by_side(std::vector<double>(result.points.size(), 1), jobs, console, "points",
-                 [&](std::size_t i, Done&) { result.points[i].tried = laboratory(result.points[i].at); });
+    store::side_by_side(std::vector<double>(result.points.size(), 1), jobs, console, "points",
+                        [&](std::size_t i, store::Done&) { result.points[i].tried = laboratory(result.points[i].at); });
 
     struct Pair {
         const JudgedPoint *low, *high;
@@ -196,15 +195,16 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
         if (same_row && !p.at.map->x.at.empty() && p.tried.judgement.verdict != q.tried.judgement.verdict) changes.push_back({&p, &q});
     }
     std::vector<std::optional<Boundary>> found(changes.size());
-    side_by_side(std::vector<double>(changes.size(), 1), jobs, console, "boundaries", [&](std::size_t i, Done&) {
+    store::side_by_side(std::vector<double>(changes.size(), 1), jobs, console, "boundaries", [&](std::size_t i, store::Done&) {
         const JudgedPoint *low = changes[i].low, *high = changes[i].high;  // clang 14 captures no structured binding
         const MapAxis& axis = low->at.map->x;
-        const Bracket b = bisect({number_of(low->at.x), number_of(high->at.x), low->tried.judgement.verdict, high->tried.judgement.verdict},
-                                 low->at.map->refine, axis.whole, [&](double x) {
-                                     PointPlace at = low->at;
-                                     at.x = axis_text(axis, x);
-                                     return laboratory(at).judgement.verdict;
-                                 });
+        const Bracket b =
+            bisect({store::number_of(low->at.x), store::number_of(high->at.x), low->tried.judgement.verdict, high->tried.judgement.verdict},
+                   low->at.map->refine, axis.whole, [&](double x) {
+                       PointPlace at = low->at;
+                       at.x = axis_text(axis, x);
+                       return laboratory(at).judgement.verdict;
+                   });
         found[i] = Boundary{low->at.map,
                             low->at.scheme,
                             low->at.y,
@@ -221,4 +221,4 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
     return result;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -9,7 +9,7 @@
 #include "bench/map/trial.hpp"
 #include "bench/store/console.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 struct PointPlace {  // on a map
     const Map* map;
@@ -40,7 +40,7 @@ struct MapRun {
 // `folder`: where points are kept, "" for nowhere. `program` counts into a point's address. Throws what a scene or a name that is none
 // throws, before anything is run.
 MapRun run_maps(const std::vector<Map>&, Truths&, const std::string& program, const std::filesystem::path& folder, bool resume, int jobs,
-                const Console&);
+                const store::Console&);
 
 // Bisection of a change between two outcomes along one axis: `verdict_at(x)` is asked at most `times` times, at the geometric mean of
 // positive numbers and the arithmetic of others, and not between neighbours where only `whole` numbers count. Where a third outcome lies
@@ -52,12 +52,12 @@ struct Bracket {
 template <class VerdictAt>
 Bracket bisect(Bracket b, int times, bool whole, VerdictAt verdict_at);
 
-}  // namespace jvari
+}  // namespace jvari::bench::map
 
 #include <cmath>
 
 template <class VerdictAt>
-jvari::Bracket jvari::bisect(Bracket b, int times, bool whole, VerdictAt verdict_at) {
+jvari::bench::map::Bracket jvari::bench::map::bisect(Bracket b, int times, bool whole, VerdictAt verdict_at) {
     for (int n = 0; n < times; ++n) {
         double middle = b.low > 0 ? std::sqrt(b.low) * std::sqrt(b.high) : 0.5 * (b.low + b.high);
         if (whole) middle = std::round(middle);

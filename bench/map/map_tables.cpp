@@ -5,23 +5,23 @@
 #include <cmath>
 #include <map>
 
-namespace jvari {
+namespace jvari::bench::map {
 
-Table maps_table(const MapRun& run) {
-    Table t;
+store::Table maps_table(const MapRun& run) {
+    store::Table t;
     t.columns = {"map",         "scene", "scheme", "x_key", "x", "y_key", "y", "outcome", "detail", "reference", "largest_displacement",
                  "energy_gain", "pull",  "error"};
     for (const JudgedPoint& p : run.points) {
         const Figures& f = p.tried.figures;
         t.rows.push_back({p.at.map->name, p.at.map->scene, p.at.scheme->name, p.at.map->x.key, p.at.x, p.at.map->y.key, p.at.y,
-                          name_of(p.tried.judgement.verdict), p.tried.judgement.detail, p.tried.reference, text_of(f.displacement),
-                          text_of(f.energy_gain), text_of(f.pull), text_of(f.error)});
+                          name_of(p.tried.judgement.verdict), p.tried.judgement.detail, p.tried.reference, store::text_of(f.displacement),
+                          store::text_of(f.energy_gain), store::text_of(f.pull), store::text_of(f.error)});
     }
     return t;
 }
 
-Table boundaries_table(const MapRun& run, const Reproducers& reproducers) {
-    Table t;
+store::Table boundaries_table(const MapRun& run, const Reproducers& reproducers) {
+    store::Table t;
     t.columns = {"map", "scheme", "x_key", "y_key", "y", "between", "x_low", "x_high", "theory", "relative_difference", "reproducer"};
     for (const Boundary& b : run.boundaries) {
         std::string file;
@@ -29,8 +29,8 @@ Table boundaries_table(const MapRun& run, const Reproducers& reproducers) {
             if (const auto r = b.map->reproduce ? reproducers.find({b.scheme->name, side}) : reproducers.end(); r != reproducers.end())
                 file = r->second;
         t.rows.push_back({b.map->name, b.scheme->name, b.map->x.key, b.map->y.key, b.y,
-                          fmt::format("{}|{}", name_of(b.low), name_of(b.high)), b.x_low, b.x_high, text_of(b.theory),
-                          text_of(b.relative_difference()), file});
+                          fmt::format("{}|{}", name_of(b.low), name_of(b.high)), b.x_low, b.x_high, store::text_of(b.theory),
+                          store::text_of(b.relative_difference()), file});
     }
     return t;
 }
@@ -48,11 +48,12 @@ std::string maps_text(const MapRun& run) {
     }
     for (const Boundary& b : run.boundaries)
         if (!std::isnan(b.theory))
-            text += fmt::format("  {:<28} {:<42} {}|{} at {} = {:.5g}{}{}, theory {:.5g}: {:+.2g} %\n", b.map->name, b.scheme->name,
-                                name_of(b.low), name_of(b.high), b.map->x.key, 0.5 * (number_of(b.x_low) + number_of(b.x_high)),
-                                b.y.empty() ? "" : ", " + b.map->y.key + " = ", b.y, b.theory, 100 * b.relative_difference());
+            text +=
+                fmt::format("  {:<28} {:<42} {}|{} at {} = {:.5g}{}{}, theory {:.5g}: {:+.2g} %\n", b.map->name, b.scheme->name,
+                            name_of(b.low), name_of(b.high), b.map->x.key, 0.5 * (store::number_of(b.x_low) + store::number_of(b.x_high)),
+                            b.y.empty() ? "" : ", " + b.map->y.key + " = ", b.y, b.theory, 100 * b.relative_difference());
     return text + fmt::format("{} points, {} boundaries: {} run, {} read back\n", run.points.size(), run.boundaries.size(), run.ran,
                               run.read_back);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -8,14 +8,14 @@
 #include "bench/map/map_run.hpp"
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
-Table maps_table(const MapRun&);
+store::Table maps_table(const MapRun&);
 
 // Files of minimised reproducers by scheme and outcome. A boundary names that of the side that fails, of the upper one where both do.
 using Reproducers = std::map<std::pair<std::string, Verdict>, std::string>;
-Table boundaries_table(const MapRun&, const Reproducers&);
+store::Table boundaries_table(const MapRun&, const Reproducers&);
 
 std::string maps_text(const MapRun&);  // for the terminal: outcomes of each map and scheme, boundaries that have a theory
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

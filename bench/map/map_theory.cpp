@@ -8,7 +8,7 @@
 #include "scenes/modes.hpp"
 #include "schemes/registry.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 namespace {
 constexpr const char* nyquist = "nyquist";
@@ -38,4 +38,4 @@ double theory_margin(const std::string& name, const Descriptor& d, const Scene& 
     return d.limit.name && name == d.limit.name ? d.limit.margin(scene, settings) : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -14,7 +14,7 @@
 
 #include "schemes/scheme.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 std::vector<std::string> theories();
 bool is_theory(const std::string&);
@@ -22,4 +22,4 @@ bool is_theory(const std::string&);
 // Positive on the sound side, 0 on the boundary; NaN where the theory has nothing to say of the scheme.
 double theory_margin(const std::string& theory, const Descriptor&, const Scene&, const Settings&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

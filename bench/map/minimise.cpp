@@ -9,7 +9,7 @@
 #include "schemes/grid/finite_difference.hpp"
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 namespace {
 bool still(const Fails& fails, const Trial& t) {
@@ -131,4 +131,4 @@ Trial minimised(Trial t, const Fails& fails) {
     return t;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

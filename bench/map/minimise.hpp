@@ -9,10 +9,10 @@
 
 #include "bench/map/trial.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 using Fails = std::function<bool(const Trial&)>;  // in the way that is to be kept; what it throws counts as no
 
 Trial minimised(Trial, const Fails&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

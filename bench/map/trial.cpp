@@ -11,7 +11,7 @@
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -36,10 +36,10 @@ Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::st
     double amplitude = 1;
     t.settings.sample_rate = 44100;
     for (const auto& [key, value] : all) {
-        if (key == "rate") t.settings.sample_rate = number_of(value);
-        else if (key == "modes") t.settings.modes = static_cast<int>(number_of(value));
-        else if (key == "duration") duration = number_of(value);
-        else if (key == "amplitude") amplitude = number_of(value);
+        if (key == "rate") t.settings.sample_rate = store::number_of(value);
+        else if (key == "modes") t.settings.modes = static_cast<int>(store::number_of(value));
+        else if (key == "duration") duration = store::number_of(value);
+        else if (key == "amplitude") amplitude = store::number_of(value);
         else if (key.rfind("option:", 0) == 0) {
             const auto colon = key.find(':', 7);  // option:[SCHEME:]NAME
             if (colon == std::string::npos) t.settings.options.emplace_back(key.substr(7), value);
@@ -47,7 +47,7 @@ Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::st
         } else overrides.push_back(key + "=" + value);
     }
     t.settings.tap_rate = row_rate(t.settings.sample_rate);
-    t.scene = moved(load_scene(scene, overrides, duration), amplitude);
+    t.scene = moved(compare::load_scene(scene, overrides, duration), amplitude);
     return t;
 }
 
@@ -57,8 +57,8 @@ std::string identity_of(const Trial& t) {
     return Json{{"scene", t.scene.name},
                 {"scene_hash", scene_hash(t.scene)},
                 {"scheme", t.scheme->name},
-                {"rate", text_of(t.settings.sample_rate)},
-                {"tap_rate", text_of(t.settings.tap_rate)},
+                {"rate", store::text_of(t.settings.sample_rate)},
+                {"tap_rate", store::text_of(t.settings.tap_rate)},
                 {"modes", t.settings.modes},
                 {"options", options},
                 {"reference", t.reference}}
@@ -69,7 +69,7 @@ const Truths::Truth& Truths::of(const Trial& t) {
     static const Truth none;
     if (t.reference == "none") return none;
     const Settings s = reference_settings(catalogue_.references.empty() ? *t.scheme : *catalogue_.references.front(), t);
-    const std::string key = Json{scene_hash(t.scene), t.reference, text_of(s.tap_rate), s.modes}.dump();
+    const std::string key = Json{scene_hash(t.scene), t.reference, store::text_of(s.tap_rate), s.modes}.dump();
     Truth* truth;
     {
         const std::lock_guard lock(mutex_);
@@ -115,4 +115,4 @@ Tried run_trial(const Trial& t, Truths& truths) {
     return tried;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -11,7 +11,7 @@
 #include "bench/map/map_file.hpp"
 #include "bench/map/verdict.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 struct Trial {
     const Descriptor* scheme;
@@ -38,22 +38,22 @@ struct Tried {
 // Runs of references, kept for the trials that share one.
 class Truths {
 public:
-    explicit Truths(const Catalogue& c) : catalogue_(c) {}
+    explicit Truths(const compare::Catalogue& c) : catalogue_(c) {}
     struct Truth {
         std::once_flag once;
         std::string name;  // "": none represents the scene, or none came to the end
         Trace trace;
     };
     const Truth& of(const Trial&);
-    const Catalogue& catalogue() const { return catalogue_; }
+    const compare::Catalogue& catalogue() const { return catalogue_; }
 
 private:
     void make(Truth&, const Trial&) const;
-    const Catalogue& catalogue_;
+    const compare::Catalogue& catalogue_;
     std::mutex mutex_;
     std::map<std::string, std::unique_ptr<Truth>> truths_;
 };
 
 Tried run_trial(const Trial&, Truths&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

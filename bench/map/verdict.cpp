@@ -10,7 +10,7 @@
 #include "analysis/error.hpp"
 #include "bench/compare/summary.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 namespace {
 constexpr std::array all = {Verdict::sound,         Verdict::inaccurate, Verdict::adhesive, Verdict::energy_gaining,
@@ -90,7 +90,7 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& sett
     for (int k = 0; k < listening_points; ++k) most = std::max(most, largest(run.trace.column(k)));
     f.displacement = energy.budget > 0 ? most / std::sqrt(energy.budget * s.length / (2 * s.tension)) : nan;
     f.pull = f.error = nan;
-    if (const double least = fact(run.facts, facts::smallest_contact_force); !std::isnan(least) && run.trace.taps() > contact) {
+    if (const double least = compare::fact(run.facts, facts::smallest_contact_force); !std::isnan(least) && run.trace.taps() > contact) {
         // a row is the mean over its steps: one step may have pushed as many times harder
         const double pushed = largest(run.trace.column(contact)) * std::max(1.0, settings.sample_rate / settings.tap_rate);
         f.pull = least < 0 ? -least / std::max(pushed, std::numeric_limits<double>::min()) : 0;
@@ -100,4 +100,4 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& sett
     return f;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

@@ -22,7 +22,7 @@
 
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::map {
 
 enum class Verdict { sound, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused };
 std::span<const Verdict> verdicts();
@@ -55,4 +55,4 @@ Scene listened(Scene);
 // Of a run of listened(scene) with its energy probed. `reference`: on the same rows; nullptr where there is none.
 Figures figures_of(const Descriptor&, const Scene&, const Settings&, const Run&, const Trace* reference);
 
-}  // namespace jvari
+}  // namespace jvari::bench::map

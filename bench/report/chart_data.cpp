@@ -12,7 +12,7 @@
 #include "bench/compare/pareto.hpp"
 #include "bench/store/rates.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -24,7 +24,7 @@ std::string rate_label(double rate, double lowest, bool multiples) {
     return fmt::format("{:.4g}k", rate / 1000);
 }
 
-std::map<std::string, double> lowest_rates(const Table& t) {  // of each problem
+std::map<std::string, double> lowest_rates(const store::Table& t) {  // of each problem
     std::map<std::string, double> lowest;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         double& rate = lowest.emplace(problem_of(t, i), HUGE_VAL).first->second;
@@ -34,14 +34,14 @@ std::map<std::string, double> lowest_rates(const Table& t) {  // of each problem
 }
 }  // namespace
 
-const std::string& problem_of(const Table& cells, std::size_t row) {
+const std::string& problem_of(const store::Table& cells, std::size_t row) {
     return cells.at(row, "problem");
 }
-const std::string& series_of(const Table& cells, std::size_t row) {
+const std::string& series_of(const store::Table& cells, std::size_t row) {
     return cells.at(row, cells.column("series") < 0 ? "scheme" : "series");
 }
 
-std::vector<std::string> drawn_series(const Table& cells) {
+std::vector<std::string> drawn_series(const store::Table& cells) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < cells.rows.size(); ++i)
         if (cells.at(i, "status") != "refused" && std::find(names.begin(), names.end(), series_of(cells, i)) == names.end())
@@ -50,13 +50,13 @@ std::vector<std::string> drawn_series(const Table& cells) {
 }
 
 std::string chart_cells(const WorkPrecision& w) {
-    const Table& t = w.cells;
+    const store::Table& t = w.cells;
     const auto lowest = lowest_rates(t);
     std::map<std::string, bool> multiples;
     for (std::size_t i = 0; i < t.rows.size(); ++i)
         if (const double rate = t.number(i, "rate"); !std::isnan(rate)) {
             bool& all = multiples.emplace(problem_of(t, i), true).first->second;
-            all = all && whole_multiple(rate, lowest.at(problem_of(t, i)));
+            all = all && store::whole_multiple(rate, lowest.at(problem_of(t, i)));
         }
     Json rows = Json::array();
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
@@ -74,13 +74,14 @@ std::string chart_cells(const WorkPrecision& w) {
                {"flags", t.at(i, "flags")},
                {"below", t.at(i, "below_floor")}};
         const auto add = [&j](const std::string& column, double x) {  // not finite: null; seven digits are enough for a point
-            j[column] = std::isfinite(x) ? number_of(fmt::format("{:.7g}", x)) : std::nan("");
+            j[column] = std::isfinite(x) ? store::number_of(fmt::format("{:.7g}", x)) : std::nan("");
         };
         std::string at_most;
         for (const Axis& a : w.errors) {
-            const Bound b = bound_of(t, i, a.column);
+            const compare::Bound b = compare::bound_of(t, i, a.column);
             add(a.column, b.shown());
-            if (b.says() == Bound::Says::at_most || b.says() == Bound::Says::unknown) at_most += (at_most.empty() ? "" : " ") + a.column;
+            if (b.says() == compare::Bound::Says::at_most || b.says() == compare::Bound::Says::unknown)
+                at_most += (at_most.empty() ? "" : " ") + a.column;
         }
         for (const Axis& a : w.costs) add(a.column, t.number(i, a.column));
         j["at_most"] = at_most;
@@ -90,12 +91,12 @@ std::string chart_cells(const WorkPrecision& w) {
 }
 
 std::string chart_fronts(const WorkPrecision& w) {
-    const Table& t = w.cells;
+    const store::Table& t = w.cells;
     Json rows = Json::array();
-    for (const Rows& problem : alike(t, all_rows(t), {"problem"}))
+    for (const store::Rows& problem : store::alike(t, store::all_rows(t), {"problem"}))
         for (const Axis& error : w.errors)
             for (const Axis& cost : w.costs) {
-                const auto front = pareto_front(t, problem, error.column, cost.column);
+                const auto front = compare::pareto_front(t, problem, error.column, cost.column);
                 for (std::size_t k = 0; k < front.size(); ++k) {
                     if (!front[k]) continue;
                     const std::size_t i = problem[k];
@@ -106,17 +107,17 @@ std::string chart_fronts(const WorkPrecision& w) {
                                     {"error", error.column},
                                     {"cost", cost.column},
                                     {"x", t.number(i, cost.column)},
-                                    {"y", bound_of(t, i, error.column).shown()},
+                                    {"y", compare::bound_of(t, i, error.column).shown()},
                                     {"key", key}});
                 }
             }
     return rows.dump();
 }
 
-std::vector<Axis> error_axes(const Table& cells, const std::vector<std::string>& taps, const std::string& first) {
+std::vector<Axis> error_axes(const store::Table& cells, const std::vector<std::string>& taps, const std::string& first) {
     std::vector<Axis> axes;
     for (const std::string& tap : taps)
-        for (const Measure& m : measures()) {
+        for (const compare::Measure& m : compare::measures()) {
             const Axis axis{m.column + (tap.empty() ? "" : "_" + tap), m.title + (tap.empty() ? "" : ", tap " + tap)};
             bool finite = false;
             for (std::size_t i = 0; i < cells.rows.size(); ++i) finite = finite || std::isfinite(cells.number(i, axis.column));
@@ -133,4 +134,4 @@ std::vector<Axis> cost_axes() {
             {"dofs", "state carried [doubles]"}};
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -5,7 +5,7 @@
 
 #include "bench/report/page_text.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -84,7 +84,7 @@ std::string chart_of(const char* template_file, const Filling& f, Medium medium)
     return chart.dump();
 }
 
-std::string rows_of(const Table& t, const std::vector<std::string>& texts, const std::vector<std::string>& numbers) {
+std::string rows_of(const store::Table& t, const std::vector<std::string>& texts, const std::vector<std::string>& numbers) {
     Json rows = Json::array();
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         Json& row = rows.emplace_back(Json::object());
@@ -98,4 +98,4 @@ std::string json_text(const std::string& text) {
     return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -7,7 +7,7 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 // Vega-Lite encodings as JSON text: the colour, the shape of points and the dash of lines of each series, in the order of the names.
 std::string colour_of_series(const std::vector<std::string>&, const std::string& field = "series");
@@ -28,7 +28,7 @@ struct Filling {
 std::string chart_of(const char* template_file, const Filling&, Medium);
 
 // Rows as JSON objects: the named columns, as numbers where they are some (not finite: null).
-std::string rows_of(const Table&, const std::vector<std::string>& texts, const std::vector<std::string>& numbers);
+std::string rows_of(const store::Table&, const std::vector<std::string>& texts, const std::vector<std::string>& numbers);
 std::string json_text(const std::string&);  // a string as JSON
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

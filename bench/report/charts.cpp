@@ -8,7 +8,7 @@
 
 #include "bench/report/chart_data.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -221,4 +221,4 @@ std::string work_precision_spec(const WorkPrecision& w) {
     return spec.dump();
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -8,7 +8,7 @@
 #include "bench/report/chart_style.hpp"
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 struct Axis {
     std::string column, title;
@@ -27,7 +27,7 @@ struct Goal {  // an accuracy that is asked for, and who gets there at the least
 
 struct WorkPrecision {
     std::string title, subtitle;
-    Table cells;                      // as compare writes them; with `problem` and `series` where they are of several
+    store::Table cells;               // as compare writes them; with `problem` and `series` where they are of several
     std::vector<Axis> errors, costs;  // what a reader can choose between; the first of each is shown
     std::vector<Band> bands;
     std::vector<Goal> goals;
@@ -39,8 +39,8 @@ struct WorkPrecision {
 // bands, the goals across, failures at the upper edge. The signals `error_field`, `cost_field`, `problem_field` and `brought_out` choose.
 std::string work_precision_spec(const WorkPrecision&);
 
-std::vector<Axis> error_axes(const Table& cells, const std::vector<std::string>& taps,
+std::vector<Axis> error_axes(const store::Table& cells, const std::vector<std::string>& taps,
                              const std::string& first);  // those with a finite value
 std::vector<Axis> cost_axes();
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

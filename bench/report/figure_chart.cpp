@@ -11,7 +11,7 @@
 #include "bench/report/vega.hpp"
 #include "bench/suite/row_facet.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -19,21 +19,21 @@ constexpr const char* palette[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "
 constexpr int most_rectangles = 2800;  // of a spectrogram: a file below 300 kB
 
 bool same(const std::string& field, const std::string& wanted) {
-    const double a = number_of(field), b = number_of(wanted);
+    const double a = store::number_of(field), b = store::number_of(wanted);
     return std::isnan(a) || std::isnan(b) ? field == wanted : a == b;
 }
 
-void must_have(const Table& t, const Figure& f, const std::string& column) {
-    if (t.column(column) < 0) throw UsageError(fmt::format("table {}: {}", f.table, unknown("column", column, t.columns)));
+void must_have(const store::Table& t, const suite::Figure& f, const std::string& column) {
+    if (t.column(column) < 0) throw store::UsageError(fmt::format("table {}: {}", f.table, store::unknown("column", column, t.columns)));
 }
 
-bool chosen(const Figure& f, const Table& t, std::size_t row) {
+bool chosen(const suite::Figure& f, const store::Table& t, std::size_t row) {
     return std::ranges::all_of(f.where, [&](const auto& w) {
         return std::ranges::any_of(w.second, [&](const std::string& value) { return same(t.at(row, w.first), value); });
     });
 }
 
-std::string name_in(const Figure& f, const Table& t, std::size_t row, const std::vector<std::string>& columns) {
+std::string name_in(const suite::Figure& f, const store::Table& t, std::size_t row, const std::vector<std::string>& columns) {
     std::string name;
     for (const std::string& column : columns)
         if (const std::string& field = t.at(row, column); !field.empty()) name += (name.empty() ? "" : ", ") + field;
@@ -63,7 +63,7 @@ Json wrapped(const std::string& text, std::size_t length) {
 }
 
 // Without a screen Vega takes a letter for 0.8 of the font's size and makes the picture as wide as its longest line.
-Json title_of(const Figure& f, double width) {
+Json title_of(const suite::Figure& f, double width) {
     const std::string under = f.paper + (f.paper.empty() || f.statement.empty() ? "" : ": ") + f.statement;
     return {{"text", wrapped(f.title, static_cast<std::size_t>(width / (0.8 * 16)))},
             {"subtitle", wrapped(under, static_cast<std::size_t>(width / (0.8 * 12)))},
@@ -72,7 +72,7 @@ Json title_of(const Figure& f, double width) {
             {"subtitlePadding", 5}};
 }
 
-Json axis(const FigureAxis& a, const char* field, bool free) {
+Json axis(const suite::FigureAxis& a, const char* field, bool free) {
     Json scale{{"zero", false}, {"nice", a.log || !free}};
     if (a.log) scale["type"] = "log";
     if (a.domain) scale["domain"] = *a.domain, scale["nice"] = false;
@@ -87,12 +87,13 @@ const Json config = {{"font", "system-ui, -apple-system, 'Segoe UI', 'DejaVu San
                      {"header", {{"title", nullptr}, {"labelFontSize", 12}, {"labelFontWeight", "bold"}, {"labelAnchor", "start"}}},
                      {"legend", {{"labelFontSize", 12}, {"labelLimit", 500}, {"symbolStrokeWidth", 3}}}};
 
-std::string spectrogram_figure(const Figure& f, const SuitePlan& plan, const std::vector<SuiteRecord>& records, const Table& cells) {
+std::string spectrogram_figure(const suite::Figure& f, const suite::SuitePlan& plan, const std::vector<suite::SuiteRecord>& records,
+                               const store::Table& cells) {
     std::vector<Panel> panels;
     for (std::size_t i = 0; i < records.size(); ++i)
-        if (plan.cells[i].set->measures(Facet::spectrogram) && chosen(f, cells, i))
+        if (plan.cells[i].set->measures(suite::Facet::spectrogram) && chosen(f, cells, i))
             panels.push_back({name_in(f, cells, i, f.colour), name_in(f, cells, i, f.panels), cells.at(i, "status"), records[i].levels});
-    if (panels.empty()) throw UsageError("no cell with a spectrogram is left by `where`");
+    if (panels.empty()) throw store::UsageError("no cell with a spectrogram is left by `where`");
     const int scale = panels.size() == 1 ? 2 : 1;
     Json spec = Json::parse(spectrogram_spec(f.title, "", std::move(panels), most_rectangles));
     int width = 0;
@@ -104,7 +105,7 @@ std::string spectrogram_figure(const Figure& f, const SuitePlan& plan, const std
 }
 }  // namespace
 
-std::string figure_spec(const Figure& f, const Table& t) {
+std::string figure_spec(const suite::Figure& f, const store::Table& t) {
     for (const std::string& column : {f.x.column, f.y.column}) must_have(t, f, column);
     if (!f.y.to.empty()) must_have(t, f, f.y.to);
     for (const auto* columns : {&f.colour, &f.panels})
@@ -126,15 +127,15 @@ std::string figure_spec(const Figure& f, const Table& t) {
         if (!f.panels.empty()) add_once(panels, row["p"] = name_in(f, t, i, f.panels));
         values.push_back(std::move(row));
     }
-    if (values.empty()) throw UsageError(fmt::format("table {}: no row is left to draw", f.table));
+    if (values.empty()) throw store::UsageError(fmt::format("table {}: no row is left to draw", f.table));
 
-    Json mark{{"type", f.kind == FigureKind::band ? "area" : "line"}, {"clip", true}, {"tooltip", nullptr}, {"aria", false}};
-    if (f.kind == FigureKind::band) mark["opacity"] = colours.size() > 1 ? 0.6 : 0.9;
+    Json mark{{"type", f.kind == suite::FigureKind::band ? "area" : "line"}, {"clip", true}, {"tooltip", nullptr}, {"aria", false}};
+    if (f.kind == suite::FigureKind::band) mark["opacity"] = colours.size() > 1 ? 0.6 : 0.9;
     else mark["strokeWidth"] = 1.4;
-    if (f.kind == FigureKind::points) mark["point"] = {{"size", 45}};
-    if (f.kind == FigureKind::points && f.colour.empty()) mark["point"]["color"] = palette[0];
+    if (f.kind == suite::FigureKind::points) mark["point"] = {{"size", 45}};
+    if (f.kind == suite::FigureKind::points && f.colour.empty()) mark["point"]["color"] = palette[0];
     Json encoding{{"x", axis(f.x, "x", f.free)}, {"y", axis(f.y, "y", f.free)}};
-    if (f.kind == FigureKind::band) encoding["y2"] = {{"field", "z"}};
+    if (f.kind == suite::FigureKind::band) encoding["y2"] = {{"field", "z"}};
     else encoding["order"] = {{"field", "x"}};
     if (!f.colour.empty()) {
         Json range = Json::array();
@@ -164,8 +165,9 @@ std::string figure_spec(const Figure& f, const Table& t) {
     return spec.dump();
 }
 
-std::vector<DrawnFigure> draw_figures(const Suite& suite, const SuitePlan& plan, const std::vector<SuiteRecord>& records,
-                                      const Table& cells, const Console& console) {
+std::vector<DrawnFigure> draw_figures(const suite::Suite& suite, const suite::SuitePlan& plan,
+                                      const std::vector<suite::SuiteRecord>& records, const store::Table& cells,
+                                      const store::Console& console) {
     std::vector<DrawnFigure> drawn;
     if (suite.figures.empty()) return drawn;
     const Vega vega = find_vega();
@@ -173,17 +175,17 @@ std::vector<DrawnFigure> draw_figures(const Suite& suite, const SuitePlan& plan,
         console.note(vega.missing);
         return drawn;
     }
-    for (const Figure& f : suite.figures) {
+    for (const suite::Figure& f : suite.figures) {
         const std::string file = "figure-" + f.name + ".svg";
         std::string why;
         try {
-            Table rows = cells;
-            for (const RowFacet& facet : row_facets())
-                if (f.table == name_of(facet.facet)) rows = rows_of(facet.facet, plan, records);
-            const bool levels = f.kind == FigureKind::spectrogram;
+            store::Table rows = cells;
+            for (const suite::RowFacet& facet : suite::row_facets())
+                if (f.table == suite::name_of(facet.facet)) rows = suite::rows_of(facet.facet, plan, records);
+            const bool levels = f.kind == suite::FigureKind::spectrogram;
             if (const auto svg = svg_of(vega, levels ? spectrogram_figure(f, plan, records, cells) : figure_spec(f, rows), why))
                 drawn.push_back({file, *svg});
-        } catch (const UsageError& e) {
+        } catch (const store::UsageError& e) {
             why = e.what();
         }
         if (!why.empty()) console.note(file + ": " + why);
@@ -191,4 +193,4 @@ std::vector<DrawnFigure> draw_figures(const Suite& suite, const SuitePlan& plan,
     return drawn;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

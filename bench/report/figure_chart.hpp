@@ -9,15 +9,16 @@
 #include "bench/suite/figure_file.hpp"
 #include "bench/suite/suite_record.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 // Of lines, points or a band over the rows of a table. Throws UsageError for a column that is not there and where no row is left.
-std::string figure_spec(const Figure&, const Table&);
+std::string figure_spec(const suite::Figure&, const store::Table&);
 
 struct DrawnFigure {
     std::string file, svg;
 };
 // What cannot be drawn is said as a note, with the reason, and left out.
-std::vector<DrawnFigure> draw_figures(const Suite&, const SuitePlan&, const std::vector<SuiteRecord>&, const Table& cells, const Console&);
+std::vector<DrawnFigure> draw_figures(const suite::Suite&, const suite::SuitePlan&, const std::vector<suite::SuiteRecord>&,
+                                      const store::Table& cells, const store::Console&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

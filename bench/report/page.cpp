@@ -8,7 +8,7 @@
 #include "bench/report/page_text.hpp"
 #include "bench/store/base64.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -29,7 +29,7 @@ std::string island(const Json& j) {
     return safe;
 }
 
-std::size_t size_of(const Table& t) {
+std::size_t size_of(const store::Table& t) {
     std::size_t size = 0;
     for (const auto& row : t.rows)
         for (const std::string& field : row) size += field.size() + 3;
@@ -69,9 +69,10 @@ Json json_of(const Section& s, bool drawn) {
         }
         charts.push_back({{"name", c.name}, {"spec", Json::parse(c.spec)}, {"scrolls", c.scrolls}, {"menus", menus}});
     }
-    for (const Picture& p : s.pictures) pictures.push_back({{"name", p.name}, {"data", "data:image/svg+xml;base64," + base64(p.svg)}});
+    for (const Picture& p : s.pictures)
+        pictures.push_back({{"name", p.name}, {"data", "data:image/svg+xml;base64," + store::base64(p.svg)}});
     for (const Heard& h : s.sounds)
-        sounds.push_back({{"scheme", h.scheme}, {"detail", h.detail}, {"data", "data:audio/wav;base64," + base64(h.wav)}});
+        sounds.push_back({{"scheme", h.scheme}, {"detail", h.detail}, {"data", "data:audio/wav;base64," + store::base64(h.wav)}});
     const Json table = table_json(s);
     return {{"id", s.id},
             {"heading", s.heading},
@@ -133,4 +134,4 @@ std::string fitting_page_of(Page page, std::size_t limit) {
     return page_of(page);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -10,7 +10,7 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 struct Menu {  // a <select>: sets a signal of the chart
     std::string label, signal;
@@ -50,7 +50,7 @@ struct Section {
     std::vector<Picture> pictures{};
     std::vector<Heard> sounds{};
     std::vector<std::string> left_out{};  // sentences: what is not there for the page's size
-    Table table{};
+    store::Table table{};
     std::vector<std::string> first_columns{};  // shown before "every column" is asked for; empty: all
     std::vector<Shown> shown{};
 };
@@ -71,4 +71,4 @@ constexpr std::size_t sounds_limit = 7'500'000;    // as the WAV data stands in 
 constexpr std::size_t pictures_limit = 4'000'000;  // as files
 constexpr std::size_t table_limit = 1'500'000;     // one table; beyond, its first columns alone, then fewer rows
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -11,7 +11,7 @@
 #include "bench/report/chart_data.hpp"
 #include "bench/report/page_sections.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -42,7 +42,7 @@ std::vector<Observed> observed_in(const WorkPrecision& w) {
             std::vector<double> rates, errors;
             for (const std::size_t i : lines[key]) {
                 rates.push_back(w.cells.number(i, "rate"));
-                const Bound b = bound_of(w.cells, i, a.column);
+                const compare::Bound b = compare::bound_of(w.cells, i, a.column);
                 // a tie with the truth has no order, and one that is all wrong is not on its way to it
                 const bool says = b.decides() && !(a.column.starts_with("error_l2_") && b.error >= 1);
                 errors.push_back(says ? b.error : std::nan(""));
@@ -53,7 +53,7 @@ std::vector<Observed> observed_in(const WorkPrecision& w) {
 }
 
 // The column that a row of convergence.csv speaks of: window "50ms", tap "" or "nut".
-std::string error_of(const Table& t, std::size_t i) {
+std::string error_of(const store::Table& t, std::size_t i) {
     const std::string &window = t.at(i, "window"), &tap = t.at(i, "tap");
     const std::string error = window.rfind("error_", 0) == 0 || window.find("_db") != std::string::npos ? window : "error_l2_" + window;
     return error + (tap.empty() ? "" : "_" + tap);
@@ -69,11 +69,11 @@ Json orders_json(const Results& r, const std::vector<Observed>& observed) {
     return orders;
 }
 
-Table table_of(const std::vector<Observed>& observed, const std::string& headline, bool several_problems) {
-    Table t{{"scene", "scheme", "error", "order", "half_width", "points"}, {}};
+store::Table table_of(const std::vector<Observed>& observed, const std::string& headline, bool several_problems) {
+    store::Table t{{"scene", "scheme", "error", "order", "half_width", "points"}, {}};
     for (const Observed& o : observed)
         if (o.error == headline || o.error == "error_l2_10ms" || o.error == "error_l2_whole" || o.error == "third_octave_db")
-            t.rows.push_back({o.problem, o.series, o.error, fmt::format("{:.4f}", o.order.order), text_of(o.order.half_width),
+            t.rows.push_back({o.problem, o.series, o.error, fmt::format("{:.4f}", o.order.order), store::text_of(o.order.half_width),
                               std::to_string(o.order.points)});
     return several_problems ? t : t.only({"scheme", "error", "order", "half_width", "points"});
 }
@@ -130,4 +130,4 @@ Section convergence_section(const Results& r) {
     return s;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

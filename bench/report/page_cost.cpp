@@ -5,29 +5,29 @@
 #include "bench/report/page_sections.hpp"
 #include "bench/store/cell_rows.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
-Table elements_of(const Table& t) {
-    Table elements = t;
-    std::erase_if(elements.rows, [&t](const auto& row) { return std::isnan(number_of(row[t.column("extra_ns")])); });
+store::Table elements_of(const store::Table& t) {
+    store::Table elements = t;
+    std::erase_if(elements.rows, [&t](const auto& row) { return std::isnan(store::number_of(row[t.column("extra_ns")])); });
     for (auto& row : elements.rows) row[1] = row[t.column("what")];  // coloured by the element
     return elements;
 }
 
 // A scheme that was held at several rates or numbers of modes has a line for each.
-Table told_apart(Table t) {
-    for (const Rows& rows : alike(t, all_rows(t), {"problem", "series", "what"}))
-        if (alike(t, rows, {"at"}).size() > 1)
+store::Table told_apart(store::Table t) {
+    for (const store::Rows& rows : store::alike(t, store::all_rows(t), {"problem", "series", "what"}))
+        if (store::alike(t, rows, {"at"}).size() > 1)
             for (const std::size_t row : rows) t.rows[row][t.column("series")] += ", " + t.at(row, "at");
     return t;
 }
 
 // What is scaled: those with two values of x in one series.
-std::vector<std::string> scaled_in(const Table& t) {
+std::vector<std::string> scaled_in(const store::Table& t) {
     std::vector<std::string> whats;
     for (const std::string& what : distinct(t, "what")) {
-        const Table own = rows_where(t, "what", what);
+        const store::Table own = rows_where(t, "what", what);
         bool several = false;
         for (const std::string& series : distinct(own, "series"))
             several = several || distinct(rows_where(own, "series", series), "x").size() > 1;
@@ -36,9 +36,9 @@ std::vector<std::string> scaled_in(const Table& t) {
     return whats;
 }
 
-Chart scaling_chart(const Table& t, const std::vector<std::string>& whats) {
+Chart scaling_chart(const store::Table& t, const std::vector<std::string>& whats) {
     const auto problems = distinct(t, "problem");
-    const auto filling = [&](const Table& rows, const std::string& problem, const std::string& what) {
+    const auto filling = [&](const store::Table& rows, const std::string& problem, const std::string& what) {
         return Filling{problem + ": cost against " + what,
                        "median and quartiles of the time per step",
                        distinct(rows, "series"),
@@ -54,7 +54,7 @@ Chart scaling_chart(const Table& t, const std::vector<std::string>& whats) {
     c.spec = chart_of("scaling.json", filling(t, problems.front(), whats.front()), Medium::page);
     for (const std::string& problem : problems)
         for (const std::string& what : whats) {
-            const Table own = rows_where(rows_where(t, "problem", problem), "what", what);
+            const store::Table own = rows_where(rows_where(t, "problem", problem), "what", what);
             if (own.rows.empty() || c.twins.size() >= most_twins) continue;
             c.twins.push_back(
                 {twin_file("scaling-" + what, problem, problems), chart_of("scaling.json", filling(own, problem, what), Medium::print)});
@@ -62,9 +62,9 @@ Chart scaling_chart(const Table& t, const std::vector<std::string>& whats) {
     return c;
 }
 
-Chart element_chart(const Table& t) {
+Chart element_chart(const store::Table& t) {
     const auto problems = distinct(t, "problem");
-    const auto filling = [](const Table& rows, const std::string& problem) {
+    const auto filling = [](const store::Table& rows, const std::string& problem) {
         return Filling{
             problem + ": what each element adds",
             "extra time per step: median, and as far as the quartiles of both runs allow",
@@ -88,7 +88,7 @@ Chart element_chart(const Table& t) {
 Section cost_section(const Results& r) {
     Section s{"cost", "Cost"};
     if (r.scaling.rows.empty()) return s;
-    const Table scaling = told_apart(r.scaling), elements = elements_of(r.scaling);
+    const store::Table scaling = told_apart(r.scaling), elements = elements_of(r.scaling);
     if (const auto whats = scaled_in(scaling); !whats.empty()) s.charts.push_back(scaling_chart(scaling, whats));
     if (!elements.rows.empty()) s.charts.push_back(element_chart(elements));
     s.notes = {"Numbers of the clock, on the machine named at the foot of the page. Bars are quartiles: two that touch are a tie."};
@@ -96,4 +96,4 @@ Section cost_section(const Results& r) {
     return s;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

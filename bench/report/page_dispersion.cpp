@@ -4,17 +4,17 @@
 
 #include "bench/report/page_sections.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 constexpr std::size_t most_rows = 12000;
 
 std::string relative(double x, double truth) {
-    return text_of(x / truth - 1);
+    return store::text_of(x / truth - 1);
 }
 
-Table drawn_rows(const Table& t) {
-    Table rows{{"problem", "rate", "series", "mode", "frequency_hz", "own_cents", "trace_cents", "own_decay", "trace_decay"}, {}};
+store::Table drawn_rows(const store::Table& t) {
+    store::Table rows{{"problem", "rate", "series", "mode", "frequency_hz", "own_cents", "trace_cents", "own_decay", "trace_decay"}, {}};
     for (std::size_t i = 0; i < t.rows.size() && rows.rows.size() < most_rows; ++i) {
         const double decay = t.number(i, "decay_per_s");
         rows.rows.push_back({t.at(i, "problem"), t.at(i, "rate"), t.at(i, "series"), t.at(i, "mode"), t.at(i, "frequency_hz"),
@@ -24,7 +24,7 @@ Table drawn_rows(const Table& t) {
     return rows;
 }
 
-Filling filling_of(const Table& rows, const std::string& problem, const std::string& rate) {
+Filling filling_of(const store::Table& rows, const std::string& problem, const std::string& rate) {
     return {problem + ": dispersion",
             "at " + rate + " Hz; lines: the scheme's own relation, points: estimated from its trace",
             distinct(rows, "series"),
@@ -38,7 +38,7 @@ Filling filling_of(const Table& rows, const std::string& problem, const std::str
 Section dispersion_section(const Results& r) {
     Section s{"dispersion", "Dispersion"};
     if (r.dispersion.rows.empty()) return s;
-    const Table rows = drawn_rows(r.dispersion);
+    const store::Table rows = drawn_rows(r.dispersion);
     const auto problems = distinct(rows, "problem"), rates = distinct(rows, "rate");
     Chart c{"distance of each mode's pitch and decay from the true ones", "", false, problem_menu(problems), {}};
     Menu by_rate{"rate", "rate_field", {}};
@@ -47,7 +47,7 @@ Section dispersion_section(const Results& r) {
     c.menus.push_back({"of", "quantity_field", {{"\"cents\"", "pitch"}, {"\"decay\"", "decay rate"}}});
     c.spec = chart_of("dispersion.json", filling_of(rows, problems.front(), rates.front()), Medium::page);
     for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k) {
-        const Table own = rows_where(rows, "problem", problems[k]);
+        const store::Table own = rows_where(rows, "problem", problems[k]);
         c.twins.push_back({twin_file("dispersion", problems[k], problems),
                            chart_of("dispersion.json", filling_of(own, problems[k], own.at(0, "rate")), Medium::print)});
     }
@@ -62,4 +62,4 @@ Section dispersion_section(const Results& r) {
     return s;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -5,14 +5,14 @@
 
 #include "bench/report/page_sections.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::pair<std::string, std::string>>;
 
 // A logarithmic axis where all values are positive and span more than five to one; names where they are no numbers.
-void add_axis(Words& words, const Table& t, const std::string& which) {
+void add_axis(Words& words, const store::Table& t, const std::string& which) {
     double least = HUGE_VAL, most = -HUGE_VAL;
     bool numbers = true;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
@@ -31,9 +31,9 @@ struct Axes {
     bool x, y;  // of numbers
 };
 
-Json rows_json(const Table& cells, const Table& boundaries, Axes numbers) {
+Json rows_json(const store::Table& cells, const store::Table& boundaries, Axes numbers) {
     Json rows = Json::array();
-    const auto place = [](const Table& t, std::size_t i, const char* which, bool number) {
+    const auto place = [](const store::Table& t, std::size_t i, const char* which, bool number) {
         return number ? Json(t.number(i, which)) : Json(t.at(i, which));
     };
     for (std::size_t i = 0; i < cells.rows.size(); ++i)
@@ -75,7 +75,7 @@ Json panels_of(Json chart) {  // for papers: every scheme side by side
     return chart;
 }
 
-Chart map_chart(const std::string& name, const std::vector<std::string>& names, const Table& cells, const Table& boundaries) {
+Chart map_chart(const std::string& name, const std::vector<std::string>& names, const store::Table& cells, const store::Table& boundaries) {
     const auto series = distinct(cells, "series");
     Filling f{name, cells.at(0, "scene"), {}, {}, {}, {{"series_field", json_text(series.front())}}};
     add_axis(f.words, cells, "x");
@@ -104,4 +104,4 @@ Section map_section(const Results& r) {
     return s;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -6,7 +6,7 @@
 #include "bench/report/page.hpp"
 #include "bench/report/results.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 Section work_precision_section(const Results&);
 Section dispersion_section(const Results&);
@@ -23,8 +23,8 @@ std::vector<Menu> problem_menu(const std::vector<std::string>& problems);
 constexpr std::size_t most_twins = 12;
 // "dispersion.svg", with the problem in the name where there are several.
 std::string twin_file(const std::string& chart, const std::string& problem, const std::vector<std::string>& problems);
-Table rows_where(const Table&, const std::string& column, const std::string& text);
-Table without_names(const Table&);                // less problem and series, which stand for columns that are there anyway
+store::Table rows_where(const store::Table&, const std::string& column, const std::string& text);
+store::Table without_names(const store::Table&);  // less problem and series, which stand for columns that are there anyway
 WorkPrecision work_precision_of(const Results&);  // of all problems
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -9,7 +9,7 @@
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/store/fresh_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 struct Kept {
     bool asked = false;
-    Levels levels;
+    suite::Levels levels;
 };
 
 Kept levels_in(const fs::path& file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return {};
     try {
-        const Json j = Json::parse(read_whole(file));
+        const Json j = Json::parse(store::read_whole(file));
         const Json &l = j.at("levels"), &measure = j.at("cell").at("measure");
         const bool asked = std::find(measure.begin(), measure.end(), "spectrogram") != measure.end();
         Kept k{asked, {l.at("frames"), l.at("rows"), l.at("start"), l.at("hop"), l.at("row_hz"), l.at("tenths_of_db")}};
@@ -38,7 +38,7 @@ Kept levels_in(const fs::path& file) {
 
 Section spectrogram_section(const Results& r) {
     Section s{"spectrograms", "Spectrograms"};
-    const Table& t = r.cells;
+    const store::Table& t = r.cells;
     std::vector<Panel> panels;
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
@@ -70,7 +70,7 @@ Section picture_section(const Results& r, const std::vector<std::string>& own) {
     std::size_t size = 0;
     std::string left_out;
     for (const fs::path& file : files) {
-        std::string svg = read_whole(file);
+        std::string svg = store::read_whole(file);
         if (size + svg.size() > pictures_limit) {
             left_out += " " + file.filename().string();
             continue;
@@ -82,4 +82,4 @@ Section picture_section(const Results& r, const std::vector<std::string>& own) {
     return s;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace jvari {
+namespace jvari::bench::report {
 
 const char* page_text(const char* name) {
     for (const PageText& t : page_texts())
@@ -12,4 +12,4 @@ const char* page_text(const char* name) {
     throw std::logic_error(std::string("no text of the page is called ") + name);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace jvari {
+namespace jvari::bench::report {
 
 struct PageText {
     const char *name, *text;  // "page.html", what it holds
@@ -12,4 +12,4 @@ std::span<const PageText> page_texts();
 
 const char* page_text(const char* name);  // throws std::logic_error where there is no such file
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -10,7 +10,7 @@
 #include "bench/store/console.hpp"
 #include "bench/store/sound.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -23,15 +23,15 @@ constexpr std::size_t most_heard = 120;
 struct Track {
     std::size_t row;
     std::string problem, name, detail, file, reference_file;  // name: of the scheme
-    Sound sound;
+    store::Sound sound;
     int place;  // in the order in which they are taken: references, highest rates, lowest rates, the rest
 };
 
-bool is_reference(const Table& t, std::size_t i) {
+bool is_reference(const store::Table& t, std::size_t i) {
     return t.at(i, "scheme") == "reference";
 }
 
-int place_of(const Table& t, std::size_t i) {
+int place_of(const store::Table& t, std::size_t i) {
     if (is_reference(t, i)) return 0;
     double lowest = HUGE_VAL, highest = 0;
     for (std::size_t k = 0; k < t.rows.size(); ++k)
@@ -55,7 +55,7 @@ std::string reference_name(const Results& r, const std::string& problem) {
 }
 
 std::vector<Track> tracks_of(const Results& r, bool several_problems) {
-    const Table& t = r.sounds;
+    const store::Table& t = r.sounds;
     std::vector<Track> tracks;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         const double rate = t.number(i, "rate");
@@ -64,20 +64,21 @@ std::vector<Track> tracks_of(const Results& r, bool several_problems) {
         if (several_problems) detail += (detail.empty() ? "" : ", ") + t.at(i, "problem");
         const std::string& file = t.at(i, "file");
         if (const std::filesystem::path path = file; path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
-            throw UsageError(fmt::format("{}: found the file {}, expected one below the folder", (r.folder / "sounds.csv").string(), file));
+            throw store::UsageError(
+                fmt::format("{}: found the file {}, expected one below the folder", (r.folder / "sounds.csv").string(), file));
         tracks.push_back({i, t.at(i, "problem"), name, detail, file, t.at(i, "reference_file"),
-                          read_wav(r.folder / file, t.number(i, "peak")), place_of(t, i)});
+                          store::read_wav(r.folder / file, t.number(i, "peak")), place_of(t, i)});
     }
     std::stable_sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) { return a.place < b.place; });
     return tracks;
 }
 
-Json beginning_of(const Sound& s) {
+Json beginning_of(const store::Sound& s) {
     const auto count = std::min(s.samples.size(), static_cast<std::size_t>(beginning * s.rate) + 1);
     return std::vector<int>(s.samples.begin(), s.samples.begin() + static_cast<long>(count));
 }
 
-void add_outline(Json& row, const Sound& s) {
+void add_outline(Json& row, const store::Sound& s) {
     const std::size_t size = s.samples.size(), count = std::min(size, stretches);
     Json low = Json::array(), high = Json::array();
     for (std::size_t k = 0; k < count; ++k) {
@@ -101,7 +102,7 @@ struct Waveforms {
     double longest = 0;  // [s]
 };
 
-Waveforms waveforms_of(const Table& t, std::vector<Track> tracks, std::size_t most) {
+Waveforms waveforms_of(const store::Table& t, std::vector<Track> tracks, std::size_t most) {
     Waveforms w;
     if (tracks.size() > most) tracks.erase(tracks.begin() + static_cast<long>(most), tracks.end());
     std::sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) { return a.row < b.row; });
@@ -136,12 +137,12 @@ Filling filling_of(const Waveforms& w, const std::string& title, const std::stri
 
 void add_sounds(Section& s, const std::vector<Track>& tracks) {
     double level = 1;
-    for (const Track& t : tracks) level = std::min(level, loudest_level(t.sound));
+    for (const Track& t : tracks) level = std::min(level, store::loudest_level(t.sound));
     std::size_t size = 0, left_out = 0;
     bool shortened = false;
     std::vector<std::pair<std::size_t, Heard>> heard;
     for (const Track& t : tracks) {
-        std::string wav = wav_of(levelled(t.sound, level, longest_heard));
+        std::string wav = store::wav_of(store::levelled(t.sound, level, longest_heard));
         if (size + wav.size() * 4 / 3 > sounds_limit || heard.size() >= most_heard) {
             ++left_out;
             continue;
@@ -171,7 +172,7 @@ Section waveform_section(const Results& r) {
         const std::string first = w.sounds.choices.front().first;
         Chart c{"a scheme's trace over its reference's", chart_of("waveforms.json", filling_of(w, r.name, first), Medium::page)};
         c.menus = {w.sounds, {"show", "until_field", {{"0.05", "first 50 ms"}, {"0.02", "first 20 ms"}, {"0.005", "first 5 ms"}}}};
-        if (w.longest > beginning) c.menus[1].choices.emplace_back(text_of(w.longest), fmt::format("whole, {:.3g} s", w.longest));
+        if (w.longest > beginning) c.menus[1].choices.emplace_back(store::text_of(w.longest), fmt::format("whole, {:.3g} s", w.longest));
         const auto shown = std::find_if(tracks.begin(), tracks.end(), [&](const Track& t) { return json_text(t.file) == first; });
         std::vector<Track> pair{*shown};
         for (const Track& t : tracks)
@@ -190,4 +191,4 @@ Section waveform_section(const Results& r) {
     return s;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -11,16 +11,16 @@
 #include "bench/report/page_sections.hpp"
 #include "schemes/facts.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 constexpr std::size_t most_cells_with_taps = 600;  // beyond, the headline errors alone can be chosen: the page stays small
 
 // What the reference is certain to. It goes with the scene and the modes: the largest stands.
-double certificate_of(const Table& t, const std::string& problem, const std::string& error) {
+double certificate_of(const store::Table& t, const std::string& problem, const std::string& error) {
     double largest = std::nan("");
     for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (problem_of(t, i) == problem) largest = std::fmax(largest, bound_of(t, i, error).certificate);
+        if (problem_of(t, i) == problem) largest = std::fmax(largest, compare::bound_of(t, i, error).certificate);
     return largest;
 }
 
@@ -43,8 +43,8 @@ std::vector<std::string> taps_of(const Results& r) {
     return taps;
 }
 
-std::string goal_text(const Table& cheapest, std::size_t row) {
-    std::string text = goal_name(cheapest, row) + ": " + cheapest.at(row, "scheme");
+std::string goal_text(const store::Table& cheapest, std::size_t row) {
+    std::string text = compare::goal_name(cheapest, row) + ": " + cheapest.at(row, "scheme");
     if (!cheapest.at(row, "options").empty()) text += " " + cheapest.at(row, "options");
     text += fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
     std::istringstream ties(cheapest.at(row, "ties"));
@@ -56,14 +56,14 @@ std::string goal_text(const Table& cheapest, std::size_t row) {
 std::vector<Goal> goals_of(const Results& r) {
     std::vector<Goal> goals;
     for (const std::string& problem : distinct(r.cells, "problem")) {
-        const Table own = rows_where(r.cells, "problem", problem), cheapest = cheapest_of(without_names(own), r.name);
+        const store::Table own = rows_where(r.cells, "problem", problem), cheapest = compare::cheapest_of(without_names(own), r.name);
         for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
             const std::string& error = cheapest.at(i, "measure");
             const double most = cheapest.number(i, "target");
             bool missed = false;
             for (std::size_t k = 0; k < own.rows.size(); ++k)
-                missed =
-                    missed || (own.at(k, "status") == "ok" && std::isfinite(own.number(k, error)) && bound_of(own, k, error).most() > most);
+                missed = missed || (own.at(k, "status") == "ok" && std::isfinite(own.number(k, error)) &&
+                                    compare::bound_of(own, k, error).most() > most);
             if (missed && !cheapest.at(i, "scheme").empty()) goals.push_back({problem, error, most, goal_text(cheapest, i)});
         }
     }
@@ -76,7 +76,7 @@ Menu axis_menu(const char* label, const char* signal, const std::vector<Axis>& a
     return m;
 }
 
-bool any_finite(const Table& t, const std::string& column) {
+bool any_finite(const store::Table& t, const std::string& column) {
     for (std::size_t i = 0; i < t.rows.size(); ++i)
         if (std::isfinite(t.number(i, column))) return true;
     return false;
@@ -88,7 +88,7 @@ WorkPrecision work_precision_of(const Results& r) {
     w.cells = r.cells;
     w.title = r.name + ": error and cost";
     w.subtitle = r.floors.empty() ? r.source : r.about.substr(0, r.about.rfind(';'));
-    w.errors = error_axes(r.cells, taps_of(r), headline_error(r.cells, all_rows(r.cells)));
+    w.errors = error_axes(r.cells, taps_of(r), compare::headline_error(r.cells, store::all_rows(r.cells)));
     for (const Axis& a : cost_axes())
         if (any_finite(r.cells, a.column)) w.costs.push_back(a);
     for (const std::string& problem : distinct(r.cells, "problem"))
@@ -119,7 +119,7 @@ Section work_precision_section(const Results& r) {
     const std::string title = w.title;
     for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k) {
         w.cells = rows_where(r.cells, "problem", problems[k]);
-        w.errors = error_axes(w.cells, {""}, headline_error(w.cells, all_rows(w.cells)));
+        w.errors = error_axes(w.cells, {""}, compare::headline_error(w.cells, store::all_rows(w.cells)));
         if (problems.size() > 1) w.title = problems[k] + ": error and cost";
         if (!w.errors.empty()) c.twins.push_back({twin_file("work_precision", problems[k], problems), work_precision_spec(w)});
     }
@@ -157,11 +157,12 @@ Section cell_section(const Results& r) {
     for (const std::string& name : s.table.columns) {
         if (!name.starts_with("error_")) continue;
         for (std::size_t i = 0; i < s.table.rows.size(); ++i) {
-            const Bound b = bound_of(r.cells, i, name);
-            if (b.says() == Bound::Says::at_most || b.says() == Bound::Says::unknown) s.shown.push_back({i, name, error_text(b, "{:.2e}")});
+            const compare::Bound b = compare::bound_of(r.cells, i, name);
+            if (b.says() == compare::Bound::Says::at_most || b.says() == compare::Bound::Says::unknown)
+                s.shown.push_back({i, name, compare::error_text(b, "{:.2e}")});
         }
     }
     return s;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

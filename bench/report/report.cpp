@@ -6,7 +6,7 @@
 #include "bench/report/vega.hpp"
 #include "bench/store/fresh_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace fs = std::filesystem;
 
@@ -21,20 +21,20 @@ std::string twin_file(const std::string& chart, const std::string& problem, cons
     return chart + (problems.size() > 1 ? "-" + file_part(problem, problems) : "") + ".svg";
 }
 
-Table rows_where(const Table& t, const std::string& column, const std::string& text) {
-    Table rows{t.columns, {}};
+store::Table rows_where(const store::Table& t, const std::string& column, const std::string& text) {
+    store::Table rows{t.columns, {}};
     for (std::size_t i = 0; i < t.rows.size(); ++i)
         if (t.at(i, column) == text) rows.rows.push_back(t.rows[i]);
     return rows;
 }
 
-Table without_names(const Table& t) {
+store::Table without_names(const store::Table& t) {
     return t.only({t.columns.begin() + 2, t.columns.end()});
 }
 
-std::vector<std::string> write_report(const fs::path& folder, const Console& console) {
+std::vector<std::string> write_report(const fs::path& folder, const store::Console& console) {
     const Results results = read_results(folder);
-    must_be_writable(folder / "report.html");
+    store::must_be_writable(folder / "report.html");
     Page page;
     page.title = results.name;
     page.about = results.source + (results.source.empty() ? "" : " \u2014 ") + results.about;
@@ -55,15 +55,15 @@ std::vector<std::string> write_report(const fs::path& folder, const Console& con
                 if (!vega.missing.empty()) continue;
                 std::string why;
                 const auto svg = svg_of(vega, t.spec, why);
-                if (svg) write_fresh(folder / t.file, *svg);
+                if (svg) store::write_fresh(folder / t.file, *svg);
                 else console.note(t.file + ": " + why);
                 if (svg) written.push_back(t.file);
             }
     page.sections.push_back(picture_section(results, own));
     page.sections.push_back(cell_section(results));
-    write_fresh(folder / "report.html", fitting_page_of(std::move(page)));
+    store::write_fresh(folder / "report.html", fitting_page_of(std::move(page)));
     written.emplace_back("report.html");
     return written;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -7,10 +7,10 @@
 
 #include "bench/store/console.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 // Returns the names of the files written. Without node or its packages the page comes with tables and sounds alone, the pictures not at
 // all, and a note says what is missing. Throws UsageError where the folder does not hold results or they cannot be read.
-std::vector<std::string> write_report(const std::filesystem::path& folder, const Console&);
+std::vector<std::string> write_report(const std::filesystem::path& folder, const store::Console&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

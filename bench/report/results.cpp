@@ -14,7 +14,7 @@
 #include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace fs = std::filesystem;
 
@@ -26,27 +26,27 @@ std::string as_utf8(const std::string& bytes) {  // what is none becomes U+FFFD
     return Json::parse(Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-Table read_table(const fs::path& path) {
+store::Table read_table(const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return {};
     try {
-        return read_csv(as_utf8(read_whole(path)));
-    } catch (const UsageError&) {
+        return store::read_csv(as_utf8(store::read_whole(path)));
+    } catch (const store::UsageError&) {
         throw;
     } catch (const std::runtime_error& e) {
-        throw UsageError(fmt::format("{}: {}", path.string(), e.what()));
+        throw store::UsageError(fmt::format("{}: {}", path.string(), e.what()));
     }
 }
 
-std::string problem_of(const Table& t, std::size_t row, const std::vector<std::string>& keys, const std::string& scene) {
+std::string problem_of(const store::Table& t, std::size_t row, const std::vector<std::string>& keys, const std::string& scene) {
     std::string problem = t.column("scene") < 0 ? scene : t.at(row, "scene");
     for (const std::string& key : keys)
         if (key != "map" && !t.at(row, key).empty()) problem += fmt::format(", {} = {}", key, t.at(row, key));
     return problem;
 }
 
-void name_rows(Table& t, const std::string& scene) {
-    const auto keys = swept_keys(t);
+void name_rows(store::Table& t, const std::string& scene) {
+    const auto keys = store::swept_keys(t);
     std::vector<std::string> problems, names;
     std::map<std::string, std::set<std::string>> modes;  // of a scheme on a problem at a rate
     const auto place = [&](std::size_t i) { return problems[i] + "|" + names[i] + "|" + t.at(i, "rate"); };
@@ -68,9 +68,9 @@ void name_rows(Table& t, const std::string& scene) {
 
 void read_manifest(Results& r) {
     const fs::path path = r.folder / "manifest.json";
-    r.manifest = read_whole(path);
+    r.manifest = store::read_whole(path);
     try {
-        refuse_deep(r.manifest);
+        store::refuse_deep(r.manifest);
         const Json m = Json::parse(r.manifest);
         r.about = m.value("date", "");
         if (!m.contains("scene")) {  // of a suite
@@ -88,7 +88,7 @@ void read_manifest(Results& r) {
         for (const auto& [name, value] : m.at("noise_floor").items())
             if (value.is_number()) r.floors.emplace_back(name, value.get<double>());
     } catch (const std::exception& e) {  // Json::exception, what refuse_deep() throws
-        throw UsageError(fmt::format("{}: {}", path.string(), e.what()));
+        throw store::UsageError(fmt::format("{}: {}", path.string(), e.what()));
     }
 }
 }  // namespace
@@ -98,15 +98,15 @@ Results read_results(const fs::path& folder) {
     r.folder = folder;
     std::error_code error;
     if (!fs::is_regular_file(folder / "cells.csv", error) && !fs::is_regular_file(folder / "maps.csv", error))
-        throw UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
+        throw store::UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
     read_manifest(r);
-    const std::pair<const char*, Table*> files[] = {{"cells.csv", &r.cells},
-                                                    {"dispersion.csv", &r.dispersion},
-                                                    {"convergence.csv", &r.convergence},
-                                                    {"scaling.csv", &r.scaling},
-                                                    {"maps.csv", &r.maps},
-                                                    {"boundaries.csv", &r.boundaries},
-                                                    {"sounds.csv", &r.sounds}};
+    const std::pair<const char*, store::Table*> files[] = {{"cells.csv", &r.cells},
+                                                           {"dispersion.csv", &r.dispersion},
+                                                           {"convergence.csv", &r.convergence},
+                                                           {"scaling.csv", &r.scaling},
+                                                           {"maps.csv", &r.maps},
+                                                           {"boundaries.csv", &r.boundaries},
+                                                           {"sounds.csv", &r.sounds}};
     for (const auto& [name, table] : files) {
         *table = read_table(folder / name);
         if (!table->columns.empty()) name_rows(*table, r.name);
@@ -114,7 +114,7 @@ Results read_results(const fs::path& folder) {
     return r;
 }
 
-std::vector<std::string> distinct(const Table& t, const std::string& column) {
+std::vector<std::string> distinct(const store::Table& t, const std::string& column) {
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < t.rows.size(); ++i)
         if (std::find(texts.begin(), texts.end(), t.at(i, column)) == texts.end()) texts.push_back(t.at(i, column));
@@ -139,7 +139,7 @@ std::string file_part(const std::string& text, const std::vector<std::string>& a
     const std::string part = file_part(text);
     const auto meets = [&](const std::string& other) { return other != text && file_part(other) == part; };
     if (std::none_of(all.begin(), all.end(), meets)) return part;
-    return part.substr(0, longest_part - 17) + "-" + hash_of(text).substr(0, 16);
+    return part.substr(0, longest_part - 17) + "-" + store::hash_of(text).substr(0, 16);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -8,7 +8,7 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 struct Results {
     std::filesystem::path folder;
@@ -17,7 +17,7 @@ struct Results {
     std::vector<std::string> taps;                       // of compare's scene
     std::vector<std::pair<std::string, double>> floors;  // noise floor of an error column, where the manifest holds them
     // Empty where the file is absent. Each row has the columns `problem` and `series` in front (below).
-    Table cells, dispersion, convergence, scaling, maps, boundaries, sounds;
+    store::Table cells, dispersion, convergence, scaling, maps, boundaries, sounds;
 };
 
 // Throws UsageError where there is no manifest.json, neither cells.csv nor maps.csv, or one of the files cannot be read.
@@ -25,8 +25,8 @@ Results read_results(const std::filesystem::path&);
 
 // A problem is a scene at one point of what is swept; runs of different problems are not compared. A series is a scheme with its options,
 // and with its modes where the table has it with several at one rate.
-std::vector<std::string> distinct(const Table&, const std::string& column);  // its texts, in the order in which they first come up
+std::vector<std::string> distinct(const store::Table&, const std::string& column);  // its texts, in the order in which they first come up
 // `text` fit to stand in a file's name, which is that of no other of `all`.
 std::string file_part(const std::string& text, const std::vector<std::string>& all);
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

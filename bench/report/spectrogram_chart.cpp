@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -25,8 +25,8 @@ struct Tile {
 };
 
 // The strongest of the merged cells, in steps of level; -range for background.
-int stepped(const Levels& l, int frame, int row, const Steps& s, int top) {
-    int strongest = silent_level;
+int stepped(const suite::Levels& l, int frame, int row, const Steps& s, int top) {
+    int strongest = suite::silent_level;
     for (int m = frame; m < std::min(frame + s.frames, l.frames); ++m)
         for (int r = row; r < std::min(row + s.rows, l.rows); ++r)
             strongest = std::max(strongest, l.level[static_cast<std::size_t>(m) * l.rows + r]);
@@ -37,7 +37,7 @@ int stepped(const Levels& l, int frame, int row, const Steps& s, int top) {
 std::vector<Tile> tiles_of(const std::vector<Panel>& panels, int top, const Steps& s) {
     std::vector<Tile> tiles;
     for (std::size_t p = 0; p < panels.size(); ++p) {
-        const Levels& l = panels[p].levels;
+        const suite::Levels& l = panels[p].levels;
         for (int row = 0; row < l.rows; row += s.rows) {
             int before = -range;
             for (int m = 0; m < l.frames; m += s.frames) {
@@ -101,12 +101,12 @@ double rounded(double x) {
 }  // namespace
 
 std::string spectrogram_spec(const std::string& title, const std::string& subtitle, std::vector<Panel> panels, int most) {
-    int top = silent_level;
+    int top = suite::silent_level;
     double first = HUGE_VAL, last = 0, highest = 1;
     int frames = 1;
     std::vector<std::string> across, down;
     for (const Panel& p : panels) {
-        const Levels& l = p.levels;
+        const suite::Levels& l = p.levels;
         add_once(across, p.across);
         add_once(down, p.down);
         for (int level : l.level) top = std::max(top, level);
@@ -153,4 +153,4 @@ std::string spectrogram_spec(const std::string& title, const std::string& subtit
         .dump();
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -6,15 +6,15 @@
 
 #include "bench/suite/spectrogram_levels.hpp"
 
-namespace jvari {
+namespace jvari::bench::report {
 
 struct Panel {
     std::string across, down;  // names of its column and of its row
     std::string status;        // stands where there is no spectrogram: "refused"
-    Levels levels;
+    suite::Levels levels;
 };
 // Panels on a grid, columns and rows in the order in which they first come up. At most `most` rectangles: equal neighbours in time are one,
 // what lies 80 dB below the maximum is background, and the steps of level, time and frequency grow until they fit.
 std::string spectrogram_spec(const std::string& title, const std::string& subtitle, std::vector<Panel>, int most = 14000);
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

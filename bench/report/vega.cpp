@@ -21,7 +21,7 @@
 
 extern char** environ;
 
-namespace jvari {
+namespace jvari::bench::report {
 
 namespace fs = std::filesystem;
 
@@ -55,7 +55,7 @@ private:
         std::error_code ignored;
         if (!path.empty()) fs::remove_all(path, ignored);
     }
-    const WhenInterrupted removed_{[this] { remove(); }};
+    const store::WhenInterrupted removed_{[this] { remove(); }};
 };
 
 // Runs a program found on the PATH, its output into a file; returns its exit code, or -errno where it cannot be started.
@@ -134,4 +134,4 @@ std::optional<std::string> svg_of(const Vega& v, const std::string& spec, std::s
     return std::nullopt;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace jvari {
+namespace jvari::bench::report {
 
 struct Vega {
     std::string folder;   // node_modules
@@ -22,4 +22,4 @@ std::optional<std::string> svg_of(const Vega&, const std::string& spec, std::str
 // Text that stands inside <script> without ending it: within a string or a regular expression "<\/script" says the same as "</script".
 std::string inside_script(std::string);
 
-}  // namespace jvari
+}  // namespace jvari::bench::report

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace {
 constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -41,4 +41,4 @@ std::string bytes_of_base64(std::string_view text) {
     return bytes;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

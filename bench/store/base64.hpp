@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 std::string base64(std::string_view bytes);
 std::string bytes_of_base64(std::string_view text);  // throws std::runtime_error where the text is none
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

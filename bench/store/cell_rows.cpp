@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 std::vector<std::string> naming_columns(const Table& cells) {
     std::vector<std::string> names;
@@ -54,4 +54,4 @@ Rows all_rows(const Table& t) {
     return rows;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -6,7 +6,7 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 using Rows = std::vector<std::size_t>;  // of one table, in the order in which they stand
 
@@ -24,4 +24,4 @@ std::vector<Rows> differing_in_rate(const Table& cells, const Rows&, const std::
 
 Rows all_rows(const Table&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace {
 constexpr std::size_t digits = 32;
@@ -56,4 +56,4 @@ void refuse_deep(const std::string& json) {
     }
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 std::string hash_of(const std::string&);  // 32 hexadecimal digits
 
@@ -19,4 +19,4 @@ std::string unsealed(const std::string& file);
 // end.
 void refuse_deep(const std::string& json);
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -11,7 +11,7 @@
 
 #include "scenes/wording.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace {
 void clear_line() {
@@ -77,4 +77,4 @@ std::string unknown(const std::string& kind, const std::string& word, const std:
                             : "there is " + list_of(known));
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

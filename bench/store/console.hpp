@@ -9,7 +9,7 @@
 
 #include "bench/store/interruption.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 enum Exit { done = 0, bad_usage = 2, refused = 3, run_failed = 4 };
 
@@ -60,4 +60,4 @@ private:
 // "unknown scheme "modal_two": did you mean modal_two_point?", or what there is.
 std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -15,7 +15,7 @@
 
 #include "bench/store/console.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace fs = std::filesystem;
 
@@ -108,4 +108,4 @@ std::string read_whole(const fs::path& path) {
     return content.str();
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

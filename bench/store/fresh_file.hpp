@@ -6,7 +6,7 @@
 
 #include "bench/store/interruption.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 class FreshFile {
 public:
@@ -33,4 +33,4 @@ void must_be_writable(const std::filesystem::path&);
 // an hour (a process of another machine or container is not seen from here).
 void sweep_parts(const std::filesystem::path& folder);
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

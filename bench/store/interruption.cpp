@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace {
 struct Heeded {
@@ -75,4 +75,4 @@ WhenInterrupted::~WhenInterrupted() {
     heeded().last_words.erase(place_);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

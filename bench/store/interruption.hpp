@@ -5,7 +5,7 @@
 #include <functional>
 #include <list>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 // Once, before there is any other thread: blocks these signals in this thread and so in all to come, and waits for them in one of its own.
 // A signal that the caller has set to be ignored (nohup, a script's job in the background) stays ignored.
@@ -33,4 +33,4 @@ private:
     std::list<std::function<void()>>::iterator place_;
 };
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -12,7 +12,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "schemes/registry.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace {
 std::string cpu_name() {
@@ -60,4 +60,4 @@ std::string now_utc() {
     return text;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 struct Machine {
     std::string version, commit;         // commit: git describe when built, "unknown" outside git
@@ -21,4 +21,4 @@ std::string program_identity(const std::vector<std::string>& plugins, const Mach
 std::string made_by();
 std::string now_utc();  // "2016-05-04T12:00:00Z"
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -6,7 +6,7 @@
 
 #include "schemes/scheme.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 inline Outcome outcome_named(const std::string& name) {  // throws std::runtime_error where there is none
     for (const Outcome o : {Outcome::ok, Outcome::diverged, Outcome::not_converged})
@@ -14,4 +14,4 @@ inline Outcome outcome_named(const std::string& name) {  // throws std::runtime_
     throw std::runtime_error("unknown status " + name);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

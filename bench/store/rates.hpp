@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 // rate = n x of, n = 1, 2, ...
 inline bool whole_multiple(double rate, double of) {
@@ -10,4 +10,4 @@ inline bool whole_multiple(double rate, double of) {
     return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

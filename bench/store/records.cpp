@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 std::string text_of(double x) {
     if (std::isnan(x)) return "";
@@ -124,4 +124,4 @@ Table read_csv(const std::string& text) {
     return table;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 // A number as the shortest text that reads back as itself; "" for NaN, "inf" for an infinity.
 std::string text_of(double);
@@ -30,4 +30,4 @@ std::string rows_json(const Table& cells);     // JSON: one object per row, numb
 std::string csv(const Table&);
 Table read_csv(const std::string& text);  // throws std::runtime_error with the line where a row has too few or too many fields
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -2,7 +2,7 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -32,4 +32,4 @@ std::string rows_json(const Table& cells) {
     return json_of(cells).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 void side_by_side(const std::vector<double>& sizes, int jobs, const Console& console, const std::string& label,
                   const std::function<void(std::size_t, Done&)>& work) {
@@ -56,4 +56,4 @@ void side_by_side(const std::vector<double>& sizes, int jobs, const Console& con
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

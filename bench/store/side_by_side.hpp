@@ -8,7 +8,7 @@
 
 #include "bench/store/console.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 using Done = std::atomic<double>;  // how much of a thing is done, from 0 to 1
 
@@ -18,4 +18,4 @@ using Done = std::atomic<double>;  // how much of a thing is done, from 0 to 1
 void side_by_side(const std::vector<double>& sizes, int jobs, const Console&, const std::string& label,
                   const std::function<void(std::size_t i, Done&)>& work);
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -12,7 +12,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace fs = std::filesystem;
 
@@ -139,4 +139,4 @@ void write_sounds(const fs::path& folder, const std::vector<std::string>& who, c
     write_fresh(folder / "sounds.csv", csv(t));
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 struct Sound {
     double rate = 0;                    // [Hz]
@@ -36,4 +36,4 @@ struct NamedSound {
 // sounds/<file>.wav and sounds.csv: who, tap, quantity, sample_rate, peak, file, reference_file.
 void write_sounds(const std::filesystem::path& folder, const std::vector<std::string>& who, const std::vector<NamedSound>&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

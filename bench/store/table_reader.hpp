@@ -12,7 +12,7 @@
 #include "scenes/scene_file.hpp"
 #include "scenes/wording.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 class SuiteReader {
 public:
@@ -78,4 +78,4 @@ private:
     const Document& document_;
 };
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -16,7 +16,7 @@
 #include "bench/store/records.hpp"
 #include "bench/store/trace_hdf5.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace {
 constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
@@ -136,4 +136,4 @@ std::string write(const TraceFile& file, const Scene& scene, const Trace& trace)
     return said;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

@@ -9,7 +9,7 @@
 #include "scenes/scene.hpp"
 #include "schemes/trace.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 struct TraceFile {
     std::filesystem::path path;
@@ -25,4 +25,4 @@ std::string write(const TraceFile&, const Scene&, const Trace&);
 
 std::vector<std::string> trace_columns(const Trace&);  // time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J]
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

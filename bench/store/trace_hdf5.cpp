@@ -9,7 +9,7 @@
 #include "bench/store/console.hpp"
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 namespace {
 constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
@@ -73,4 +73,4 @@ void write_hdf5(const std::filesystem::path& path, const std::vector<std::pair<s
     file.close();
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

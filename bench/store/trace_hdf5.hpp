@@ -10,10 +10,10 @@
 #include "scenes/scene.hpp"
 #include "schemes/trace.hpp"
 
-namespace jvari {
+namespace jvari::bench::store {
 
 // Throws std::runtime_error.
 void write_hdf5(const std::filesystem::path&, const std::vector<std::pair<std::string, std::string>>& attributes, const Scene&,
                 const Trace&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

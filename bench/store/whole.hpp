@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-namespace jvari {
+namespace jvari::bench::store {
 
 // Throws std::runtime_error where it is no whole number that an Int can hold.
 template <class Int>
@@ -19,4 +19,4 @@ Int whole(const nlohmann::ordered_json& j) {
     throw std::runtime_error("found no whole number where one was expected");
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::store

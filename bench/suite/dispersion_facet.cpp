@@ -11,7 +11,7 @@
 #include "scenes/modes.hpp"
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace {
 constexpr double two_pi = 2 * std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
@@ -61,8 +61,8 @@ Partial strongest_near(const Heard& h, double hertz, double half_width) {
 }
 }  // namespace
 
-Table dispersion_rows(const MeasuredCell& c) {
-    Table t;
+store::Table dispersion_rows(const MeasuredCell& c) {
+    store::Table t;
     t.columns = {"mode", "frequency_hz", "own_cents", "trace_cents", "decay_per_s", "own_decay_per_s", "trace_decay_per_s", "note"};
     const String& s = c.scene.strings.front();
     const bool stepped = c.scheme.clock == Clock::stepped;
@@ -83,8 +83,9 @@ Table dispersion_rows(const MeasuredCell& c) {
         Partial p{nan, nan, nan, nan};
         if (h.note.empty()) p = strongest_near(h, known ? own_hertz : hertz, 0.4 * gap);
         if (!known && std::isnan(p.frequency) && !h.note.empty()) continue;  // nothing to say
-        t.rows.push_back({std::to_string(i + 1), text_of(hertz), text_of(cents(own_hertz, hertz)), text_of(cents(p.frequency, hertz)),
-                          text_of(modes.sigma[i]), text_of(known ? own[i].sigma : nan), text_of(p.decay),
+        t.rows.push_back({std::to_string(i + 1), store::text_of(hertz), store::text_of(cents(own_hertz, hertz)),
+                          store::text_of(cents(p.frequency, hertz)), store::text_of(modes.sigma[i]),
+                          store::text_of(known ? own[i].sigma : nan), store::text_of(p.decay),
                           !h.note.empty()           ? h.note
                           : std::isnan(p.frequency) ? "not heard"
                                                     : ""});
@@ -92,4 +93,4 @@ Table dispersion_rows(const MeasuredCell& c) {
     return t;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -4,12 +4,12 @@
 
 #include "bench/suite/row_facet.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 constexpr int dispersion_modes = 30;  // at most
 
 // Columns mode, frequency_hz, own_cents, trace_cents, decay_per_s, own_decay_per_s, trace_decay_per_s, note; an empty field is not known,
 // and `note` says why the trace says nothing. A string that a thread or a barrier touches has no modes of its own in the trace.
-Table dispersion_rows(const MeasuredCell&);
+store::Table dispersion_rows(const MeasuredCell&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -9,7 +9,7 @@
 #include "bench/store/console.hpp"
 #include "bench/suite/figure_rows.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace {
 constexpr const char* profile_tap = "profile_";
@@ -37,7 +37,7 @@ Scene with_figure_taps(Scene scene, const FigureFacets& f) {
         if (!facet) return;
         for (const std::string& tap : facet->taps)
             if (std::find(names.begin(), names.end(), tap) == names.end())
-                throw UsageError(std::string(key) + ": " + unknown("tap", tap, names));
+                throw store::UsageError(std::string(key) + ": " + store::unknown("tap", tap, names));
     };
     must_be_there(f.trace, "trace");
     must_be_there(f.extent, "extent");
@@ -55,8 +55,8 @@ Scene without_profile_taps(Scene scene) {
     return scene;
 }
 
-Table trace_rows(const MeasuredCell& m) {
-    Table t{{"tap", "window_s", "time_s", "value"}, {}};
+store::Table trace_rows(const MeasuredCell& m) {
+    store::Table t{{"tap", "window_s", "time_s", "value"}, {}};
     const TraceRows& f = *m.set.figures.trace;
     for (const std::string& tap : f.taps) {
         const auto x = column_of(m, tap);
@@ -69,8 +69,8 @@ Table trace_rows(const MeasuredCell& m) {
     return t;
 }
 
-Table extent_rows(const MeasuredCell& m) {
-    Table t{{"tap", "time_s", "low", "high"}, {}};
+store::Table extent_rows(const MeasuredCell& m) {
+    store::Table t{{"tap", "time_s", "low", "high"}, {}};
     const ExtentRows& f = *m.set.figures.extent;
     for (const std::string& tap : f.taps) {
         const auto x = column_of(m, tap);
@@ -85,8 +85,8 @@ Table extent_rows(const MeasuredCell& m) {
     return t;
 }
 
-Table profile_rows(const MeasuredCell& m) {
-    Table t{{"time_s", "position_m", "displacement_m"}, {}};
+store::Table profile_rows(const MeasuredCell& m) {
+    store::Table t{{"time_s", "position_m", "displacement_m"}, {}};
     const ProfileRows& f = *m.set.figures.profile;
     const int first = m.trace.taps() - f.positions;
     for (const double instant : f.instants) {
@@ -99,8 +99,8 @@ Table profile_rows(const MeasuredCell& m) {
     return t;
 }
 
-Table envelope_rows(const MeasuredCell& m) {
-    Table t{{"tap", "frequency_hz", "level_db"}, {}};
+store::Table envelope_rows(const MeasuredCell& m) {
+    store::Table t{{"tap", "frequency_hz", "level_db"}, {}};
     const EnvelopeRows& f = *m.set.figures.envelope;
     for (const std::string& tap : f.taps) {
         const PowerSpectrum s = power_spectrum(column_of(m, tap), m.trace.tap_rate);
@@ -114,8 +114,8 @@ Table envelope_rows(const MeasuredCell& m) {
     return t;
 }
 
-Table centroid_rows(const MeasuredCell& m) {
-    Table t{{"tap", "time_s", "centroid_hz"}, {}};
+store::Table centroid_rows(const MeasuredCell& m) {
+    store::Table t{{"tap", "time_s", "centroid_hz"}, {}};
     const CentroidRows& f = *m.set.figures.centroid;
     for (const std::string& tap : f.taps) {
         const int window = std::max(2, static_cast<int>(std::lround(f.window * m.trace.tap_rate)));
@@ -131,4 +131,4 @@ Table centroid_rows(const MeasuredCell& m) {
     return t;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

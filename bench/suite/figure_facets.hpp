@@ -17,7 +17,7 @@
 
 #include "scenes/scene.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 struct TraceRows {
     std::vector<std::string> taps;
@@ -56,4 +56,4 @@ struct FigureFacets {
 Scene with_figure_taps(Scene, const FigureFacets&);
 Scene without_profile_taps(Scene);  // what rows of errors are made for
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

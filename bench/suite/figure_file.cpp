@@ -6,13 +6,13 @@
 
 #include "bench/store/table_reader.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace {
 constexpr double any = -std::numeric_limits<double>::infinity();
 
 struct Entry {  // a value and the way to it
-    const SuiteReader* read;
+    const store::SuiteReader* read;
     const Value* value;
     std::string key;
 
@@ -35,7 +35,7 @@ struct Entry {  // a value and the way to it
     std::string word(const std::vector<std::string>& known, const char* what) const {
         const std::string w = text();
         if (std::find(known.begin(), known.end(), w) != known.end()) return w;
-        throw SceneFileError(read->place(*value) + ": " + key + ": " + unknown(what, w, known));
+        throw SceneFileError(read->place(*value) + ": " + key + ": " + store::unknown(what, w, known));
     }
     double number(double least = any) const {
         const auto* whole = std::get_if<std::int64_t>(&value->content);
@@ -167,7 +167,7 @@ Figure figure_of(const Entry& e) {
 }
 }  // namespace
 
-std::vector<Figure> figures_of(const SuiteReader& read, const Value& root) {
+std::vector<Figure> figures_of(const store::SuiteReader& read, const Value& root) {
     std::vector<Figure> all;
     const Value* figures = root.find("figure");
     if (!figures) return all;
@@ -182,7 +182,7 @@ std::vector<Figure> figures_of(const SuiteReader& read, const Value& root) {
     return all;
 }
 
-FigureFacets figure_facets_of(const SuiteReader& read, const Value& set, const std::string& within) {
+FigureFacets figure_facets_of(const store::SuiteReader& read, const Value& set, const std::string& within) {
     const Entry e{&read, &set, within};
     FigureFacets f;
     if (const auto taps = e.at("taps"))
@@ -229,4 +229,4 @@ FigureFacets figure_facets_of(const SuiteReader& read, const Value& set, const s
     return f;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -26,9 +26,13 @@
 #include "bench/suite/figure_facets.hpp"
 
 namespace jvari {
-
-class SuiteReader;
 struct Value;
+}
+namespace jvari::bench::store {
+class SuiteReader;
+}
+
+namespace jvari::bench::suite {
 
 struct FigureAxis {
     std::string column, to, title;
@@ -49,7 +53,7 @@ struct Figure {
 };
 
 // Both throw SceneFileError "suite.toml:12: figure.0.knid: ...".
-std::vector<Figure> figures_of(const SuiteReader&, const Value& root);
-FigureFacets figure_facets_of(const SuiteReader&, const Value& set, const std::string& within);
+std::vector<Figure> figures_of(const store::SuiteReader&, const Value& root);
+FigureFacets figure_facets_of(const store::SuiteReader&, const Value& set, const std::string& within);
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -3,12 +3,12 @@
 
 #include "bench/suite/row_facet.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
-Table trace_rows(const MeasuredCell&);
-Table extent_rows(const MeasuredCell&);
-Table profile_rows(const MeasuredCell&);
-Table envelope_rows(const MeasuredCell&);
-Table centroid_rows(const MeasuredCell&);
+store::Table trace_rows(const MeasuredCell&);
+store::Table extent_rows(const MeasuredCell&);
+store::Table profile_rows(const MeasuredCell&);
+store::Table envelope_rows(const MeasuredCell&);
+store::Table centroid_rows(const MeasuredCell&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -4,7 +4,7 @@
 #include "bench/suite/figure_rows.hpp"
 #include "bench/suite/sound_facet.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 std::span<const RowFacet> row_facets() {
     static constexpr RowFacet facets[] = {
@@ -19,4 +19,4 @@ std::span<const RowFacet> row_facets() {
     return facets;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

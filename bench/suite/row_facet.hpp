@@ -10,7 +10,7 @@
 #include "schemes/scheme.hpp"
 #include "schemes/trace.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 struct MeasuredCell {  // a cell whose accuracy run reached its end or its failure
     const Scene& scene;
@@ -24,10 +24,10 @@ struct MeasuredCell {  // a cell whose accuracy run reached its end or its failu
 
 struct RowFacet {
     Facet facet;
-    Table (*rows)(const MeasuredCell&);  // may come without rows; repeats bit for bit
+    store::Table (*rows)(const MeasuredCell&);  // may come without rows; repeats bit for bit
     // Lays what was gathered into the folder of the suite in another form than <facet>.csv.
-    void (*write)(const std::filesystem::path& folder, const Table& gathered) = nullptr;
+    void (*write)(const std::filesystem::path& folder, const store::Table& gathered) = nullptr;
 };
 std::span<const RowFacet> row_facets();
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

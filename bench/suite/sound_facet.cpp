@@ -12,20 +12,20 @@
 #include "bench/store/checksum.hpp"
 #include "bench/store/sound.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace {
-std::string text_of_samples(const Sound& s) {  // least significant byte first, as in a .wav
+std::string text_of_samples(const store::Sound& s) {  // least significant byte first, as in a .wav
     std::string bytes;
     for (const std::int16_t v : s.samples) {
         bytes += static_cast<char>(v & 255);
         bytes += static_cast<char>(v >> 8 & 255);
     }
-    return base64(bytes);
+    return store::base64(bytes);
 }
 
 std::vector<std::int16_t> samples_of(const std::string& text) {
-    const std::string bytes = bytes_of_base64(text);
+    const std::string bytes = store::bytes_of_base64(text);
     std::vector<std::int16_t> samples;
     for (std::size_t n = 0; n + 1 < bytes.size(); n += 2)
         samples.push_back(static_cast<std::int16_t>(static_cast<unsigned char>(bytes[n]) | static_cast<unsigned char>(bytes[n + 1]) << 8));
@@ -33,39 +33,39 @@ std::vector<std::int16_t> samples_of(const std::string& text) {
 }
 }  // namespace
 
-Table sound_rows(const MeasuredCell& c) {
-    Table t{{"tap", "quantity", "sample_rate", "peak", "samples", "reference_peak", "reference_samples"}, {}};
-    const int tap = headline_of(c.scene).nut;
+store::Table sound_rows(const MeasuredCell& c) {
+    store::Table t{{"tap", "quantity", "sample_rate", "peak", "samples", "reference_peak", "reference_samples"}, {}};
+    const int tap = compare::headline_of(c.scene).nut;
     const auto whole = static_cast<std::size_t>(c.scene.duration * c.trace.tap_rate);
     if (c.trace.column(tap).size() < whole) return t;  // it failed on its way
-    const Sound own = sound_of(c.trace.column(tap), c.trace.tap_rate);
+    const store::Sound own = store::sound_of(c.trace.column(tap), c.trace.tap_rate);
     if (own.samples.empty()) return t;
-    const Sound reference = c.reference ? sound_of(c.reference->column(tap), c.reference->tap_rate) : Sound{};
-    t.rows.push_back({c.scene.taps.at(tap).name, name_of(c.scene.taps.at(tap).quantity), text_of(own.rate), text_of(own.peak),
-                      text_of_samples(own), text_of(reference.peak), text_of_samples(reference)});
+    const store::Sound reference = c.reference ? store::sound_of(c.reference->column(tap), c.reference->tap_rate) : store::Sound{};
+    t.rows.push_back({c.scene.taps.at(tap).name, name_of(c.scene.taps.at(tap).quantity), store::text_of(own.rate), store::text_of(own.peak),
+                      text_of_samples(own), store::text_of(reference.peak), text_of_samples(reference)});
     return t;
 }
 
-void write_sound_rows(const std::filesystem::path& folder, const Table& g) {
+void write_sound_rows(const std::filesystem::path& folder, const store::Table& g) {
     const std::vector<std::string> who(g.columns.begin(), g.columns.begin() + g.column("tap"));
-    std::deque<Sound> sounds;
+    std::deque<store::Sound> sounds;
     std::map<std::string, std::string> references;  // samples, file: cells of one reference share it
-    std::vector<NamedSound> named;
+    std::vector<store::NamedSound> named;
     for (std::size_t i = 0; i < g.rows.size(); ++i) {
         const auto keep = [&](const char* peak, const char* samples) {
-            return &sounds.emplace_back(Sound{g.number(i, "sample_rate"), g.number(i, peak), samples_of(g.at(i, samples))});
+            return &sounds.emplace_back(store::Sound{g.number(i, "sample_rate"), g.number(i, peak), samples_of(g.at(i, samples))});
         };
-        NamedSound own{{g.rows[i].begin(), g.rows[i].begin() + static_cast<long>(who.size())},
-                       g.at(i, "cell"),
-                       g.at(i, "tap"),
-                       g.at(i, "quantity"),
-                       keep("peak", "samples"),
-                       ""};
+        store::NamedSound own{{g.rows[i].begin(), g.rows[i].begin() + static_cast<long>(who.size())},
+                              g.at(i, "cell"),
+                              g.at(i, "tap"),
+                              g.at(i, "quantity"),
+                              keep("peak", "samples"),
+                              ""};
         if (const std::string& truth = g.at(i, "reference_samples"); !truth.empty()) {
             std::string& file = references[truth + g.at(i, "reference_peak")];
             if (file.empty()) {
-                file = "reference-" + hash_of(truth + g.at(i, "reference_peak"));
-                NamedSound reference{own.who, file, own.tap, own.quantity, keep("reference_peak", "reference_samples"), ""};
+                file = "reference-" + store::hash_of(truth + g.at(i, "reference_peak"));
+                store::NamedSound reference{own.who, file, own.tap, own.quantity, keep("reference_peak", "reference_samples"), ""};
                 for (const char* column : {"cell", "options", "rate"})
                     if (const int k = g.column(column); k >= 0) reference.who[static_cast<std::size_t>(k)].clear();
                 reference.who[static_cast<std::size_t>(g.column("scheme"))] = "reference";
@@ -75,7 +75,7 @@ void write_sound_rows(const std::filesystem::path& folder, const Table& g) {
         }
         named.push_back(std::move(own));
     }
-    if (!named.empty()) write_sounds(folder, who, named);
+    if (!named.empty()) store::write_sounds(folder, who, named);
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

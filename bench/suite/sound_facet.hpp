@@ -3,9 +3,9 @@
 
 #include "bench/suite/row_facet.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
-Table sound_rows(const MeasuredCell&);
-void write_sound_rows(const std::filesystem::path& folder, const Table& gathered);
+store::Table sound_rows(const MeasuredCell&);
+void write_sound_rows(const std::filesystem::path& folder, const store::Table& gathered);
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -5,7 +5,7 @@
 
 #include "analysis/spectrum.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace {
 constexpr double highest_hz = 8000;
@@ -36,4 +36,4 @@ Levels levels_of(std::span<const double> signal, double rate) {
     return l;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -12,7 +12,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/table_reader.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace fs = std::filesystem;
 
@@ -23,7 +23,7 @@ constexpr std::array all_facets = {Facet::errors, Facet::cost,   Facet::spectrog
                                    Facet::trace,  Facet::extent, Facet::profile,     Facet::envelope, Facet::centroid};
 static_assert(facet_names.size() == all_facets.size());
 
-CellSet set_of(const SuiteReader& read, const Value& v, const std::string& within) {
+CellSet set_of(const store::SuiteReader& read, const Value& v, const std::string& within) {
     read.table(v, within);
     read.only(v, within + ": ",
               {"scenes",  "schemes", "rates",    "modes",        "duration", "tap_rate", "repeats", "reference", "options",  "sweep",
@@ -70,7 +70,7 @@ CellSet set_of(const SuiteReader& read, const Value& v, const std::string& withi
                 if (word == name_of(value)) return value;
                 known.emplace_back(name_of(value));
             }
-            throw SceneFileError(read.place(one) + ": " + k + ": " + unknown(what, word, known));
+            throw SceneFileError(read.place(one) + ": " + k + ": " + store::unknown(what, word, known));
         };
     };
     if (const Value* x = v.find("measure")) {
@@ -80,7 +80,7 @@ CellSet set_of(const SuiteReader& read, const Value& v, const std::string& withi
                                  ": found cost without errors, expected both: no speed without an error");
     }
     if (const Value* x = v.find("elements")) {
-        s.elements = read.several(*x, key("elements"), word_of("element", elements()));
+        s.elements = read.several(*x, key("elements"), word_of("element", compare::elements()));
         if (!s.measures(Facet::cost))
             throw SceneFileError(read.place(*x) + ": " + key("elements") +
                                  ": measure does not ask for cost, which elements are compared by");
@@ -109,13 +109,13 @@ bool CellSet::measures(Facet f) const {
 
 Suite parse_suite(std::string_view content, const std::string& file_name) {
     const Document document = parse_document(content, file_name, {});
-    const SuiteReader read(document);
+    const store::SuiteReader read(document);
     read.only(document.root, "", {"name", "source", "cells", "figure", "map"});
     Suite suite;
     suite.name = fs::path(file_name).stem().string();
     if (const Value* x = document.root.find("name")) suite.name = read.text(*x, "name");
     if (const Value* x = document.root.find("source")) suite.source = read.text(*x, "source");
-    suite.maps = maps_of(read, document.root);
+    suite.maps = map::maps_of(read, document.root);
     suite.figures = figures_of(read, document.root);
     const Value* cells = document.root.find("cells");
     if (!cells && !suite.maps.empty()) return suite;
@@ -134,9 +134,9 @@ Suite read_suite(const std::string& name) {
     const fs::path shelved = library() / (name + ".toml");
     const bool file = fs::is_regular_file(name, error);
     if (!file && (name.find('/') != std::string::npos || !fs::is_regular_file(shelved, error)))
-        throw UsageError(unknown("suite", name, library_suites()) + " (neither a file nor a suite of the library)");
+        throw store::UsageError(store::unknown("suite", name, library_suites()) + " (neither a file nor a suite of the library)");
     const std::string path = file ? name : shelved.string();
-    return parse_suite(read_whole(path), path);
+    return parse_suite(store::read_whole(path), path);
 }
 
 std::vector<std::string> library_suites() {
@@ -153,7 +153,7 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
     for (const CellSet& set : suite.sets)
         for (const std::string& scene : set.scenes)
             for (const int modes : set.modes) {
-                CompareRequest base;
+                compare::CompareRequest base;
                 base.scene = scene;
                 base.schemes = set.schemes;
                 base.rates = set.rates;
@@ -162,23 +162,25 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
                 base.tap_rate = set.tap_rate;
                 base.reference = set.reference;
                 base.repeats = set.repeats;
-                std::vector<CompareRequest> requests{base};
+                std::vector<compare::CompareRequest> requests{base};
                 const auto vary = [&requests](const std::vector<std::string>& values, const auto& apply) {
-                    std::vector<CompareRequest> more;
-                    for (const CompareRequest& r : requests)
+                    std::vector<compare::CompareRequest> more;
+                    for (const compare::CompareRequest& r : requests)
                         for (const std::string& value : values) apply(more.emplace_back(r), value);
                     requests = std::move(more);
                 };
                 for (const SweptKey& k : set.sweep)
-                    vary(k.values, [&k](CompareRequest& r, const std::string& value) { r.set.push_back(k.key + "=" + value); });
+                    vary(k.values, [&k](compare::CompareRequest& r, const std::string& value) { r.set.push_back(k.key + "=" + value); });
                 for (const VariedOption& o : set.options)
-                    vary(o.values, [&o](CompareRequest& r, const std::string& value) { r.options.push_back({o.scheme, o.name, value}); });
-                for (const CompareRequest& r : requests) {
+                    vary(o.values, [&o](compare::CompareRequest& r, const std::string& value) {
+                        r.options.push_back({o.scheme, o.name, value});
+                    });
+                for (const compare::CompareRequest& r : requests) {
                     points.push_back({&set, r});
-                    for (const Element e : set.elements) points.push_back({&set, r, e});
+                    for (const compare::Element e : set.elements) points.push_back({&set, r, e});
                 }
             }
     return points;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -28,7 +28,7 @@
 #include "bench/map/map_file.hpp"
 #include "bench/suite/figure_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 enum class Facet {
     errors,
@@ -64,7 +64,7 @@ struct CellSet {
     std::vector<VariedOption> options;
     std::vector<SweptKey> sweep;
     std::vector<Facet> measure;
-    std::vector<Element> elements;
+    std::vector<compare::Element> elements;
     std::optional<double> time_limit;  // [s]
     FigureFacets figures;
     bool measures(Facet) const;
@@ -74,7 +74,7 @@ struct Suite {
     std::string name, source;
     std::vector<CellSet> sets;
     std::vector<Figure> figures;
-    std::vector<Map> maps;
+    std::vector<map::Map> maps;
 };
 
 // A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12: cells.0.raets: unknown key; did you mean rates?".
@@ -87,9 +87,9 @@ std::vector<std::string> library_suites();
 // What compare would be asked for one scene of the set at one point of modes, options and sweep; in the order in which they stand.
 struct SuitePoint {
     const CellSet* set;
-    CompareRequest request;
-    std::optional<Element> element = {};  // that the scene is to be without
+    compare::CompareRequest request;
+    std::optional<compare::Element> element = {};  // that the scene is to be without
 };
 std::vector<SuitePoint> points_of(const Suite&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -16,7 +16,7 @@
 #include "bench/trust/certificate_library.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 Json settings_json(const Settings& s) {
     Json options = Json::array();
     for (const auto& [name, value] : s.options) options.push_back({name, value});
-    return {{"rate", text_of(s.sample_rate)}, {"tap_rate", text_of(s.tap_rate)}, {"modes", s.modes}, {"options", options}};
+    return {{"rate", store::text_of(s.sample_rate)}, {"tap_rate", store::text_of(s.tap_rate)}, {"modes", s.modes}, {"options", options}};
 }
 
 int tap_of(const CellSet& set, const Scene& scene) {
@@ -33,23 +33,23 @@ int tap_of(const CellSet& set, const Scene& scene) {
         if (set.tap.empty() || scene.taps[k].name == set.tap) return static_cast<int>(k);
         names.push_back(scene.taps[k].name);
     }
-    throw UsageError(unknown("tap", set.tap, names));
+    throw store::UsageError(store::unknown("tap", set.tap, names));
 }
 
 // What one scene of the file is; messages of compare's planner come with its name.
-Plan planned(const SuitePoint& point, const Catalogue& catalogue, PlannedPoint& into) {
-    const CompareRequest& r = point.request;
+compare::Plan planned(const SuitePoint& point, const compare::Catalogue& catalogue, PlannedPoint& into) {
+    const compare::CompareRequest& r = point.request;
     const std::string where = "scene " + r.scene + ": ";
-    into.scene = load_scene(r.scene, r.set, r.duration);
+    into.scene = compare::load_scene(r.scene, r.set, r.duration);
     into.element = point.element;
     try {
-        if (point.element) into.scene = without(*point.element, std::move(into.scene));
+        if (point.element) into.scene = compare::without(*point.element, std::move(into.scene));
         into.scene = with_figure_taps(into.scene, point.set->figures);
-        Plan plan = plan_of(r, catalogue, into.scene);
+        compare::Plan plan = compare::plan_of(r, catalogue, into.scene);
         into.tap = tap_of(*point.set, into.scene);
         return plan;
-    } catch (const UsageError& e) {
-        throw UsageError(where + e.what());
+    } catch (const store::UsageError& e) {
+        throw store::UsageError(where + e.what());
     } catch (const Refusal& e) {
         throw Refusal(where + e.what());
     }
@@ -60,29 +60,29 @@ bool makes_rows(const CellSet& set) {
 }
 }  // namespace
 
-SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vector<std::string>& plugins) {
-    const Json program = Json::parse(program_identity(plugins));
+SuitePlan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const std::vector<std::string>& plugins) {
+    const Json program = Json::parse(store::program_identity(plugins));
     SuitePlan all;
     std::set<std::string> seen;
     for (const SuitePoint& point : points_of(suite)) {
         PlannedPoint& p = all.points.emplace_back();
-        const Plan plan = planned(point, catalogue, p);
+        const compare::Plan plan = planned(point, catalogue, p);
         for (const std::string& assignment : point.request.set) {
             const auto equals = assignment.find('=');
             p.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
         }
-        if (p.element) p.swept.emplace_back("element", change_of(*p.element));
+        if (p.element) p.swept.emplace_back("element", compare::change_of(*p.element));
         p.references = plan.references;
         for (const std::string& note : plan.notes)
             if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end()) all.notes.push_back(note);
         const std::string hash = scene_hash(p.scene);
         Json references = Json::array(), measure = Json::array();
-        for (const ReferenceChoice& c : plan.references)
+        for (const compare::ReferenceChoice& c : plan.references)
             references.push_back({{"name", c.scheme->name}, {"settings", settings_json(c.settings)}});
-        p.reference_key = hash + references.dump() + text_of(point.set->time_limit.value_or(HUGE_VAL));
+        p.reference_key = hash + references.dump() + store::text_of(point.set->time_limit.value_or(HUGE_VAL));
         for (const Facet f : facets())
             if (point.set->measures(f)) measure.push_back(name_of(f));
-        for (const Cell& cell : plan.cells) {
+        for (const compare::Cell& cell : plan.cells) {
             Json identity{{"program", program},
                           {"scene", p.scene.name},
                           {"scene_hash", hash},
@@ -93,23 +93,23 @@ SuitePlan plan_of(const Suite& suite, const Catalogue& catalogue, const std::vec
             if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
             if (point.set->measures(Facet::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
             if (!point.set->figures.identity.empty()) identity["figures"] = point.set->figures.identity;
-            if (p.element == Element::probe) identity["probe"] = true;
+            if (p.element == compare::Element::probe) identity["probe"] = true;
             if (point.set->time_limit) identity["time_limit_s"] = *point.set->time_limit;
             PlannedCell planned_cell{point.set, &p, cell, identity.dump(), {}};
             if (!seen.insert(planned_cell.identity).second) continue;
-            planned_cell.id = hash_of(planned_cell.identity);
+            planned_cell.id = store::hash_of(planned_cell.identity);
             all.cells.push_back(std::move(planned_cell));
         }
     }
     return all;
 }
 
-std::vector<Rows> sets_of(const SuitePlan& plan) {
-    std::map<const CellSet*, Rows> sets;  // in the order of the file: they lie in one vector
+std::vector<store::Rows> sets_of(const SuitePlan& plan) {
+    std::map<const CellSet*, store::Rows> sets;  // in the order of the file: they lie in one vector
     for (std::size_t i = 0; i < plan.cells.size(); ++i) sets[plan.cells[i].set].push_back(i);
-    std::vector<Rows> all;
+    std::vector<store::Rows> all;
     for (auto& [set, cells] : sets) all.push_back(std::move(cells));
     return all;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -10,13 +10,13 @@
 #include "bench/store/cell_rows.hpp"
 #include "bench/suite/suite_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 struct PlannedPoint {  // one scene at one point of the sweep, and who is its reference
     Scene scene;
     std::vector<std::pair<std::string, std::string>> swept;  // key, value; the last may be "element", "-thread"
-    std::optional<Element> element;                          // that the scene is without; the probe: that is on while it is timed
-    std::vector<ReferenceChoice> references;
+    std::optional<compare::Element> element;                 // that the scene is without; the probe: that is on while it is timed
+    std::vector<compare::ReferenceChoice> references;
     std::string reference_key;  // points that share it share the reference's run and its time limit
     int tap = 0;                // of the spectrogram
 };
@@ -24,7 +24,7 @@ struct PlannedPoint {  // one scene at one point of the sweep, and who is its re
 struct PlannedCell {
     const CellSet* set;
     const PlannedPoint* point;
-    Cell cell;
+    compare::Cell cell;
     std::string identity;  // JSON: the scene's hash, the scheme, the settings, the program, what is measured
     std::string id;        // hash_of it
 };
@@ -36,8 +36,8 @@ struct SuitePlan {
 };
 
 // `plugins` are files whose contents count as part of the program. Throws UsageError, SceneFileError, BadScene, Refusal.
-SuitePlan plan_of(const Suite&, const Catalogue&, const std::vector<std::string>& plugins);
+SuitePlan plan_of(const Suite&, const compare::Catalogue&, const std::vector<std::string>& plugins);
 
-std::vector<Rows> sets_of(const SuitePlan&);  // indices of cells by the set they are of
+std::vector<store::Rows> sets_of(const SuitePlan&);  // indices of cells by the set they are of
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

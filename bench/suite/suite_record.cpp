@@ -9,32 +9,32 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/whole.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace {
 using Json = nlohmann::ordered_json;
 
-Table row_of(const PlannedCell& planned, const Cell& cell, const Errors& floor,
-             const Trust& trust) {  // compare's row of a comparison of this cell alone
-    Comparison c;
+store::Table row_of(const PlannedCell& planned, const compare::Cell& cell, const compare::Errors& floor,
+                    const trust::Trust& trust) {  // compare's row of a comparison of this cell alone
+    compare::Comparison c;
     c.scene = without_profile_taps(planned.point->scene);
-    c.headline = headline_of(c.scene);
+    c.headline = compare::headline_of(c.scene);
     c.floor = floor;
     c.trust = trust;
     if (floor.empty())
-        c.floor.assign(c.scene.taps.size(), std::vector<double>(measures().size(), std::numeric_limits<double>::quiet_NaN()));
+        c.floor.assign(c.scene.taps.size(), std::vector<double>(compare::measures().size(), std::numeric_limits<double>::quiet_NaN()));
     c.cells = {cell};
-    return cells_of(c);
+    return compare::cells_of(c);
 }
 
-void set(Table& row, const std::string& column, const std::string& value) {
+void set(store::Table& row, const std::string& column, const std::string& value) {
     if (const int k = row.column(column); k >= 0) row.rows[0][k] = value;
 }
 }  // namespace
 
-SuiteRecord record_of(const PlannedCell& planned, const Cell& cell, const Errors& floor, const Trust& trust) {
+SuiteRecord record_of(const PlannedCell& planned, const compare::Cell& cell, const compare::Errors& floor, const trust::Trust& trust) {
     SuiteRecord r;
-    Cell untimed = cell;
+    compare::Cell untimed = cell;
     untimed.wall = spread_of({});
     r.row = row_of(planned, untimed, floor, trust);
     r.ran = !cell.refused;
@@ -45,13 +45,13 @@ SuiteRecord record_of(const PlannedCell& planned, const Cell& cell, const Errors
     return r;
 }
 
-void add_clock(SuiteRecord& r, const PlannedCell& planned, const Cell& timed) {
-    Cell cell = planned.cell;
+void add_clock(SuiteRecord& r, const PlannedCell& planned, const compare::Cell& timed) {
+    compare::Cell cell = planned.cell;
     cell.wall = timed.wall;
     cell.worst_block = timed.worst_block;
     cell.summary.duration = r.duration;
     cell.summary.steps = r.steps;
-    const Table row = row_of(planned, cell, {}, {}), rest = errors_only(row);
+    const store::Table row = row_of(planned, cell, {}, {}), rest = compare::errors_only(row);
     for (std::size_t k = 0; k < row.columns.size(); ++k)
         if (rest.column(row.columns[k]) < 0) set(r.row, row.columns[k], row.rows[0][k]);
     r.timed = true;
@@ -66,14 +66,14 @@ std::string json_of(const SuiteRecord& r, const std::string& identity) {
     j["levels"] = {{"frames", l.frames}, {"rows", l.rows},     {"start", l.start},
                    {"hop", l.hop},       {"row_hz", l.row_hz}, {"tenths_of_db", l.level}};
     for (const auto& [facet, table] : r.rows) j["rows"][name_of(facet)] = {{"columns", table.columns}, {"rows", table.rows}};
-    return sealed(j.dump(-1, ' ', false, Json::error_handler_t::replace));
+    return store::sealed(j.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const std::string& identity) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
     try {
-        const Json j = Json::parse(unsealed(read_whole(path)));
+        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
         if (j.at("cell") != Json::parse(identity)) return std::nullopt;
         SuiteRecord r;
         r.row.rows.emplace_back();
@@ -86,10 +86,10 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const 
         r.timed = j.at("timed");
         r.duration = j.at("duration");
         r.seconds = j.at("seconds");
-        r.steps = whole<long>(j.at("steps"));
+        r.steps = store::whole<long>(j.at("steps"));
         const Json& l = j.at("levels");
-        r.levels = {whole<int>(l.at("frames")), whole<int>(l.at("rows")), l.at("start"), l.at("hop"), l.at("row_hz"), {}};
-        for (const Json& tenths : l.at("tenths_of_db")) r.levels.level.push_back(whole<int>(tenths));
+        r.levels = {store::whole<int>(l.at("frames")), store::whole<int>(l.at("rows")), l.at("start"), l.at("hop"), l.at("row_hz"), {}};
+        for (const Json& tenths : l.at("tenths_of_db")) r.levels.level.push_back(store::whole<int>(tenths));
         if (j.contains("rows"))
             for (const Facet facet : facets())
                 if (const auto kept = j["rows"].find(name_of(facet)); kept != j["rows"].end())
@@ -105,8 +105,8 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const 
     }
 }
 
-Table table_of(const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
-    Table t;
+store::Table table_of(const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
+    store::Table t;
     t.columns = {"cell", "scene"};
     const auto add = [&t](const std::string& name) {
         if (t.column(name) < 0) t.columns.push_back(name);
@@ -129,7 +129,7 @@ Table table_of(const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
             const auto swept = std::find_if(c.point->swept.begin(), c.point->swept.end(), [&](const auto& s) { return s.first == name; });
             row.push_back(name == "cell"                  ? c.id
                           : name == "scene"               ? c.point->scene.name
-                          : name == "options"             ? options_text(c.cell.settings.options)
+                          : name == "options"             ? store::options_text(c.cell.settings.options)
                           : name == "reference"           ? records[i].reference
                           : swept != c.point->swept.end() ? swept->second
                                                           : records[i].row.at(0, name));
@@ -138,11 +138,11 @@ Table table_of(const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
     return t;
 }
 
-Table rows_of(Facet facet, const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
-    const Table cells = table_of(plan, records);
+store::Table rows_of(Facet facet, const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
+    const store::Table cells = table_of(plan, records);
     std::vector<std::string> names(cells.columns.begin(), cells.columns.begin() + cells.column("options") + 1);
     names.insert(names.end(), {"rate", "modes"});
-    Table t = cells.only(names);
+    store::Table t = cells.only(names);
     t.rows.clear();
     for (const SuiteRecord& r : records)
         if (const auto own = r.rows.find(facet); own != r.rows.end() && own->second.columns.size() > 0) {
@@ -162,4 +162,4 @@ Table rows_of(Facet facet, const SuitePlan& plan, const std::vector<SuiteRecord>
     return t;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -12,30 +12,30 @@
 #include "bench/suite/spectrogram_levels.hpp"
 #include "bench/suite/suite_plan.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 struct SuiteRecord {
-    Table row;              // one row, the columns of compare's cells.csv
+    store::Table row;       // one row, the columns of compare's cells.csv
     std::string reference;  // name, "" where there was none
     bool ran = false;       // up to its end or to a failure: it can be timed
     bool timed = false;
     double duration = 0, seconds = 0;  // simulated, and wall time of the accuracy run [s]
     long steps = 0;
-    Levels levels;                // of the spectrogram; none where it was not asked for
-    std::map<Facet, Table> rows;  // of each row facet that was asked for
+    Levels levels;                       // of the spectrogram; none where it was not asked for
+    std::map<Facet, store::Table> rows;  // of each row facet that was asked for
 };
 
-SuiteRecord record_of(const PlannedCell&, const Cell& measured, const Errors& floor, const Trust&);
-void add_clock(SuiteRecord&, const PlannedCell&, const Cell& timed);
+SuiteRecord record_of(const PlannedCell&, const compare::Cell& measured, const compare::Errors& floor, const trust::Trust&);
+void add_clock(SuiteRecord&, const PlannedCell&, const compare::Cell& timed);
 
 std::string json_of(const SuiteRecord&, const std::string& identity);
 // Nothing where there is no such file, it is of another cell, its checksum is not its own, or it cannot be read.
 std::optional<SuiteRecord> read_record(const std::filesystem::path&, const std::string& identity);
 
 // One row per cell in the order of the plan: which cell, scene, swept keys and options, then the columns of compare, the front aside.
-Table table_of(const SuitePlan&, const std::vector<SuiteRecord>&);
+store::Table table_of(const SuitePlan&, const std::vector<SuiteRecord>&);
 
 // The rows of one facet over all cells, each behind what names its cell: cell, scene, swept keys, scheme, options, rate, modes.
-Table rows_of(Facet, const SuitePlan&, const std::vector<SuiteRecord>&);
+store::Table rows_of(Facet, const SuitePlan&, const std::vector<SuiteRecord>&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -13,21 +13,22 @@
 #include "bench/store/side_by_side.hpp"
 #include "bench/suite/row_facet.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 namespace {
 struct Truth {  // the run of a reference, made by the first cell that needs it, gone with the last
     std::once_flag once;
-    std::unique_ptr<Reference> reference;
-    Errors floor;
+    std::unique_ptr<compare::Reference> reference;
+    compare::Errors floor;
     std::string refused;
     std::atomic<int> needed_by = 0;
 
     void make(const PlannedPoint& p, double time_limit) {
         std::call_once(once, [&] {
             try {
-                reference = std::make_unique<Reference>(run_reference(p.references, p.scene, 1, Console(false, true), time_limit));
-                floor = errors_of(reference->moved.trace, reference->run.trace);
+                reference = std::make_unique<compare::Reference>(
+                    compare::run_reference(p.references, p.scene, 1, store::Console(false, true), time_limit));
+                floor = compare::errors_of(reference->moved.trace, reference->run.trace);
             } catch (const std::exception& e) {
                 refused = e.what();
             }
@@ -47,20 +48,20 @@ public:
             }
     }
 
-    void run(int jobs, const Console& console) {
+    void run(int jobs, const store::Console& console) {
         std::vector<double> sizes;
         for (const std::size_t i : todo_)
             sizes.push_back(std::max(plan_.cells[i].cell.settings.sample_rate, 44100.0) * plan_.cells[i].point->scene.duration);
-        side_by_side(sizes, jobs, console, "cells", [this](std::size_t k, Done& done) {
+        store::side_by_side(sizes, jobs, console, "cells", [this](std::size_t k, store::Done& done) {
             const PlannedCell& planned = plan_.cells[todo_[k]];
             SuiteRecord& record = into_.records[todo_[k]];
             record = cell(planned, done);
-            if (!folder_.empty()) write_fresh(folder_ / (planned.id + ".json"), json_of(record, planned.identity));
+            if (!folder_.empty()) store::write_fresh(folder_ / (planned.id + ".json"), json_of(record, planned.identity));
         });
     }
 
 private:
-    SuiteRecord cell(const PlannedCell& planned, Done& fraction) {
+    SuiteRecord cell(const PlannedCell& planned, store::Done& fraction) {
         const double limit = planned.set->time_limit.value_or(HUGE_VAL);
         Truth* truth = nullptr;
         if (planned.set->measures(Facet::errors)) {
@@ -68,18 +69,19 @@ private:
             truth->make(*planned.point, limit);
         }
         const bool known = truth && truth->reference;
-        Cell cell = planned.cell;
+        compare::Cell cell = planned.cell;
         Trace trace;
         std::string status;
         const auto told = [&fraction](long done, long rows) {
             fraction.store(static_cast<double>(done) / static_cast<double>(rows), std::memory_order_relaxed);
         };
         try {
-            trace = measure(cell, planned.point->scene, known ? &truth->reference->run.trace : nullptr, within(limit, told));
+            trace =
+                compare::measure(cell, planned.point->scene, known ? &truth->reference->run.trace : nullptr, compare::within(limit, told));
         } catch (const Refusal& e) {
             status = "refused";
             cell.reason = e.what();
-        } catch (const PastItsLimit& e) {
+        } catch (const compare::PastItsLimit& e) {
             status = "past_time_limit";
             cell.reason = e.what();
         } catch (const std::exception& e) {
@@ -88,7 +90,8 @@ private:
         }
         cell.refused = !status.empty();
         if (truth && !known) cell.reason += (cell.reason.empty() ? "" : "; ") + truth->refused;
-        SuiteRecord record = record_of(planned, cell, known ? truth->floor : Errors{}, known ? truth->reference->trust : Trust{});
+        SuiteRecord record =
+            record_of(planned, cell, known ? truth->floor : compare::Errors{}, known ? truth->reference->trust : trust::Trust{});
         if (!status.empty()) record.row.rows[0][record.row.column("status")] = status;
         if (known) record.reference = truth->reference->choice.name();
         if (planned.set->measures(Facet::spectrogram) && !cell.refused)
@@ -109,34 +112,34 @@ private:
 };
 
 // Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.
-void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, SuiteRun& into, const Console& console) {
-    for (Rows indices : sets_of(plan)) {
+void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, SuiteRun& into, const store::Console& console) {
+    for (store::Rows indices : sets_of(plan)) {
         const CellSet& set = *plan.cells[indices.front()].set;
         std::erase_if(indices, [&into](std::size_t i) { return !into.records[i].ran || into.records[i].timed; });
         if (!set.measures(Facet::cost) || indices.empty()) continue;
-        std::vector<Cell> cells;
+        std::vector<compare::Cell> cells;
         for (const std::size_t i : indices) {
             cells.push_back(plan.cells[i].cell);
             cells.back().summary.wall_seconds = into.records[i].seconds;
         }
-        std::vector<Contender> contenders;
+        std::vector<compare::Contender> contenders;
         for (std::size_t k = 0; k < indices.size(); ++k) {
             const PlannedPoint& p = *plan.cells[indices[k]].point;
-            contenders.push_back({&cells[k], &p.scene, p.element == Element::probe});
+            contenders.push_back({&cells[k], &p.scene, p.element == compare::Element::probe});
         }
-        time_cells(contenders, set.repeats, console);
+        compare::time_cells(contenders, set.repeats, console);
         for (std::size_t k = 0; k < indices.size(); ++k) {
             const PlannedCell& planned = plan.cells[indices[k]];
             SuiteRecord& record = into.records[indices[k]];
             add_clock(record, planned, cells[k]);
-            if (!folder.empty()) write_fresh(folder / (planned.id + ".json"), json_of(record, planned.identity));
+            if (!folder.empty()) store::write_fresh(folder / (planned.id + ".json"), json_of(record, planned.identity));
             ++into.timed;
         }
     }
 }
 }  // namespace
 
-SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const Console& console) {
+SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const store::Console& console) {
     SuiteRun result;
     result.records.resize(plan.cells.size());
     std::vector<std::size_t> missing;
@@ -153,4 +156,4 @@ SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, b
     return result;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

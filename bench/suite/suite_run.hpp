@@ -9,7 +9,7 @@
 
 #include "bench/suite/suite_record.hpp"
 
-namespace jvari {
+namespace jvari::bench::suite {
 
 struct SuiteRun {
     std::vector<SuiteRecord> records;  // of each cell of the plan
@@ -17,6 +17,6 @@ struct SuiteRun {
 };
 
 // `folder`: where cells are kept, "" for nowhere. `resume`: read back what lies there. `jobs` threads (0: as many as there are cores).
-SuiteRun run_suite(const SuitePlan&, const std::filesystem::path& folder, bool resume, int jobs, const Console&);
+SuiteRun run_suite(const SuitePlan&, const std::filesystem::path& folder, bool resume, int jobs, const store::Console&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::suite

@@ -14,7 +14,7 @@
 #include "bench/store/whole.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::trust {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -98,8 +98,8 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
         e.reason = j.at("reason");
         return e;
     }
-    e.status.outcome = outcome_named(status);
-    if (const auto step = j.find("failed_step"); step != j.end()) e.status.step = whole<long>(*step);
+    e.status.outcome = store::outcome_named(status);
+    if (const auto step = j.find("failed_step"); step != j.end()) e.status.step = store::whole<long>(*step);
     e.reached = j.at("reached_s");
     if (const auto estimate = j.find("estimate"); estimate != j.end())
         for (const std::string& name : c.taps) e.estimate.push_back(windows_of(estimate->at(name)));
@@ -109,7 +109,7 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
 std::string key_of(const std::string& hash, const Certificate& plan) {
     Json runs = Json::array();
     for (const auto& e : plan.entries) runs.push_back({e.reference, options_json(e.options), e.sample_rate});
-    return hash_of(Json{format, hash, machine().version, plan.modes, plan.tap_rate, plan.duration, runs}.dump());
+    return store::hash_of(Json{format, hash, store::machine().version, plan.modes, plan.tap_rate, plan.duration, runs}.dump());
 }
 }  // namespace
 
@@ -135,7 +135,7 @@ std::string json_of(const KeptCertificate& kept) {
     const Json j{{"scene", c.scene},
                  {"scene_hash", kept.scene_hash},
                  {"key", kept.key},
-                 {"program", "jvari " + machine().version},
+                 {"program", "jvari " + store::machine().version},
                  {"format", format},
                  {"modes", c.modes},
                  {"tap_rate_hz", c.tap_rate},
@@ -144,7 +144,7 @@ std::string json_of(const KeptCertificate& kept) {
                  {"entries", entries},
                  {"pairs", pairs},
                  {"noise_floor", taps_json(c, c.floor)}};
-    return sealed(j.dump(1));
+    return store::sealed(j.dump(1));
 }
 
 std::string cost_json_of(const KeptCertificate& kept) {
@@ -152,7 +152,8 @@ std::string cost_json_of(const KeptCertificate& kept) {
     for (const auto& e : kept.certificate.entries)
         entries.push_back(
             {{"reference", e.reference}, {"options", options_json(e.options)}, {"wall_seconds", e.reason.empty() ? e.wall_seconds : nan}});
-    return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", Json::parse(made_by())}}.dump(1) +
+    return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", Json::parse(store::made_by())}}.dump(
+               1) +
            "\n";
 }
 
@@ -164,21 +165,21 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
         return std::nullopt;
     }
     try {
-        const Json j = Json::parse(unsealed(read_whole(path)));
-        if (j.at("program") != "jvari " + machine().version || j.at("format") != format)
+        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
+        if (j.at("program") != "jvari " + store::machine().version || j.at("format") != format)
             throw std::runtime_error("it is of another version of the program, " + j.at("program").get<std::string>());
         KeptCertificate kept;
         kept.key = j.at("key");
         kept.scene_hash = j.at("scene_hash");
         Certificate& c = kept.certificate;
         c.scene = j.at("scene");
-        c.modes = whole<int>(j.at("modes"));
+        c.modes = store::whole<int>(j.at("modes"));
         c.tap_rate = j.at("tap_rate_hz");
         c.duration = j.at("duration_s");
         c.taps = j.at("taps").get<std::vector<std::string>>();
         for (const Json& e : j.at("entries")) c.entries.push_back(entry_of(c, e));
         for (const Json& p : j.at("pairs")) {
-            c.pairs.push_back({whole<int>(p.at("first")), whole<int>(p.at("second")), taps_of(c, p.at("taps"))});
+            c.pairs.push_back({store::whole<int>(p.at("first")), store::whole<int>(p.at("second")), taps_of(c, p.at("taps"))});
             for (const int entry : {c.pairs.back().first, c.pairs.back().second})
                 if (entry < 0 || entry >= static_cast<int>(c.entries.size()))
                     throw std::runtime_error("a pair of entries that are not there");
@@ -198,8 +199,8 @@ std::filesystem::path cost_path(const std::filesystem::path& certificate) {
 
 void read_costs(const std::filesystem::path& certificate, KeptCertificate& kept) {
     try {
-        const std::string text = read_whole(cost_path(certificate));
-        refuse_deep(text);
+        const std::string text = store::read_whole(cost_path(certificate));
+        store::refuse_deep(text);
         const Json j = Json::parse(text);
         if (j.at("key") != kept.key || j.at("entries").size() != kept.certificate.entries.size()) return;
         for (std::size_t i = 0; i < kept.certificate.entries.size(); ++i)
@@ -209,4 +210,4 @@ void read_costs(const std::filesystem::path& certificate, KeptCertificate& kept)
     }
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::trust

@@ -8,7 +8,7 @@
 
 #include "reference/certificate.hpp"
 
-namespace jvari {
+namespace jvari::bench::trust {
 
 struct KeptCertificate {
     std::string key;         // of the scene, the program's version, the settings and what was to be run
@@ -30,4 +30,4 @@ std::filesystem::path cost_path(const std::filesystem::path& certificate);  // a
 // Fills in the wall seconds from the file beside the certificate; they stay NaN where that is not of the same key.
 void read_costs(const std::filesystem::path& certificate, KeptCertificate&);
 
-}  // namespace jvari
+}  // namespace jvari::bench::trust

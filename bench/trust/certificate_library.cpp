@@ -10,7 +10,7 @@
 
 #include "bench/store/records.hpp"
 
-namespace jvari {
+namespace jvari::bench::trust {
 
 namespace fs = std::filesystem;
 
@@ -33,7 +33,7 @@ double covering(const Certificate::ByWindow& values, double end, double reached)
 }
 
 std::string name_of(const Certificate::Entry& e) {
-    return e.reference + (e.options.empty() ? "" : " " + options_text(e.options));
+    return e.reference + (e.options.empty() ? "" : " " + store::options_text(e.options));
 }
 
 struct Evidence {
@@ -65,7 +65,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
     const auto mine = std::find_if(c.entries.begin(), c.entries.end(),
                                    [&](const auto& e) { return e.reference == reference && e.options == options && e.reason.empty(); });
     if (mine == c.entries.end()) {
-        t.missing = "the certificate of this scene has no " + reference + (options.empty() ? "" : " " + options_text(options));
+        t.missing = "the certificate of this scene has no " + reference + (options.empty() ? "" : " " + store::options_text(options));
         return t;
     }
     std::vector<Evidence> independent, same;
@@ -162,4 +162,4 @@ Trust trust_of(const Oversampled& o, double until) {
     return t;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::trust

@@ -14,7 +14,7 @@
 #include "bench/trust/certificate_file.hpp"
 #include "reference/oversampled.hpp"
 
-namespace jvari {
+namespace jvari::bench::trust {
 
 struct Trust {
     static constexpr std::array<const char*, 3> columns = {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole"};
@@ -39,4 +39,4 @@ Trust trust_of(const Oversampled&, double until);  // of a stand-in; `until`: it
 
 std::string file_stem(const std::string& scene_name);  // what its file may be called
 
-}  // namespace jvari
+}  // namespace jvari::bench::trust

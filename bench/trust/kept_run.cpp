@@ -13,7 +13,7 @@
 #include "bench/store/whole.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari {
+namespace jvari::bench::trust {
 
 namespace fs = std::filesystem;
 
@@ -26,7 +26,7 @@ constexpr std::size_t checksum_size = 32;  // hexadecimal digits
 }  // namespace
 
 fs::path kept_runs_folder() {
-    if (!keeps_runs(machine().commit)) return {};
+    if (!keeps_runs(store::machine().commit)) return {};
     if (const char* set = std::getenv("JVARI_CACHE")) return set;
     if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) return fs::path(set) / "jvari";
     if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "jvari";
@@ -34,10 +34,10 @@ fs::path kept_runs_folder() {
 }
 
 std::string run_key(const Descriptor& reference, const Scene& scene, const Settings& s) {
-    const Machine& m = machine();
-    return hash_of(Json{format, m.version, m.commit, m.build, m.compiler, m.flags, m.cpu, reference.name, scene_hash(scene),
-                        text_of(s.sample_rate), text_of(s.tap_rate), s.modes, s.options}
-                       .dump());
+    const store::Machine& m = store::machine();
+    return store::hash_of(Json{format, m.version, m.commit, m.build, m.compiler, m.flags, m.cpu, reference.name, scene_hash(scene),
+                               store::text_of(s.sample_rate), store::text_of(s.tap_rate), s.modes, s.options}
+                              .dump());
 }
 
 bool keeps_runs(const std::string& commit) {
@@ -46,7 +46,7 @@ bool keeps_runs(const std::string& commit) {
 
 void write_run(const fs::path& path, const std::string& key, const Run& r) {
     Json facts = Json::array();
-    for (const Fact& f : r.facts) facts.push_back({f.name, text_of(f.value), f.unit});
+    for (const Fact& f : r.facts) facts.push_back({f.name, store::text_of(f.value), f.unit});
     const Json head{{"key", key},
                     {"outcome", name_of(r.status.outcome)},
                     {"failed_step", r.status.step},
@@ -62,30 +62,30 @@ void write_run(const fs::path& path, const std::string& key, const Run& r) {
     std::string content = head.dump() + "\n";
     for (int k = 0; k < r.trace.taps(); ++k)
         content.append(reinterpret_cast<const char*>(r.trace.column(k).data()), r.trace.column(k).size_bytes());
-    write_fresh(path, hash_of(content) + content);
+    store::write_fresh(path, store::hash_of(content) + content);
 }
 
 std::optional<Run> read_run(const fs::path& path, const std::string& key) noexcept {
     try {
         if (!fs::is_regular_file(path)) return std::nullopt;
-        const std::string file = read_whole(path), content = file.substr(std::min(checksum_size, file.size()));
+        const std::string file = store::read_whole(path), content = file.substr(std::min(checksum_size, file.size()));
         const auto head_size = content.find('\n');
-        if (!file.starts_with(hash_of(content)) || head_size == std::string::npos) return std::nullopt;
+        if (!file.starts_with(store::hash_of(content)) || head_size == std::string::npos) return std::nullopt;
         const std::string head = content.substr(0, head_size);
-        refuse_deep(head);
+        store::refuse_deep(head);
         const Json j = Json::parse(head);
         if (j.at("key") != key) return std::nullopt;
         Run r;
-        r.status = {outcome_named(j.at("outcome")), whole<long>(j.at("failed_step"))};
-        r.dofs = whole<int>(j.at("dofs"));
-        r.steps = whole<long>(j.at("steps"));
+        r.status = {store::outcome_named(j.at("outcome")), store::whole<long>(j.at("failed_step"))};
+        r.dofs = store::whole<int>(j.at("dofs"));
+        r.steps = store::whole<long>(j.at("steps"));
         r.wall_seconds = j.at("wall_seconds");
         r.worst_block = j.at("worst_block");
-        for (const Json& f : j.at("facts")) r.facts.push_back({f.at(0), number_of(f.at(1)), f.at(2)});
+        for (const Json& f : j.at("facts")) r.facts.push_back({f.at(0), store::number_of(f.at(1)), f.at(2)});
         Trace& t = r.trace;
         t.tap_rate = j.at("tap_rate");
-        t.rows = whole<long>(j.at("rows"));
-        t.stride = whole<long>(j.at("stride"));
+        t.rows = store::whole<long>(j.at("rows"));
+        t.stride = store::whole<long>(j.at("stride"));
         t.names = j.at("names").get<std::vector<std::string>>();
         if (t.stride < 1 || t.rows < 0 || t.rows > t.stride) return std::nullopt;
         if (!t.names.empty() && t.stride > most_values / static_cast<long>(t.names.size())) return std::nullopt;
@@ -108,11 +108,11 @@ Run kept_run(const fs::path& folder, const std::string& key, const std::function
     if (r.wall_seconds < worth_keeping) return r;
     try {
         fs::create_directories(folder);
-        sweep_parts(folder);
+        store::sweep_parts(folder);
         write_run(path, key, r);
     } catch (const std::exception&) {  // it is a convenience
     }
     return r;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::trust

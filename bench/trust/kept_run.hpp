@@ -12,7 +12,7 @@
 
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::trust {
 
 // $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari; may be emptied at any time. "", for nowhere, where JVARI_CACHE is empty
 // and where this program keeps none.
@@ -28,4 +28,4 @@ std::optional<Run> read_run(const std::filesystem::path&,
 // The run that is kept there, else what `make` gives, which is kept from then on. A folder that cannot be written to keeps nothing.
 Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make);
 
-}  // namespace jvari
+}  // namespace jvari::bench::trust

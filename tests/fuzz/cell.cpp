@@ -13,12 +13,12 @@ using namespace jvari::test;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static OwnFile file("cell.json");
     const std::string text = test::text_of(data, size), identity = R"({"scene":"a"})";
-    const auto record = read_record(file.holding(sealed("{\"cell\":" + identity + "," + text + "}")), identity);
+    const auto record = bench::suite::read_record(file.holding(bench::store::sealed("{\"cell\":" + identity + "," + text + "}")), identity);
     if (!record) return 0;
     ++inputs_read;
     for (const std::string& name : record->row.columns) record->row.number(0, name);
-    const std::string written = json_of(*record, identity);
-    const auto again = read_record(file.holding(written), identity);
-    promise(again && json_of(*again, identity) == written, "written and read back is the same record", written);
+    const std::string written = bench::suite::json_of(*record, identity);
+    const auto again = bench::suite::read_record(file.holding(written), identity);
+    promise(again && bench::suite::json_of(*again, identity) == written, "written and read back is the same record", written);
     return 0;
 }

@@ -14,7 +14,7 @@ using namespace jvari::test;
 
 namespace {
 std::string of_this_program() {
-    const auto j = nlohmann::ordered_json::parse(json_of(KeptCertificate{}));
+    const auto j = nlohmann::ordered_json::parse(bench::trust::json_of(bench::trust::KeptCertificate{}));
     std::string head = nlohmann::ordered_json{{"program", j.at("program")}, {"format", j.at("format")}}.dump();
     head.back() = ',';
     return head;
@@ -26,26 +26,26 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::string head = of_this_program();
     const std::string text = test::text_of(data, size);
     std::string why;
-    auto kept = read_certificate(file.holding(sealed(head + text + "}")), why);
+    auto kept = bench::trust::read_certificate(file.holding(bench::store::sealed(head + text + "}")), why);
     promise(kept.has_value() == why.empty(), "what is refused has a reason", why);
     if (!kept) return 0;
     ++inputs_read;
     costs.holding("{" + text + "}");
-    read_costs(file.path(), *kept);
+    bench::trust::read_costs(file.path(), *kept);
     for (const auto& entry : kept->certificate.entries)
         for (const double until : {0.005, 0.05, 1.0, 1e300}) {
-            const Trust trust = trust_of(*kept, entry.reference, entry.options, until);
+            const bench::trust::Trust trust = bench::trust::trust_of(*kept, entry.reference, entry.options, until);
             for (std::size_t tap = 0; tap < trust.figure.size(); ++tap)
                 for (std::size_t window = 0; window < 3; ++window) trust.at(tap, window);
             promise(trust.any() == trust.missing.empty(), "figures, or why there are none", trust.missing);
         }
     std::string written;
     try {
-        written = json_of(*kept);
+        written = bench::trust::json_of(*kept);
     } catch (const nlohmann::json::exception&) {  // text that is no UTF-8: a certificate is of scenes that were read
         return 0;
     }
-    const auto again = read_certificate(file.holding(written), why);
-    promise(again && json_of(*again) == written, "written and read back is the same certificate", written);
+    const auto again = bench::trust::read_certificate(file.holding(written), why);
+    promise(again && bench::trust::json_of(*again) == written, "written and read back is the same certificate", written);
     return 0;
 }

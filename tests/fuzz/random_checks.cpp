@@ -139,7 +139,7 @@ struct Claim {  // of one tap, over the whole run
 };
 
 // What is known of an error against what is claimed of it. Figures within the noise floor are left out: no two programs can agree better.
-std::vector<Claim> claims(const Trust& trust, const Trace& trace, const Trace& truth, const std::vector<double>& floor) {
+std::vector<Claim> claims(const bench::trust::Trust& trust, const Trace& trace, const Trace& truth, const std::vector<double>& floor) {
     std::vector<Claim> all;
     for (std::size_t k = 0; k < trust.figure.size(); ++k) {
         const double is = relative_difference(trace.column(static_cast<int>(k)), truth.column(static_cast<int>(k)));
@@ -167,7 +167,8 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     for (const Agreement& a : certificate.floor) floor.push_back(above_floor * std::max(floor_displacement, a.relative_l2.back()));
     const bool alone =
         best->name == std::string("sundials");  // certified by another of its own settings, whose error adds to the difference
-    for (const Claim& x : claims(trust_of(KeptCertificate{"", "", certificate}, best->name, {}, until), r.trace, truth.trace, floor)) {
+    for (const Claim& x : claims(bench::trust::trust_of(bench::trust::KeptCertificate{"", "", certificate}, best->name, {}, until), r.trace,
+                                 truth.trace, floor)) {
         ++tally.claims;
         tally.worst_claim = std::max(tally.worst_claim, x.ratio());
         if (!(x.ratio() < (alone ? claim_allowed_alone : claim_allowed)))
@@ -182,7 +183,7 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     const Oversampled o =
         oversampled(*scheme, c.scene, {c.settings.tap_rate, c.settings.tap_rate, certificate.modes, {}}, stand_in_multiple);
     if (o.run.status.outcome != Outcome::ok) return;
-    for (const Claim& x : claims(trust_of(o, until), o.run.trace, r.trace, floor)) {
+    for (const Claim& x : claims(bench::trust::trust_of(o, until), o.run.trace, r.trace, floor)) {
         ++tally.estimates;
         tally.low_estimates += x.ratio() >= 1;
         tally.worst_estimate = std::max(tally.worst_estimate, x.ratio());

@@ -22,14 +22,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static OwnFile file("kept.run"), sound("sound.wav");
     const std::string text = test::text_of(data, size), key = "key";
     try {
-        read_wav(sound.holding(text), 1.0);
-    } catch (const UsageError&) {
+        bench::store::read_wav(sound.holding(text), 1.0);
+    } catch (const bench::store::UsageError&) {
     }
-    const auto run = read_run(file.holding(hash_of(text) + text), key);
+    const auto run = bench::trust::read_run(file.holding(bench::store::hash_of(text) + text), key);
     if (!run) return 0;
     ++inputs_read;
-    write_run(file.path(), key, *run);
-    const auto again = read_run(file.path(), key);
+    bench::trust::write_run(file.path(), key, *run);
+    const auto again = bench::trust::read_run(file.path(), key);
     promise(again.has_value(), "what is written is read back");
     promise(again->trace.names == run->trace.names && again->trace.rows == run->trace.rows, "with its columns");
     for (int k = 0; k < run->trace.taps(); ++k) promise(same_bits(again->trace.column(k), run->trace.column(k)), "bit for bit");

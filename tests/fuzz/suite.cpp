@@ -8,23 +8,23 @@ using namespace jvari;
 using namespace jvari::test;
 
 namespace {
-double points_in(const CellSet& set) {
+double points_in(const bench::suite::CellSet& set) {
     double n = static_cast<double>(set.scenes.size() * set.modes.size() * (1 + set.elements.size()));
-    for (const SweptKey& k : set.sweep) n *= static_cast<double>(k.values.size());
-    for (const VariedOption& o : set.options) n *= static_cast<double>(o.values.size());
+    for (const bench::suite::SweptKey& k : set.sweep) n *= static_cast<double>(k.values.size());
+    for (const bench::suite::VariedOption& o : set.options) n *= static_cast<double>(o.values.size());
     return n;
 }
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
-        const Suite suite = parse_suite(test::text_of(data, size), "no_such_directory/suite.toml");
+        const bench::suite::Suite suite = bench::suite::parse_suite(test::text_of(data, size), "no_such_directory/suite.toml");
         ++inputs_read;
         double points = 0;
-        for (const CellSet& set : suite.sets) points += points_in(set);
-        if (points < 1000) points_of(suite);  // a valid suite may ask for more than there is memory
+        for (const bench::suite::CellSet& set : suite.sets) points += points_in(set);
+        if (points < 1000) bench::suite::points_of(suite);  // a valid suite may ask for more than there is memory
     } catch (const SceneFileError&) {
-    } catch (const UsageError&) {
+    } catch (const bench::store::UsageError&) {
     }
     return 0;
 }

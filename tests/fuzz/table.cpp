@@ -12,7 +12,7 @@ using namespace jvari::test;
 
 namespace {
 // A row of one empty field is an empty line, and that is no row.
-bool written_as_nothing(const Table& t) {
+bool written_as_nothing(const bench::store::Table& t) {
     if (t.columns.size() != 1) return false;
     for (const auto& row : t.rows)
         if (row[0].empty()) return true;
@@ -23,22 +23,23 @@ bool written_as_nothing(const Table& t) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text = test::text_of(data, size);
     try {
-        const Table t = read_csv(text);
+        const bench::store::Table t = bench::store::read_csv(text);
         ++inputs_read;
         for (std::size_t i = 0; i < t.rows.size(); ++i)
             for (const std::string& name : t.columns) {
                 const double x = t.number(i, name);
-                promise(std::isnan(x) || number_of(jvari::text_of(x)) == x, "a number reads back as itself", t.at(i, name));
+                promise(std::isnan(x) || bench::store::number_of(jvari::bench::store::text_of(x)) == x, "a number reads back as itself",
+                        t.at(i, name));
             }
         if (!t.columns.empty() && !written_as_nothing(t)) {
-            const Table again = read_csv(csv(t));
-            promise(again.columns == t.columns && again.rows == t.rows, "written and read back is the same table", csv(t));
+            const bench::store::Table again = bench::store::read_csv(bench::store::csv(t));
+            promise(again.columns == t.columns && again.rows == t.rows, "written and read back is the same table", bench::store::csv(t));
         }
     } catch (const std::runtime_error&) {
     }
-    promise(bytes_of_base64(base64(text)) == text, "bytes survive base64", text);
+    promise(bench::store::bytes_of_base64(bench::store::base64(text)) == text, "bytes survive base64", text);
     try {
-        bytes_of_base64(text);
+        bench::store::bytes_of_base64(text);
     } catch (const std::runtime_error&) {
     }
     return 0;

@@ -1,11 +1,11 @@
 # The files of the page as text in the program, so that it has no file to look for when it runs: -DFOLDER -DOUT, every file but this one.
 file(GLOB files "${FOLDER}/*.html" "${FOLDER}/*.css" "${FOLDER}/*.js" "${FOLDER}/*.json")
 list(SORT files)
-set(text "#include \"bench/report/page_text.hpp\"\n\nnamespace jvari {\nnamespace {\nconstexpr PageText texts[] = {\n")
+set(text "#include \"bench/report/page_text.hpp\"\n\nnamespace jvari::bench::report {\nnamespace {\nconstexpr PageText texts[] = {\n")
 foreach(file IN LISTS files)
     get_filename_component(name "${file}" NAME)
     file(READ "${file}" content)
     string(APPEND text "    {\"${name}\", R\"page_text(${content})page_text\"},\n")
 endforeach()
-string(APPEND text "};\n}  // namespace\n\nstd::span<const PageText> page_texts() {\n    return texts;\n}\n\n}  // namespace jvari\n")
+string(APPEND text "};\n}  // namespace\n\nstd::span<const PageText> page_texts() {\n    return texts;\n}\n\n}  // namespace jvari::bench::report\n")
 file(WRITE "${OUT}" "${text}")
