@@ -183,6 +183,20 @@ TEST(Maps, TrueEnergyOfTheImpulseInvariantControlIsGainedBelowTheRateOfEqualShar
     EXPECT_LT(std::abs(b.relative_difference()), 0.05) << b.theory;
 }
 
+TEST(Maps, ASteppedReferenceIsMadeForEachRateAndAContinuousOneOnce) {
+    const bench::compare::Catalogue catalogue;
+    bench::map::Truths truths(catalogue);
+    const auto at = [&](const char* rate, const std::string& reference) {
+        bench::map::Trial t = bench::map::trial_of("free_string", catalogue.find("modal_two_point"), reference,
+                                                   {{"rate", rate}, {"modes", "10"}, {"duration", "0.002"}});
+        t.settings.tap_rate = 44100;
+        return &truths.of(t);
+    };
+    EXPECT_NE(at("44100", "modal_spatial_newton"), at("88200", "modal_spatial_newton"));
+    EXPECT_EQ(at("44100", "modal_spatial_newton"), at("44100", "modal_spatial_newton"));
+    EXPECT_EQ(at("44100", "exact_contact"), at("88200", "exact_contact"));
+}
+
 TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
     const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[map]]

@@ -283,24 +283,31 @@ TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
         ASSERT_NE(at, std::string::npos) << what;
         std::ofstream(path) << bench::store::sealed(text.replace(at, own.size(), nlohmann::json(another).dump()));
     };
-    recorded_by_another(1, bench::store::machine().commit);
+    recorded_by_another(1, bench::store::machine().cell_sources);
     recorded_by_another(2, bench::store::machine().build);
-    recorded_by_another(5, bench::store::machine().version);
+    recorded_by_another(5, bench::store::machine().compiler);
     const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
     EXPECT_EQ(resumed.ran, 3);
     EXPECT_EQ(resumed.read_back, 5);
 }
 
-TEST(SuiteRun, TheIdentityOfAProgramIsItsVersionCommitBuildAndPlugins) {
+TEST(SuiteRun, TheIdentityOfAProgramIsWhatItsNumbersDependOn) {
+    using bench::store::Machine;
     const Scratch scratch;
     const std::string own = bench::store::program_identity({});
     EXPECT_EQ(own, bench::store::program_identity({}));
-    for (std::string bench::store::Machine::*part :
-         {&bench::store::Machine::version, &bench::store::Machine::commit, &bench::store::Machine::build}) {
-        bench::store::Machine other = bench::store::machine();
+    for (std::string Machine::*part : {&Machine::cell_sources, &Machine::compiler, &Machine::flags, &Machine::build, &Machine::vectors}) {
+        Machine other = bench::store::machine();
         other.*part += "x";
         EXPECT_NE(program_identity({}, other), own);
+        EXPECT_EQ(run_identity(other) == bench::store::run_identity(), part == &Machine::cell_sources);
     }
+    Machine reworded = bench::store::machine();  // another commit, of the documentation
+    reworded.commit += "x";
+    EXPECT_EQ(program_identity({}, reworded), own);
+    Machine other_run = bench::store::machine();
+    other_run.run_sources += "x";
+    EXPECT_NE(run_identity(other_run), bench::store::run_identity());
     std::ofstream(scratch / "plugin") << "a";
     const std::string with_plugin = bench::store::program_identity({scratch / "plugin"});
     EXPECT_NE(with_plugin, own);

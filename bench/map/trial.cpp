@@ -68,8 +68,12 @@ std::string identity_of(const Trial& t) {
 const Truths::Truth& Truths::of(const Trial& t) {
     static const Truth none;
     if (t.reference == "none") return none;
-    const Settings s = reference_settings(catalogue_.references.empty() ? *t.scheme : *catalogue_.references.front(), t);
-    const std::string key = Json{scene_hash(t.scene), t.reference, store::text_of(s.tap_rate), s.modes}.dump();
+    const Descriptor& named = !t.reference.empty()            ? catalogue_.find(t.reference)
+                              : catalogue_.references.empty() ? *t.scheme
+                                                              : *catalogue_.references.front();
+    const Settings s = reference_settings(named, t);
+    const std::string key =
+        Json{scene_hash(t.scene), t.reference, store::text_of(s.sample_rate), store::text_of(s.tap_rate), s.modes, s.options}.dump();
     Truth* truth;
     {
         const std::lock_guard lock(mutex_);

@@ -7,10 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bench/commit.hpp"  // written at build time by commit.cmake
+#include "bench/provenance.hpp"  // written at build time by provenance.cmake
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "schemes/registry.hpp"
+#include "schemes/vector_instructions.hpp"
 
 namespace jvari::bench::store {
 
@@ -29,22 +30,43 @@ std::string system_name() {
 }  // namespace
 
 const Machine& machine() {
-    static const Machine m{JVARI_VERSION, JVARI_COMMIT, JVARI_COMPILER, JVARI_FLAGS,
-                           JVARI_BUILD,   cpu_name(),   system_name(),  static_cast<int>(std::thread::hardware_concurrency())};
+    static const Machine m{JVARI_VERSION,
+                           JVARI_COMMIT,
+                           JVARI_RUN_SOURCES,
+                           JVARI_CELL_SOURCES,
+                           JVARI_COMPILER,
+                           JVARI_FLAGS,
+                           JVARI_BUILD,
+                           vector_instructions(),
+                           cpu_name(),
+                           system_name(),
+                           static_cast<int>(std::thread::hardware_concurrency())};
     return m;
 }
 
+namespace {
+nlohmann::ordered_json identity_of(const std::string& sources, const Machine& m) {
+    return {"jvari", sources, m.compiler, m.flags, m.build, m.vectors};
+}
+}  // namespace
+
+std::string run_identity(const Machine& m) {
+    nlohmann::ordered_json program = identity_of(m.run_sources, m);
+    for (const LoadedPlugin& l : loaded_plugins()) program.push_back(hash_of(read_whole(l.path)));
+    return program.dump();
+}
+
 std::string program_identity(const std::vector<std::string>& plugins, const Machine& m) {
-    nlohmann::ordered_json program{"jvari", m.version, m.commit, m.build};
+    nlohmann::ordered_json program = identity_of(m.cell_sources, m);
     for (const std::string& path : plugins) program.push_back(hash_of(read_whole(path)));
     return program.dump();
 }
 
 std::string made_by() {
     const Machine& m = machine();
-    nlohmann::ordered_json made{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit}, {"compiler", m.compiler},
-                                {"flags", m.flags},   {"build", m.build},     {"cpu", m.cpu},       {"cores", m.cores},
-                                {"system", m.system}, {"date", now_utc()}};
+    nlohmann::ordered_json made{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit},        {"compiler", m.compiler},
+                                {"flags", m.flags},   {"build", m.build},     {"sources", m.cell_sources}, {"vectors", m.vectors},
+                                {"cpu", m.cpu},       {"cores", m.cores},     {"system", m.system},        {"date", now_utc()}};
     for (const LoadedPlugin& l : loaded_plugins())
         made["plugins"].push_back(
             {{"file", l.path}, {"hash", hash_of(read_whole(l.path))}, {"compiler", l.plugin->compiler}, {"flags", l.plugin->flags}});

@@ -7,15 +7,20 @@
 namespace jvari::bench::store {
 
 struct Machine {
-    std::string version, commit;         // commit: git describe when built, "unknown" outside git
-    std::string compiler, flags, build;  // build: CMake's build type
+    std::string version, commit;            // commit: git describe when built, "unknown" outside git
+    std::string run_sources, cell_sources;  // hashes of the sources that a run's numbers depend on, and of those that measure it too
+    std::string compiler, flags, build;     // build: CMake's build type
+    std::string vectors;                    // the instructions that the kernels chose
     std::string cpu, system;
     int cores;
 };
 const Machine& machine();
 
-// JSON: version, commit, build type, plugins by their contents. What was recorded by another is not this program's.
-std::string program_identity(const std::vector<std::string>& plugins, const Machine& = machine());
+// What numbers depend on beside scene and settings, as JSON: sources, compiler, flags, build type, vector instructions, plugins by their
+// contents. What was recorded by another is not this program's. Commit and version say nothing here: they may change with a word of the
+// documentation, and two builds of uncommitted changes share them.
+std::string run_identity(const Machine& = machine());                                               // of a run, with the plugins loaded
+std::string program_identity(const std::vector<std::string>& plugins, const Machine& = machine());  // of a cell
 
 // All of it, the date and the plugins loaded (file, hash, compiler, flags) as a JSON object: what a manifest begins with.
 std::string made_by();

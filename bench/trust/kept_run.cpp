@@ -26,7 +26,6 @@ constexpr std::size_t checksum_size = 32;  // hexadecimal digits
 }  // namespace
 
 fs::path kept_runs_folder() {
-    if (!keeps_runs(store::machine().commit)) return {};
     if (const char* set = std::getenv("JVARI_CACHE")) return set;
     if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) return fs::path(set) / "jvari";
     if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "jvari";
@@ -34,14 +33,9 @@ fs::path kept_runs_folder() {
 }
 
 std::string run_key(const Descriptor& reference, const Scene& scene, const Settings& s) {
-    const store::Machine& m = store::machine();
-    return store::hash_of(Json{format, m.version, m.commit, m.build, m.compiler, m.flags, m.cpu, reference.name, scene_hash(scene),
-                               store::text_of(s.sample_rate), store::text_of(s.tap_rate), s.modes, s.options}
+    return store::hash_of(Json{format, store::run_identity(), reference.name, scene_hash(scene), store::text_of(s.sample_rate),
+                               store::text_of(s.tap_rate), s.modes, s.options}
                               .dump());
-}
-
-bool keeps_runs(const std::string& commit) {
-    return commit != "unknown" && !commit.empty() && !commit.ends_with("-dirty");
 }
 
 void write_run(const fs::path& path, const std::string& key, const Run& r) {

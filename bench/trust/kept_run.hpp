@@ -1,8 +1,8 @@
 // Runs of references, kept from one program to the next: a reference may take minutes where a scheme takes milliseconds.
 //
-// A file per run, named by a hash of everything that its numbers depend on: scene, reference and settings, program (version, commit, build)
-// and processor. It appears by rename and is believed only where it is whole: its key, its checksum and its sizes are looked at. Nothing is
-// kept of a program with uncommitted changes, whose commit does not say what it computes, or of a run of less than half a second.
+// A file per run, named by a hash of everything that its numbers depend on: scene, reference and settings, sources, compiler, flags and
+// vector instructions. It appears by rename and is believed only where it is whole: its key, its checksum and its sizes are looked at.
+// Nothing is kept of a run of less than half a second.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,9 @@
 
 namespace jvari::bench::trust {
 
-// $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari; may be emptied at any time. "", for nowhere, where JVARI_CACHE is empty
-// and where this program keeps none.
+// $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari; may be emptied at any time. "", for nowhere, where JVARI_CACHE is
+// empty.
 std::filesystem::path kept_runs_folder();
-bool keeps_runs(const std::string& commit);
 
 std::string run_key(const Descriptor&, const Scene&, const Settings&);
 
