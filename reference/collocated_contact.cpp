@@ -10,15 +10,7 @@
 
 namespace jvari {
 
-double ContactLaw::force(double eta, double v) const noexcept {
-    const double elastic = alpha == 1 ? k * eta : std::copysign(k * std::pow(std::abs(eta), alpha), eta);
-    return elastic * (1 - beta * v);
-}
-double ContactLaw::potential(double eta) const noexcept {
-    return eta > 0 ? k * std::pow(eta, alpha + 1) / (alpha + 1) : 0;
-}
-
-CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const ContactLaw> laws) : window_(&w), law_(laws.begin(), laws.end()) {
+CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const BarrierLaw> laws) : window_(&w), law_(laws.begin(), laws.end()) {
     gsl_integration_glfixed_table* table = gsl_integration_glfixed_table_alloc(nodes);
     for (int q = 0; q < nodes; ++q) gsl_integration_glfixed_point(0, 1, q, &node_[q], &weight_[q], table);
     gsl_integration_glfixed_table_free(table);
@@ -62,7 +54,7 @@ CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const Conta
     }
     const std::size_t most = static_cast<std::size_t>(w.contacts) * nodes;
     touching_.resize(w.contacts);
-    lossy_ = std::any_of(law_.begin(), law_.end(), [](const ContactLaw& l) { return l.beta != 0; });
+    lossy_ = std::any_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.beta != 0; });
     for (auto* v : {&force_, &guess_, &position_, &speed_, &base_, &base_speed_, &right_, &stiffness_, &drag_, &scratch_})
         v->resize(most + 1);
     for (auto* v : {&couple_, &couple_speed_, &matrix_}) v->resize(most * most + 1);
@@ -73,7 +65,7 @@ void CollocatedContact::guess(std::span<const int> touching, double d, From from
     for (std::size_t a = 0; a < touching.size(); ++a) {
         const auto before = std::find(touching_.begin(), touching_.begin() + count_, touching[a]);
         const bool known = from != From::elsewhere && d <= 4 * d_ && before != touching_.begin() + count_;  // no polynomial goes further
-        const ContactLaw& law = law_[touching[a]];
+        const BarrierLaw& law = law_[touching[a]];
         double c[nodes] = {};
         if (known) {
             const double* f = force_.data() + (before - touching_.begin()) * nodes;
@@ -93,22 +85,22 @@ void CollocatedContact::guess(std::span<const int> touching, double d, From from
 void CollocatedContact::couple(double d) noexcept {
     const MacroWindow& w = *window_;
     const int size = count_ * nodes;
-    int last = 1;  // h^(l) d^(l+1)/(l+1)! no longer counts beyond
-    for (double x = d * w.reach; last < std::min(w.terms, orders) - 1 && x > 1e-18; x *= d * w.reach / (last + 1)) ++last;
+    int last = 2;  // h^(l) d^(l+1)/(l+1)! no longer counts beyond
+    for (double x = d * w.reach; last < std::min(w.terms, orders) && x > 1e-18; x *= d * w.reach / last) ++last;
     for (int a = 0; a < count_; ++a)
         for (int b = 0; b < count_; ++b) {
             const double* h = w.kernel(touching_[a], touching_[b]);
             double f[orders], power = d;
-            for (int l = 1; l <= last; ++l, power *= d) f[l - 1] = h[l] * power;
+            for (int l = 0; l < last; ++l, power *= d) f[l] = h[l] * power;
             for (int j = 0; j < nodes; ++j) {
                 double* column = couple_.data() + static_cast<std::size_t>(b * nodes + j) * size + a * nodes;
                 std::fill_n(column, nodes, 0.0);
-                w.sweep().combine(column, nodes, f, last, &within_[(nodes + j) * nodes], nodes * nodes);
-                for (int i = 0; i < nodes; ++i) column[i] *= d;
-                if (!lossy_) continue;
+                w.sweep().combine(column, nodes, f, last, &within_[j * nodes], nodes * nodes);
+                if (!lossy_) continue;  // which has nothing in series: h^(0) = 0
                 column = couple_speed_.data() + static_cast<std::size_t>(b * nodes + j) * size + a * nodes;
                 std::fill_n(column, nodes, 0.0);
-                w.sweep().combine(column, nodes, f, last, &within_[j * nodes], nodes * nodes);
+                w.sweep().combine(column, nodes, f + 1, last - 1, &within_[j * nodes], nodes * nodes);
+                for (int i = 0; i < nodes; ++i) column[i] /= d;
             }
         }
 }
@@ -142,9 +134,9 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
         sweep.combine(position_.data(), size, force_.data(), size, couple_.data(), size);
         if (lossy_) sweep.combine(speed_.data(), size, force_.data(), size, couple_speed_.data(), size);
         for (int i = 0; i < size; ++i) {
-            const ContactLaw& law = law_[touching[i / nodes]];
-            const double p = position_[i], v = speed_[i] / second, elastic = law.force(-p, 0), f = elastic * (1 - law.beta * v);
-            stiffness_[i] = p == 0 ? (law.alpha == 1 ? law.k : 0) : law.alpha * std::abs(elastic / p) * (1 - law.beta * v);
+            const BarrierLaw& law = law_[touching[i / nodes]];
+            const double p = position_[i], v = speed_[i] / second, elastic = law.elastic(-p), f = elastic * (1 - law.beta * v);
+            stiffness_[i] = law.stiffness(p, elastic) * (1 - law.beta * v);
             drag_[i] = elastic * law.beta / second;  // f = f(p, v): df/dp = -stiffness, df/dv = -drag
             right_[i] = f - force_[i];
             residual = std::max(residual, std::abs(right_[i]));
@@ -228,11 +220,11 @@ void CollocatedContact::moments(int which, double until, int count, double* m) c
 double CollocatedContact::dissipated() const noexcept {
     double sum = 0;
     for (int a = 0; a < count_; ++a) {
-        const ContactLaw& law = law_[touching_[a]];
+        const BarrierLaw& law = law_[touching_[a]];
         if (law.beta == 0) continue;
         for (int j = 0; j < nodes; ++j) {
             const double v = speed_[a * nodes + j];
-            sum += weight_[j] * d_ * law.force(-position_[a * nodes + j], 0) * law.beta * v * v / window_->seconds();
+            sum += weight_[j] * d_ * law.elastic(-position_[a * nodes + j]) * law.beta * v * v / window_->seconds();
         }
     }
     return sum;

@@ -11,19 +11,29 @@
 #include <span>
 #include <vector>
 
+#include "schemes/contact/series_contact.hpp"
+
 namespace jvari {
 
 class MacroWindow;
 
-struct ContactLaw {
-    double k, alpha, beta;  // [N/m^alpha], 1, [s/m]
-    double force(double eta, double v) const noexcept;
-    double potential(double eta) const noexcept;  // [J]
+struct BarrierLaw {  // odd beyond the surface; with a compliance in series eta is the approach of what is above
+    SeriesLaw law;
+    double beta = 0;  // of a contact loss [s/m]
+    BarrierLaw(const ContactLaw& barrier, double loss, double compliance = 0) : law(barrier, compliance), beta(loss) {}
+    bool spring() const noexcept { return law.law.alpha == 1 && beta == 0; }
+    double stiffness() const noexcept { return law.both; }         // of a spring [N/m]
+    double stiffness(double eta, double elastic) const noexcept {  // -dF/dy where the elastic force is known
+        if (eta == 0) return law.law.alpha == 1 ? law.both : 0;
+        return law.S == 0 ? law.law.alpha * std::abs(elastic / eta) : law.slope(std::abs(eta));
+    }
+    double elastic(double eta) const noexcept { return std::copysign(law.force(std::abs(eta)), eta); }
+    double force(double eta, double v) const noexcept { return elastic(eta) * (1 - beta * v); }
 };
 
 class CollocatedContact {
 public:
-    CollocatedContact(const MacroWindow&, std::span<const ContactLaw> per_contact);
+    CollocatedContact(const MacroWindow&, std::span<const BarrierLaw> per_contact);
 
     // Over d from r[contact][stride]; the touching points are given. Its error relative to the speeds there, or infinity.
     enum class From { elsewhere, last_end, same_start };  // where it starts, seen from the last step: its forces are a first guess
@@ -38,7 +48,7 @@ private:
     void derivatives(int which, double* f) const noexcept;  // of a force, at the step's start
     static constexpr int nodes = 8, orders = 26;
     const MacroWindow* window_;
-    std::vector<ContactLaw> law_;
+    std::vector<BarrierLaw> law_;
     std::array<double, nodes> node_, weight_, last_, before_last_;  // and the rows that give the last two Legendre coefficients
     std::vector<double> within_;                                    // w^l_ij [order][j][i]
     std::array<double, orders * nodes> whole_;                      // int_0^1 (1 - x)^i/i! L_j(x) dx

@@ -4,9 +4,10 @@
 // linear, only the contact points are not. So the modes are touched twice a window (macro_window.hpp), and between its events a few short
 // vectors move. From one event to the next the points follow
 //   - their free motion, where nothing touches;
-//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast pair per point;
-//   - collocated_contact.hpp, step by step, where the law is no spring or some direction is soft.
-// crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. Leaves out: several strings.
+//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast pair per point, or a polynomial where they are soft;
+//   - collocated_contact.hpp, step by step, where the law is no spring or there are many contacts.
+// crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. With compliance=matched the static
+// deflection of the modes left out stands in series with barrier and thread (in_series.hpp). Leaves out: several strings.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "reference/touching_set.hpp"
+#include "scenes/excitation.hpp"
 
 namespace jvari {
 
@@ -30,18 +32,18 @@ struct Extremes {  // of the run so far
     double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, deepest = 0, tolerance = 0;
 };
 
-std::vector<ContactLaw> laws_of(const String& s) {
-    std::vector<ContactLaw> laws;
+std::vector<BarrierLaw> laws_of(const String& s, const std::optional<InSeries>& series) {
+    std::vector<BarrierLaw> laws;
     for (const Barrier& barrier : s.barriers) {
         const auto& b = std::get<LumpedBarrier>(barrier);
-        laws.push_back({b.stiffness.k, b.exponent, b.contact_loss});
+        laws.emplace_back(ContactLaw{b.stiffness.k, b.exponent}, b.contact_loss, series ? series->points.law.S : 0);
     }
     return laws;
 }
 
 class ExactContact final : public Scheme {
 public:
-    ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance);
+    ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance, const std::optional<InSeries>&);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
@@ -58,12 +60,13 @@ private:
     void settle() noexcept;  // which points touch, by where they are and where they go
     void move_on(double by, double left) noexcept;
     void measure(int touching, double end, bool leaves) noexcept;
-    double stored() const noexcept;
+    double stored(double F_e) const noexcept;
+    void write(const Block& out, int row) const noexcept;
     double* at(std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * window_.stride; }
 
     Modes modes_;
     MacroWindow window_;
-    std::vector<ContactLaw> law_;
+    std::vector<BarrierLaw> law_;
     CollocatedContact collocation_;
     std::vector<std::optional<TouchingSet>>
         sets_;  // by the bits of their points; empty where there are too many contacts or a law is no spring
@@ -73,6 +76,7 @@ private:
     std::vector<double> start_, stiffness_;   // y at t = 0; m omega0^2, per mode
 
     std::vector<double> y_, u_;  // the state
+    double thread_force_ = 0;    // and F_s of in_series.hpp
     std::vector<char> touching_, known_zero_;
     long row_ = 0;
     double bridge_impulse_ = 0, thread_impulse_ = 0;
@@ -90,10 +94,11 @@ private:
     int count_ = 0;                             // moments of this phase
 };
 
-ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double tolerance)
+ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double tolerance,
+                           const std::optional<InSeries>& series)
     : modes_(std::move(modes)),
-      window_(modes_, s, 1 / tap_rate, tolerance),
-      law_(laws_of(s)),
+      window_(modes_, s, 1 / tap_rate, tolerance, series),
+      law_(laws_of(s, series)),
       collocation_(window_, law_),
       readout_(scene, modes_),
       tap_rate_(tap_rate),
@@ -111,16 +116,16 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     touched_.reserve(contacts);
     for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
     amplitude_.assign(contacts * contacts + 1, 0.0);
-    const bool springs = std::all_of(law_.begin(), law_.end(), [](const ContactLaw& l) { return l.alpha == 1 && l.beta == 0; });
+    const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
     if (springs && contacts <= most_sets_of) {
         sets_.resize(1u << contacts);
         for (unsigned bits = 1; bits < sets_.size(); ++bits) {
             std::vector<int> points;
             std::vector<double> k;
             for (int a = 0; a < contacts; ++a)
-                if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].k);
+                if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].stiffness());
             TouchingSet set(window_, points, k);
-            if (set.splits()) sets_[bits] = std::move(set);
+            if (set.solves()) sets_[bits] = std::move(set);
         }
     }
     reset();
@@ -134,23 +139,28 @@ void ExactContact::reset() noexcept {
     row_ = idle_ = 0;
     step_ = 1;
     onward_ = false;
-    bridge_impulse_ = thread_impulse_ = 0;
+    bridge_impulse_ = thread_impulse_ = thread_force_ = 0;
     energies_ = {};
     extremes_ = {};
 }
 
 Status ExactContact::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
-        readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(), bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
-        if (out.energy) {
-            out.energy[row] = stored();
-            out.energy[out.stride + row] = energies_.supplied;
-            out.energy[2 * out.stride + row] = energies_.dissipated;
-        }
+        write(out, row);
         if (!interval(out)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
         ++row_;
     }
     return {};
+}
+
+void ExactContact::write(const Block& out, int row) const noexcept {
+    readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(), bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
+    const double F_e = pluck_.empty() ? 0 : force(pluck_[0], row_ / tap_rate_);
+    if (window_.series()) add_series(out, row, *window_.series(), window_.forces(y_.data(), thread_force_, F_e), F_e);
+    if (!out.energy) return;
+    out.energy[row] = stored(F_e);
+    out.energy[out.stride + row] = energies_.supplied;
+    out.energy[2 * out.stride + row] = energies_.dissipated;
 }
 
 bool ExactContact::interval(const Block& out) noexcept {
@@ -179,7 +189,7 @@ bool ExactContact::stretch(double from, double to, bool plucked, const Block& ou
 
 bool ExactContact::window(double end, bool plucked, double since_pluck, bool probe) noexcept {
     MacroWindow& w = window_;
-    w.open(y_.data(), u_.data(), plucked, since_pluck);
+    w.open(y_.data(), u_.data(), plucked, since_pluck, thread_force_);
     ++extremes_.windows;
     for (int a = 0; a < w.contacts; ++a) {
         std::copy_n(w.free_motion(a), w.size, at(r_, a));
@@ -197,6 +207,7 @@ bool ExactContact::window(double end, bool plucked, double since_pluck, bool pro
     w.state_at(end, moments_.data(), y_.data(), u_.data(), y_.data(), u_.data());
     for (int a = 0; a < w.contacts; ++a) bridge_impulse_ += at(moments_, a)[0] * w.seconds();
     thread_impulse_ += w.thread_impulse();
+    thread_force_ = w.thread_force();
     return std::isfinite(y_[0]);
 }
 
@@ -228,7 +239,7 @@ Gap ExactContact::gap(int a, int terms) const noexcept {
     return {touching_[a] ? -1.0 : 1.0,
             path_.data() + static_cast<long>(a) * window_.stride,
             terms,
-            window_.reach,
+            set_ ? set_->growth() : window_.reach,
             amplitude_.data() + a * pairs,
             set_ ? set_->rates() : nullptr,
             pairs};
@@ -258,6 +269,7 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
     } else if (set_) {
         pairs = set_->pairs();
         set_->solve(r_.data(), path_.data(), amplitude_.data());
+        end = std::min(left, set_->span());
         crossed = next_crossing(end, w.size);
     } else {
         end = collocated(left, crossed);
@@ -274,7 +286,7 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
             else collocation_.moments(i, until, count_, at(moment_, i));
     };
     if (probe && end > 0) {
-        double fastest = w.reach;
+        double fastest = set_ ? set_->growth() : w.reach;
         for (int k = 0; k < pairs; ++k) fastest = std::max(fastest, std::abs(set_->rates()[k]));
         const int pieces = static_cast<int>(std::ceil(end * fastest / longest_reach));
         const auto all_moments = [&](double when,
@@ -381,7 +393,7 @@ void ExactContact::measure(int a, double end, bool leaves) noexcept {
     extremes_.deepest = std::max(extremes_.deepest, deepest);
 }
 
-double ExactContact::stored() const noexcept {
+double ExactContact::stored(double F_e) const noexcept {
     const Springs& s = window_.springs;
     double kinetic = 0, potential = 0;
     for (int i = 0; i < window_.osc.padded; ++i) {
@@ -389,11 +401,12 @@ double ExactContact::stored() const noexcept {
         potential += stiffness_[i] * y_[i] * y_[i];
     }
     double energy = 0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
+    if (window_.series()) return energy + window_.series_energy(y_.data(), thread_force_, F_e);
     for (int a = 0; a < s.points; ++a) {
         const double* g = s.weights.data() + static_cast<long>(a) * window_.osc.padded;
         double eta = s.height[a];
         for (int i = 0; i < window_.osc.padded; ++i) eta -= g[i] * y_[i];
-        energy += a < s.contacts ? law_[a].potential(eta) : 0.5 * s.k[a] * eta * eta;
+        energy += a < s.contacts ? law_[a].law.potential(eta) : 0.5 * s.k[a] * eta * eta;
     }
     return energy;
 }
@@ -406,21 +419,22 @@ std::vector<Fact> ExactContact::facts() const {
             {facts::window_terms, double(window_.terms)},
             {facts::contact_steps, extremes_.steps},
             {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
-            {facts::deepest_penetration, extremes_.deepest},
+            {facts::deepest_penetration, window_.series() && !law_.empty() ? law_[0].law.depth(extremes_.deepest) : extremes_.deepest},
             {facts::detection_tolerance, extremes_.tolerance}};
 }
 
 constexpr Option tolerance_option{"tolerance", "1e-10", "what a window and a step of contact may cut off, relative, between 0 and 1"};
-constexpr Option options[] = {tolerance_option, nodes_option};
+constexpr Option options[] = {tolerance_option, nodes_option, compliance_option};
 
-std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const double tolerance = number_option(settings, tolerance_option);
     if (!(tolerance > 0 && tolerance < 1)) throw Refusal("option tolerance: expected a number between 0 and 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
     Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const auto series = in_series(descriptor, scene, modes, settings);
     const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
-    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance);
+    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance, series);
 }
 }  // namespace
 

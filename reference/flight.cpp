@@ -12,7 +12,8 @@ namespace {
 constexpr double of_window = 1e-15;  // relative: what a window cuts is below rounding
 }
 
-Flight::Flight(const Modes& modes, const String& s, double interval) : window(modes, s, interval, of_window) {
+Flight::Flight(const Modes& modes, const String& s, double interval, const std::optional<InSeries>& series)
+    : window(modes, s, interval, of_window, series) {
     if (s.pluck) longest_plucked_ = std::min(1.0, pluck_window(*s.pluck) / window.seconds());
     r_.assign(static_cast<std::size_t>(window.contacts + 1) * window.stride, 0.0);
     none_ = r_;
@@ -25,7 +26,7 @@ Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int l
     const bool whole = left <= longest;
     const double full = whole ? left : left / std::ceil(left / longest), end = std::min(1.0, full / w.length);
     for (int i = 0; i < w.osc.padded; ++i) u[i] *= w.length;
-    w.open(y, u, plucked, since_pluck);
+    w.open(y, u, plucked, since_pluck, thread_force);
     Landing landing{end, -1};
     for (int a = 0; a < w.contacts; ++a) {
         double* r = r_.data() + static_cast<long>(a) * w.stride;
@@ -44,6 +45,7 @@ Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int l
     if (probe) w.spend(0, landing.length, y, u, no_forces, sums.energies);
     w.state_at(landing.length, none_.data(), y, u, y, u);
     sums.thread += w.thread_impulse();
+    thread_force = w.thread_force();
     for (int i = 0; i < w.osc.padded; ++i) u[i] /= w.length;
     landing.length = landing.contact < 0 ? full : landing.length * w.length;
     return landing;

@@ -10,7 +10,7 @@ namespace jvari {
 
 class Flight {
 public:
-    Flight(const Modes&, const String&, double interval);  // between rows [s]
+    Flight(const Modes&, const String&, double interval, const std::optional<InSeries>& = {});  // between rows [s]
 
     MacroWindow window;
 
@@ -22,11 +22,13 @@ public:
         double bridge = 0, thread = 0;  // [N s]
         MacroWindow::Energies energies = {};
     };
+    double thread_force = 0;  // F_s of in_series.hpp, of the present state
+
     // One window, no longer than `left`. `leaving`: the barrier whose surface the string has just left, -1: none. Energies where `probe`.
     Landing fly(double left, bool plucked, double since_pluck, int leaving, double* y, double* u, Sums&, bool probe) noexcept;
 
     double tolerance() const { return tolerance_; }  // no contact deeper than this was missed [m]
-    void reset() { tolerance_ = 0; }
+    void reset() { tolerance_ = thread_force = 0; }
 
 private:
     double longest_plucked_ = 1, tolerance_ = 0;  // of a window under the pluck [window]

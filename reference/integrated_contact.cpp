@@ -25,7 +25,7 @@ struct Choice {
 
 class IntegratedContact final : public Scheme {
 public:
-    IntegratedContact(const String&, const Scene&, Modes, double tap_rate, const Choice&);
+    IntegratedContact(const String&, const Scene&, Modes, double tap_rate, const Choice&, const std::optional<InSeries>&);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
@@ -40,6 +40,7 @@ private:
     void toggle(int contact) noexcept;
     double pace() noexcept;  // of the fastest motion [1/s]
     double stored() const noexcept;
+    const std::optional<InSeries>& series() const noexcept { return flight_.window.series(); }
     bool exact_flight() const noexcept {
         return choice_.exact_flight && std::find(equations_.touched.begin(), equations_.touched.end(), 1) == equations_.touched.end();
     }
@@ -65,10 +66,11 @@ private:
     double events_ = 0;
 };
 
-IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes modes, double tap_rate, const Choice& choice)
+IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes modes, double tap_rate, const Choice& choice,
+                                     const std::optional<InSeries>& series)
     : modes_(std::move(modes)),
-      equations_(modes_, s),
-      flight_(modes_, s, 1 / tap_rate),
+      equations_(modes_, s, series),
+      flight_(modes_, s, 1 / tap_rate, series),
       integrator_(equations_, choice.integrator),
       readout_(scene, modes_),
       choice_(choice),
@@ -101,6 +103,7 @@ void IntegratedContact::reset() noexcept {
 Status IntegratedContact::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
         readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate, sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
+        if (series()) add_series(out, row, *series(), flight_.window.forces(y_.data(), flight_.thread_force, 0), 0);
         if (out.energy) {
             out.energy[row] = stored();
             out.energy[out.stride + row] = sums_.energies.supplied;
@@ -152,6 +155,7 @@ double IntegratedContact::integrate(double left, bool plucked, double since_pluc
         y_[i] = z[i] / modes_.omega0[i];
         u_[i] = z[equations_.padded + i] / flight_.window.osc.rate;
     }
+    flight_.thread_force = equations_.thread_force(z);
     const double* sum = z + 2 * equations_.padded;
     double since[StringEquations::sums];
     for (int k = 0; k < StringEquations::sums; ++k) {
@@ -182,6 +186,12 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
         z[i] = modes_.omega0[i] * y_[i];
         z[equations_.padded + i] = flight_.window.osc.rate * u_[i];
     }
+    if (series()) {
+        double y_c = 0;
+        const auto& g = flight_.window.springs.weights;  // the thread's are the last
+        for (int i = 0; i < modes_.count(); ++i) y_c += g[g.size() - flight_.window.osc.padded + i] * y_[i];
+        equations_.put_thread(series()->lag(y_c, flight_.thread_force), z);
+    }
     std::fill(std::begin(seen_), std::end(seen_), 0.0);
     equations_.plucked = plucked;
     equations_.pluck_time = since_pluck;
@@ -201,6 +211,7 @@ double IntegratedContact::stored() const noexcept {
         kinetic += v * v + p * p;
     }
     energy = 0.5 * modes_.mass * kinetic;
+    if (series()) return energy + flight_.window.series_energy(y_.data(), flight_.thread_force, 0);
     for (int a = 0; a < equations_.points; ++a) {
         const double* g = flight_.window.springs.weights.data() + static_cast<long>(a) * flight_.window.osc.padded;
         double y = 0;
@@ -212,14 +223,15 @@ double IntegratedContact::stored() const noexcept {
 
 std::vector<Fact> IntegratedContact::facts() const {
     const auto effort = integrator_.effort();
-    std::vector<Fact> facts = {{facts::events, events_},
-                               {facts::contact_points, double(equations_.contacts)},
-                               {facts::integrator_steps, effort.steps},
-                               {facts::slope_evaluations, effort.slopes},
-                               {facts::linear_solves, effort.solves},
-                               {facts::integrator_tolerance, choice_.integrator.tolerance},
-                               {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
-                               {facts::deepest_penetration, effort.deepest}};
+    std::vector<Fact> facts = {
+        {facts::events, events_},
+        {facts::contact_points, double(equations_.contacts)},
+        {facts::integrator_steps, effort.steps},
+        {facts::slope_evaluations, effort.slopes},
+        {facts::linear_solves, effort.solves},
+        {facts::integrator_tolerance, choice_.integrator.tolerance},
+        {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
+        {facts::deepest_penetration, series() && equations_.contacts > 0 ? series()->points.law.depth(effort.deepest) : effort.deepest}};
     if (choice_.exact_flight) facts.push_back({facts::detection_tolerance, flight_.tolerance()});
     return facts;
 }
@@ -234,7 +246,7 @@ constexpr Option flight_option{"flight", "exact", "motion between contacts: exac
 constexpr Option first_step_option{"first_step", "", "first step in time constants; absent: 0.1, or 1e-3 with an exponent other than 1"};
 constexpr Option longest_step_option{"longest_step", "", "longest step in time constants; absent: 3, or 1 with flight=integrate"};
 constexpr Option options[] = {method_option, order_option,      rtol_option,         floor_option, linear_solver_option,
-                              flight_option, first_step_option, longest_step_option, nodes_option};
+                              flight_option, first_step_option, longest_step_option, nodes_option, compliance_option};
 
 double above_zero(const Settings& settings, const Option& o, double fallback) {
     const double value = number_option(settings, o, fallback);
@@ -242,7 +254,7 @@ double above_zero(const Settings& settings, const Option& o, double fallback) {
     return value;
 }
 
-std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     Choice choice;
     Integrator::Settings& i = choice.integrator;
     const std::string method = choice_option(settings, method_option);
@@ -266,8 +278,11 @@ std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settin
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
     Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const auto series = in_series(descriptor, scene, modes, settings);
+    if (series && scene.strings.front().pluck)
+        throw Refusal(std::string(descriptor.name) + ": compliance=matched takes strings that are released; exact_contact takes a pluck");
     const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
-    return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate, choice);
+    return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate, choice, series);
 }
 
 // An integrator of another kind is there for scenes that nothing else can confirm.

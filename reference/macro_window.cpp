@@ -45,11 +45,15 @@ WindowChoice choose_window(double tolerance, double reach) {
     return c;
 }
 
-MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, double tolerance)
-    : MacroWindow(modes, s, interval, tolerance, 0, 0) {}
-
-MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, double tolerance, int windows, int kept)
-    : osc(modes), springs(modes, osc, s), contacts(springs.contacts), sweep_(&sweep_functions()), mass_(modes.mass) {
+MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, double tolerance, const std::optional<InSeries>& series,
+                         int windows, int kept)
+    : osc(modes),
+      springs(modes, osc, s, series ? series->pull() : 0),
+      contacts(springs.contacts),
+      sweep_(&sweep_functions()),
+      series_(series),
+      series_cc_(series ? series->C.cc : 0),
+      mass_(modes.mass) {
     if (s.pluck) pluck_.push_back(*s.pluck);
     none_.assign(contacts + 1, 0);
     const double growth = largest_eigenvalue();
@@ -97,27 +101,78 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     make_kernel();
 }
 
+// The thread's force F_s answers what its point does without it. With C_cc in series (0: nothing), Y_c the thread's own displacement,
+//     F_s = (Y_c - y_c)/C_cc,   r Y_c' = -F_s - k (Y_c - h) + e F_b,   y_c = p_c + h_cc * F_s:
+//     F_s (1 + (r s + k)(C_cc + h_cc)) = r (Y_c - p_c)(0) - (k + r d/dt)(p_c - h) + e F_b
+// in Laplace transforms. The reciprocal series of the bracket, sign turned: it begins with s^-1 where r C_cc > 0, else with 1.
+std::vector<double> MacroWindow::reply_series(double window, int count) const {
+    const double k = springs.k[contacts], r = springs.r[contacts] / window;
+    std::vector<double> h(count), bracket(count, 0.0), g(count);
+    double scale = window;
+    for (int n = 0; n < count; ++n, scale *= window) h[n] = springs.h(contacts, contacts)[n] * scale;
+    const int first = relaxes() ? 1 : 0;  // bracket[m]: of s^(first - m)
+    if (relaxes()) bracket[0] = r * series_cc_;
+    bracket[first] = 1 + k * series_cc_;
+    for (int m = first + 1; m < count; ++m) bracket[m] = k * h[m - first - 1] + r * h[m - first];
+    g[0] = -1 / bracket[0];
+    for (int n = 1; n < count; ++n) {
+        for (int m = 1; m <= n; ++m) g[n] -= bracket[m] * g[n - m];
+        g[n] /= bracket[0];
+    }
+    return g;
+}
+
+// F_s of a motion of the thread's point, `first` of an instant before it: -r (Y_c - p_c), or -e of a unit impulse of F_b.
+void MacroWindow::answer(const double* reply, const double* motion, double first, double window, int count, double* F) const {
+    const double k = springs.k[contacts], r = springs.r[contacts] / window;
+    std::vector<double> x(count, 0.0);
+    for (int n = 0; n < count; ++n) {
+        if (relaxes()) x[n] = n == 0 ? first : k * motion[n - 1] + r * motion[n];
+        else if (n + 1 < count) x[n] = k * motion[n] + r * motion[n + 1];
+    }
+    for (int n = 0; n < count; ++n) {
+        F[n] = 0;
+        for (int m = 0; m <= n; ++m) F[n] += reply[m] * x[n - m];
+    }
+}
+
+// What a unit impulse of a point's force makes of every point and of F_s, y[point][count] and F[count], per derivative.
+void MacroWindow::impulse_response(int force, double window, int count, const double* reply, double* y, double* F) const {
+    double power = window;
+    for (int n = 0; n < count; ++n, power *= window)
+        for (int a = 0; a < springs.points; ++a) y[a * count + n] = springs.h(a, force)[n] * power;
+    std::fill_n(F, count, 0.0);
+    if (!threaded()) return;
+    const std::vector<double> p(y + contacts * count, y + (contacts + 1) * count);
+    answer(reply, p.data(), series_ && force < contacts ? -series_->pull() : 0, window, count, F);
+    for (int a = 0; a < springs.points; ++a) {
+        const double share = series_ ? series_->share(a == contacts) : 0;
+        for (int n = 0; n < count; ++n) {
+            double power_j = window;
+            for (int j = 0; j < n; ++j, power_j *= window) y[a * count + n] += springs.h(a, contacts)[j] * power_j * F[n - 1 - j];
+            y[a * count + n] += share * F[n];
+        }
+    }
+}
+
 // Of the string with its thread [rate]: what the derivatives of impulse responses grow by in the end.
-double MacroWindow::largest_eigenvalue() {
+double MacroWindow::largest_eigenvalue() const {
     double largest = 1;
     if (!threaded()) return largest;
-    const double majorant = springs.growth(none_.data());
-    const std::size_t rows = static_cast<std::size_t>(springs.forces + 1) * longest_series;
-    std::vector<double> p(rows), y(rows), F(rows);
-    Springs level = springs;
-    std::fill(level.height.begin(), level.height.end(), 0.0);
+    constexpr int count = longest_series;
+    double majorant = springs.growth(none_.data());
+    if (relaxes()) majorant = std::max(majorant, 2 * (1 + springs.k[contacts] * series_cc_) / (springs.r[contacts] * series_cc_));
+    const auto reply = reply_series(1 / majorant, count);
+    std::vector<double> y(static_cast<std::size_t>(springs.points) * count), F(count);
     for (int b = 0; b < springs.points; ++b) {
-        double power = 1 / majorant;
-        for (int n = 0; n < longest_series; ++n, power /= majorant)
-            for (int a = 0; a < springs.points; ++a) p[a * longest_series + n] = springs.h(a, b)[n] * power;
-        level.solve(none_.data(), 1 / majorant, p.data(), longest_series, longest_series, y.data(), F.data());
+        impulse_response(b, 1 / majorant, count, reply.data(), y.data(), F.data());
         for (int a = 0; a < springs.points; ++a) {
             const auto largest_from = [&](int from) {
                 double most = 0;
-                for (int n = from; n < from + 6; ++n) most = std::max(most, std::abs(y[a * longest_series + n]));
+                for (int n = from; n < from + 6; ++n) most = std::max(most, std::abs(y[a * count + n]));
                 return most;
             };
-            constexpr int early = longest_series / 2, late = longest_series - 6;
+            constexpr int early = count / 2, late = count - 6;
             if (largest_from(early) > 0)
                 largest = std::max(largest, majorant * std::pow(largest_from(late) / largest_from(early), 1.0 / (late - early)));
         }
@@ -131,35 +186,24 @@ void MacroWindow::make_kernel() {
     answer_.assign(static_cast<std::size_t>(contacts) * stride + 1, 0.0);
     by_thread_.assign(static_cast<std::size_t>(contacts + 1) * stride, 0.0);
     reply_.assign(2 * stride, 0.0);
-    const std::size_t rows = static_cast<std::size_t>(springs.forces + 1) * longest_series;
-    std::vector<double> p(rows), y(rows), F(rows);
-    Springs level = springs;
-    std::fill(level.height.begin(), level.height.end(), 0.0);
+    if (threaded()) {  // zeros before it: a convolution reads them
+        const auto g = reply_series(length, terms);
+        std::copy(g.begin(), g.end(), reply_.data() + stride);
+    }
+    std::vector<double> y(static_cast<std::size_t>(springs.points) * terms), F(terms);
     for (int b = 0; b < contacts; ++b) {
-        double power = length;  // h^(n) length^(n+1)
-        for (int n = 0; n < terms; ++n, power *= length)
-            for (int a = 0; a < springs.points; ++a) p[a * longest_series + n] = springs.h(a, b)[n] * power;
-        level.solve(none_.data(), length, p.data(), terms, terms, y.data(), F.data());
+        impulse_response(b, length, terms, reply_.data() + stride, y.data(), F.data());
         double scale = 1;
         for (int n = 0; n < terms; ++n, scale *= reach) {
             for (int a = 0; a < contacts; ++a) {
-                const double h = y[a * longest_series + n];
+                const double h = y[a * terms + n];
                 kernel_[(static_cast<std::size_t>(a) * contacts + b) * (stride + size) + size + n] = h;
                 kernel_truncation_ = std::max(kernel_truncation_, std::abs(h) / scale * tail_);
             }
-            if (threaded()) answer_[b * stride + n] = F[contacts * longest_series + n];
+            if (threaded()) answer_[b * stride + n] = F[n];
         }
     }
     if (!threaded()) return;
-    // F_c = -(k + r d/dt) y_c and y_c = p_c + h_cc * F_c: F_c^(n) = -sum_m reply_m (k p_c^(n-m) + r p_c^(n-m+1)), reply the reciprocal of
-    // the series 1 + sum_m (k h^(m-1) + r h^(m)) s^-m. Zeros before it: a convolution reads them.
-    double* const g = reply_.data() + stride;
-    std::vector<double> h(terms + 1);
-    double scale = length;
-    for (int n = 0; n <= terms; ++n, scale *= length) h[n] = springs.h(contacts, contacts)[n] * scale;
-    g[0] = -1;
-    for (int n = 1; n < terms; ++n)
-        for (int m = 1; m <= n; ++m) g[n] -= (springs.k[contacts] * h[m - 1] + springs.r[contacts] / length * h[m]) * g[n - m];
     double power = length;
     for (int n = 0; n < terms; ++n, power *= length)
         for (int a = 0; a < contacts; ++a) by_thread_[a * stride + size + n] = springs.h(a, contacts)[n] * power;
@@ -175,7 +219,7 @@ void MacroWindow::free_flow(double at, std::vector<double>& e) const noexcept {
     for (int i = 0; i < M; ++i) e12[i] /= length, e21[i] *= length;
 }
 
-void MacroWindow::open(const double* y, const double* u, bool plucked, double since_pluck) noexcept {
+void MacroWindow::open(const double* y, const double* u, bool plucked, double since_pluck, double thread) noexcept {
     const Springs& s = springs;
     plucked_ = plucked;
     ModalSweep m;
@@ -198,17 +242,29 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
             double* out = (a < contacts ? free_.data() : p_.data()) + a * stride;
             for (int j = 0; j < terms; ++j, power *= length)
                 for (int n = j + 1; n < terms; ++n) out[n] += s.h(a, s.points)[j] * power * f[n - 1 - j];
+            for (int n = 0; series_ && n < terms; ++n) out[n] += series_->plucked(a == contacts) * f[n];
         }
     }
     if (threaded()) {
         double *F = force_.data() + contacts * stride, *p = p_.data() + contacts * stride;
         p[0] -= s.height[contacts];
         std::fill_n(F, size, 0.0);
-        for (int n = 0; n + 1 < terms; ++n) p[n] = s.k[contacts] * p[n] + s.r[contacts] / length * p[n + 1];
-        sweep_->combine(F, size, p, terms - 1, reply_.data() + stride, -1);
-        std::fill(F + terms - 1, F + size, 0.0);
-        for (int a = 0; a < contacts; ++a)
-            sweep_->combine(free_.data() + a * stride, size, F, terms - 1, by_thread_.data() + a * stride + size - 1, -1);
+        const double k = s.k[contacts], r = s.r[contacts] / length;
+        int known = terms;
+        if (relaxes()) {
+            for (int n = terms - 1; n > 0; --n) p[n] = k * p[n - 1] + r * p[n];
+            p[0] = -r * series_cc_ * thread;
+        } else {
+            --known;  // the damper needs one derivative more
+            for (int n = 0; n < known; ++n) p[n] = k * p[n] + r * p[n + 1];
+        }
+        sweep_->combine(F, size, p, known, reply_.data() + stride, -1);
+        std::fill(F + known, F + size, 0.0);
+        for (int a = 0; a < contacts; ++a) {
+            double* f = free_.data() + a * stride;
+            sweep_->combine(f, size, F, known, by_thread_.data() + a * stride + size - 1, -1);
+            for (int n = 0; series_ && n < terms; ++n) f[n] += series_->share(false) * F[n];
+        }
     }
     double largest = 0, most = s.pluck_reach;
     for (int b = 0; b < contacts; ++b) {
@@ -240,8 +296,17 @@ void MacroWindow::state_at(double at, const double* M, const double* y, const do
         std::fill_n(m, size, 0.0);
         sweep_->combine(m, size, force_.data() + contacts * stride, terms - 1, e + 1, 1);
         for (int b = 0; b < contacts; ++b)
-            if (M[b * stride] != 0) sweep_->combine(m, size, answer_.data() + b * stride, terms - 1, M + b * stride + 1, 1);
+            if (M[b * stride] != 0)
+                sweep_->combine(m, size, answer_.data() + b * stride, terms - 1, M + b * stride + 1, 1);  // kappa^(n) with M_(n+1)
         thread_impulse_ = m[0] * seconds();
+        if (relaxes()) {
+            const double* F = force_.data() + contacts * stride;
+            thread_force_ = 0;
+            for (int n = 0; n < terms; ++n) thread_force_ += F[n] * e[n];
+            for (int b = 0; b < contacts; ++b)
+                for (int n = 0; n < terms; ++n) thread_force_ += answer_[b * stride + n] * M[b * stride + n];
+        }
+        for (int b = 0; series_ && b < contacts; ++b) thread_impulse_ -= series_->pull() * M[b * stride] * seconds();
         act(contacts, m);
     }
     if (plucked_) {
@@ -274,18 +339,49 @@ void MacroWindow::spend_at(double at, double weight, const double* y, const doub
         for (int i = 0; i < osc.padded; ++i) v += g[i] * u_node_[i];
         return v;
     };
+    const double* F = force_.data() + s.points * stride;
+    double Fe = 0, change = 0;  // of the pluck, per window
+    for (int n = terms - 1; plucked_ && n >= 0; --n) {
+        change = n + 1 < terms ? change * at + F[n + 1] * inverse_factorial[n] : 0;
+        Fe = Fe * at + F[n] * inverse_factorial[n];
+    }
     double loss = 0;
     for (int i = 0; i < osc.padded; ++i) loss += loss_[i] * u_node_[i] * u_node_[i];
-    if (threaded()) {
+    if (series_) {
+        const double F_s = thread_force_;
+        const auto [b, c] = forces(y_node_.data(), F_s, Fe);
+        if (relaxes()) {
+            const double Y = readings(y_node_.data(), F_s, Fe).Y, r = s.r[contacts] / osc.rate, v = -(c + s.k[contacts] * Y) / r;
+            loss += r * (v * seconds()) * (v * seconds());
+        }
+        e.supplied -= weight * (series_->C.be * b + series_->C.ce * c) * change;
+    } else if (threaded()) {
         const double v = reading(s.weights.data() + static_cast<long>(contacts) * osc.padded);
         loss += s.r[contacts] / osc.rate * v * v;
     }
     e.dissipated += weight * loss / seconds();  // v = u/seconds, dt = seconds
     if (!plucked_) return;
-    const double* F = force_.data() + s.points * stride;
-    double Fe = 0;
-    for (int n = terms - 1; n >= 0; --n) Fe = Fe * at + F[n] * inverse_factorial[n];
     e.supplied += weight * Fe * reading(s.gains.data() + static_cast<long>(s.points) * osc.padded) * mass_ * osc.rate * osc.rate;
+}
+
+// Of what is in series: what the modes read at barrier and thread, the pluck's part counted in, and Y_c - h_c.
+MacroWindow::Readings MacroWindow::readings(const double* y, double thread, double F_e) const noexcept {
+    const auto read = [&](int a) {
+        const double* g = springs.weights.data() + static_cast<long>(a) * osc.padded;
+        double sum = 0;
+        for (int i = 0; i < osc.padded; ++i) sum += g[i] * y[i];
+        return sum;
+    };
+    const double b = contacts > 0 ? read(0) + series_->C.be * F_e : 0, c = threaded() ? read(contacts) + series_->C.ce * F_e : 0;
+    return {b, c, series_->lag(c, thread)};
+}
+SeriesPoints::Forces MacroWindow::forces(const double* y, double thread, double F_e) const noexcept {
+    const Readings r = readings(y, thread, F_e);
+    return series_->points.forces(r.b, r.c, r.Y);
+}
+double MacroWindow::series_energy(const double* y, double thread, double F_e) const noexcept {
+    const Readings r = readings(y, thread, F_e);
+    return series_->points.energy(r.b, r.c, r.Y);
 }
 
 }  // namespace jvari

@@ -13,6 +13,7 @@
 #include <array>
 #include <vector>
 
+#include "reference/in_series.hpp"
 #include "reference/modal_sweep.hpp"
 #include "reference/oscillators.hpp"
 #include "reference/springs.hpp"
@@ -31,9 +32,9 @@ WindowChoice choose_window(double tolerance, double reach);
 
 class MacroWindow {
 public:
-    // `interval` between rows [s]
-    MacroWindow(const Modes&, const String&, double interval, double tolerance);
-    MacroWindow(const Modes&, const String&, double interval, double tolerance, int windows, int terms);  // 0: chosen by the tolerance
+    // `interval` between rows [s]; windows a row and terms, 0: chosen by the tolerance
+    MacroWindow(const Modes&, const String&, double interval, double tolerance, const std::optional<InSeries>& = {}, int windows = 0,
+                int terms = 0);
 
     Oscillators osc;
     Springs springs;
@@ -54,11 +55,16 @@ public:
     double kernel_truncation() const { return kernel_truncation_; }  // of a displacement, by an impulse M_0 of 1 [m]
     const SweepFunctions& sweep() const { return *sweep_; }
 
-    void open(const double* y, const double* u, bool plucked, double since_pluck) noexcept;
+    // thread: F_s of in_series.hpp at its start, where the thread has a state of its own [N]
+    void open(const double* y, const double* u, bool plucked, double since_pluck, double thread = 0) noexcept;
 
     // The modes at `at`, under contact forces of moments M[contact][stride]. The output may be the input of open().
     void state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept;
     double thread_impulse() const { return thread_impulse_; }  // until the instant of the last state_at [N s]
+    double thread_force() const { return thread_force_; }      // F_s at that instant, where the thread has a state
+    const std::optional<InSeries>& series() const { return series_; }
+    SeriesPoints::Forces forces(const double* y, double thread, double F_e) const noexcept;  // of what is in series, in that state
+    double series_energy(const double* y, double thread, double F_e) const noexcept;         // [J]
 
     // Energies lost and supplied between two instants of the window, by quadrature; moments(at, M) gives the forces' moments.
     struct Energies {
@@ -74,7 +80,15 @@ public:
     }
 
 private:
-    double largest_eigenvalue();
+    double largest_eigenvalue() const;
+    std::vector<double> reply_series(double window, int count) const;
+    void answer(const double* reply, const double* motion, double first, double window, int count, double* F) const;
+    void impulse_response(int force, double window, int count, const double* reply, double* y, double* F) const;
+    struct Readings {
+        double b, c, Y;
+    };
+    Readings readings(const double* y, double thread, double F_e) const noexcept;
+    bool relaxes() const { return series_ && series_->relaxes(); }
     void make_kernel();
     void free_flow(double at, std::vector<double>& e) const noexcept;
     void spend_at(double at, double weight, const double* y, const double* u, Energies&) noexcept;
@@ -82,11 +96,13 @@ private:
 
     static constexpr int nodes = 8;  // Gauss-Legendre
     const SweepFunctions* sweep_;
+    std::optional<InSeries> series_;
+    double series_cc_ = 0;      // C_cc [m/N]
     std::vector<Pluck> pluck_;  // none or one
     std::vector<char> none_;
     std::vector<int> sweep_terms_;
     std::vector<double> a_, b_, gains_, loss_;  // in units of the window; loss 2 m sigma
-    double mass_, tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0;
+    double mass_, tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0, thread_force_ = 0;
     bool plucked_ = false;
     std::vector<double> kernel_, answer_, reply_, by_thread_, flow_, flow_at_;  // h_ab; kappa_b; F_c of p_c; h_ac; free motion's matrix
     std::vector<double> p_, free_, force_, moments_, reach_, scratch_, node_moments_, y_node_, u_node_;

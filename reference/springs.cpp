@@ -5,7 +5,7 @@
 
 namespace jvari {
 
-Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s) {
+Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s, double pull) {
     const double gain = 1 / (modes.mass * osc.rate * osc.rate);
     const auto add = [&](std::vector<double> g) {
         const auto w = osc.pad(g), d = osc.pad(g, gain);
@@ -27,6 +27,7 @@ Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s) {
         height.push_back(s.thread->height);
     }
     points = static_cast<int>(k.size());
+    for (int i = 0; pull != 0 && i < contacts * osc.padded; ++i) gains[i] -= pull * gains[contacts * osc.padded + i % osc.padded];
     forces = points + (s.pluck ? 1 : 0);
     if (s.pluck) {
         const auto g = footprint_weights(modes, s.pluck->position, s.pluck->width);

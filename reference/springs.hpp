@@ -15,7 +15,8 @@
 namespace jvari {
 
 struct Springs {
-    Springs(const Modes&, const Oscillators&, const String&);
+    // pull: how much of a contact's force the thread's point takes back (in_series.hpp), 0 where nothing is in series
+    Springs(const Modes&, const Oscillators&, const String&, double pull = 0);
 
     int contacts = 0;                  // points 0 ... contacts - 1; the thread, where there is one, is the last point
     int points = 0;                    // contacts and thread

@@ -53,8 +53,8 @@ void add(const double* d, double F, double* dv, int n) {
 }
 }  // namespace
 
-StringEquations::StringEquations(const Modes& modes, const String& s)
-    : padded((modes.count() + lanes - 1) / lanes * lanes), mass_(modes.mass) {
+StringEquations::StringEquations(const Modes& modes, const String& s, const std::optional<InSeries>& series)
+    : padded((modes.count() + (series && series->relaxes() ? 1 : 0) + lanes - 1) / lanes * lanes), mass_(modes.mass) {
     const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
     const auto fill = [&](std::vector<double>& rows) { rows.resize((rows.size() + padded - 1) / padded * padded, 0.0); };
     for (int i = 0; i < modes.count(); ++i) {
@@ -63,23 +63,43 @@ StringEquations::StringEquations(const Modes& modes, const String& s)
         pad(loss_, 2 * modes.mass * modes.sigma[i]);
     }
     for (auto* rows : {&omega_, &damping_, &loss_}) fill(*rows);
-    const auto add_point = [&](const std::vector<double>& g) {
+    const SeriesPoints in = series ? series->points : SeriesPoints();
+    if (series && series->relaxes()) {
+        thread_ = modes.count();
+        thread_rate_ = std::sqrt(in.stiff_cc / modes.mass);
+        thread_loss_ = in.r_c / (thread_rate_ * thread_rate_);
+        damping_[thread_] = in.k_c / in.r_c;
+    }
+    if (series) pull_back_ = series->pull();
+    const auto add_point = [&](const std::vector<double>& g, double own = 0) {  // own: Y_c in what it reads
         for (int i = 0; i < modes.count(); ++i) {
             pad(reads_, g[i] / modes.omega0[i]);
             pad(weights_, g[i]);
             pad(gains_, g[i] / modes.mass);
         }
+        if (thread_ >= 0) {
+            reads_.push_back(0);
+            weights_.push_back(0);
+            gains_.push_back(own * thread_rate_ / in.r_c);
+            own_.push_back(own / thread_rate_);
+        } else own_.push_back(0);
         for (auto* rows : {&reads_, &weights_, &gains_}) fill(*rows);
     };
+    std::vector<double> at_thread(modes.count(), 0.0);
+    if (s.thread) at_thread = footprint_weights(modes, s.thread->position, s.thread->width);
     for (const Barrier& barrier : s.barriers) {
         const auto& b = std::get<LumpedBarrier>(barrier);
-        add_point(footprint_weights(modes, b.position, b.width));
-        point_.push_back({b.stiffness.k, b.exponent, b.contact_loss, 0, b.height});
+        auto g = footprint_weights(modes, b.position, b.width);
+        for (int i = 0; i < modes.count(); ++i) g[i] -= pull_back_ * at_thread[i];
+        add_point(g, pull_back_);
+        const double lifted = pull_back_ != 0 ? pull_back_ * s.thread->height : 0;
+        point_.push_back({SeriesLaw({b.stiffness.k, b.exponent}, in.law.S), b.contact_loss, 0, b.height - lifted});
     }
     contacts = static_cast<int>(point_.size());
     if (s.thread) {
-        add_point(footprint_weights(modes, s.thread->position, s.thread->width));
-        point_.push_back({s.thread->stiffness, 1, 0, s.thread->damping, s.thread->height});
+        add_point(at_thread, thread_ >= 0 ? -1 : 0);
+        const bool own = !in.thread;
+        point_.push_back({SeriesLaw({own ? s.thread->stiffness : in.stiff_cc, 1}, 0), 0, own ? s.thread->damping : 0, s.thread->height});
     }
     points = static_cast<int>(point_.size());
     if (s.pluck) {
@@ -99,26 +119,41 @@ StringEquations::StringEquations(const Modes& modes, const String& s)
 }
 
 StringEquations::Motion StringEquations::motion(int a, const double* z) const noexcept {
-    return {dot(row(reads_, a), z, padded), dot(row(weights_, a), z + padded, padded)};
+    const double thread = thread_ >= 0 ? own_[a] * z[padded + thread_] : 0;
+    return {dot(row(reads_, a), z, padded) + thread, dot(row(weights_, a), z + padded, padded)};
 }
 
 StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
     const Point& q = point_[a];
     const double eta = q.height - m.y;
-    if (a >= contacts) return {q.k * eta - q.r * m.v, q.k, q.r, q.r, 0};
-    if (q.alpha == 1) {
-        const double f = q.k * eta, give = 1 - q.beta * m.v;
-        return {f * give, q.k * give, q.beta * f, q.beta * f, q.beta * q.k};
+    const double k = q.law.law.k, alpha = q.law.law.alpha;
+    if (a >= contacts) return {k * eta - q.r * m.v, k, q.r, q.r, 0};
+    if (alpha == 1) {
+        const double f = q.law.both * eta, give = 1 - q.beta * m.v;
+        return {f * give, q.law.both * give, q.beta * f, q.beta * f, q.beta * k};
     }
-    const double slope = q.k * std::pow(std::abs(eta), q.alpha - 1), f = slope * eta, give = 1 - q.beta * m.v;
-    return {f * give, q.alpha * slope * give, q.beta * f, q.beta * f, q.beta * q.alpha * slope};
+    if (q.law.S > 0) return {std::copysign(q.law.force(std::abs(eta)), eta), q.law.slope(std::abs(eta)), 0, 0, 0};
+    const double slope = k * std::pow(std::abs(eta), alpha - 1), f = slope * eta, give = 1 - q.beta * m.v;
+    return {f * give, alpha * slope * give, q.beta * f, q.beta * f, q.beta * alpha * slope};
 }
 
 double StringEquations::penetration(int a, const double* z) const noexcept {
-    return point_[a].height - dot(row(reads_, a), z, padded);
+    return point_[a].height - motion(a, z).y;
 }
 double StringEquations::penetration_speed(int a, const double* z) const noexcept {
-    return -dot(row(weights_, a), z + padded, padded);
+    return -dot(row(weights_, a), z + padded, padded) - (thread_ >= 0 ? own_[a] * thread_slope(z) : 0);
+}
+double StringEquations::thread_slope(const double* z) const noexcept {
+    double sum = -damping_[thread_] * z[padded + thread_];
+    for (int a = 0; a < points; ++a)
+        if (acts(a)) sum += row(gains_, a)[thread_] * pull(a, motion(a, z)).F;
+    return sum;
+}
+double StringEquations::thread_force(const double* z) const noexcept {
+    return thread_ >= 0 ? pull(contacts, motion(contacts, z)).F : 0;
+}
+void StringEquations::put_thread(double Y, double* z) const noexcept {
+    if (thread_ >= 0) z[padded + thread_] = thread_rate_ * Y;
 }
 double StringEquations::contact_force(int a, const double* z) const noexcept {
     return pull(a, motion(a, z)).F;
@@ -136,8 +171,10 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
         const Pull f = pull(a, m);
         add(row(gains_, a), f.F, dv, padded);
         sum[a < contacts ? bridge_impulse : thread_impulse] += f.F;
+        if (a < contacts) sum[thread_impulse] -= pull_back_ * f.F;
         sum[dissipated] += f.drag * m.v * m.v;
     }
+    if (thread_ >= 0) sum[dissipated] += thread_loss_ * dv[thread_] * dv[thread_];
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
         add(row(gains_, points), F, dv, padded);
@@ -148,7 +185,7 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
 double StringEquations::potential(int a, double y) const noexcept {
     const double eta = point_[a].height - y;
     if (a < contacts && eta <= 0) return 0;
-    return point_[a].k * std::pow(std::abs(eta), point_[a].alpha + 1) / (point_[a].alpha + 1);
+    return point_[a].law.potential(std::abs(eta));
 }
 
 double StringEquations::scale_squared(const double* z) const noexcept {
@@ -167,8 +204,9 @@ double StringEquations::pace(const double* z) const noexcept {
         if (!touched[a]) continue;
         const Point& q = point_[a];
         const double give = couples_[a * contacts + a], v = penetration_speed(a, z);
-        const double depth = std::max(penetration(a, z), std::pow(v * v * (q.alpha + 1) / (2 * q.k * give), 1 / (q.alpha + 1)));
-        stiffness_[a] = q.k * std::pow(depth, q.alpha - 1);
+        const double k = q.law.law.k, alpha = q.law.law.alpha;
+        const double depth = std::max(penetration(a, z), std::pow(v * v * (alpha + 1) / (2 * k * give), 1 / (alpha + 1)));
+        stiffness_[a] = q.law.S > 0 ? q.law.slope(depth) : k * std::pow(depth, alpha - 1);
     }
     double fastest = 0;
     for (int a = 0; a < contacts; ++a) {
@@ -213,6 +251,8 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         const Motion d = motion(a, x);
         for (int c = 0; c < points; ++c)
             if (acts(c)) equation[c] += (gamma * f.K + f.R) * gamma * compliance_[a * points + c];
+        for (int c = 0; thread_ >= 0 && c < points; ++c)
+            if (acts(c)) equation[c] += gamma * f.K * own_[a] * row(gains_, c)[thread_] * inverse_[thread_];
         equation[points] = -f.K * d.y - f.R * d.v;
     }
     for (int c = 0; c < points; ++c) {  // elimination; the matrix is I + (positive diagonal) x (Gram matrix): pivots on the diagonal hold
@@ -250,7 +290,14 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         if (!acts(a)) continue;
         const Motion d = motion(a, x);
         sum[a < contacts ? bridge_impulse : thread_impulse] += gamma * force_[a];
+        if (a < contacts) sum[thread_impulse] -= gamma * pull_back_ * force_[a];
         lost += 2 * pull_[a].drag * motion_[a].v * d.v - pull_[a].drag_slope * motion_[a].v * motion_[a].v * d.y;
+    }
+    if (thread_ >= 0) {
+        double change = -damping_[thread_] * xv[thread_];
+        for (int a = 0; a < points; ++a)
+            if (acts(a)) change += row(gains_, a)[thread_] * force_[a];
+        lost += 2 * thread_loss_ * thread_slope(z) * change;
     }
     sum[dissipated] += gamma * lost;
     if (plucked) {
@@ -283,9 +330,22 @@ void StringEquations::jacobian(double t, const double* z, double* J) const noexc
             }
             at(impulse, j) -= f.K * y[j];
             at(impulse, padded + j) -= f.R * g[j];
+            if (a < contacts) at(2 * padded + thread_impulse, j) += pull_back_ * f.K * y[j];
             at(2 * padded + dissipated, j) -= f.drag_slope * m.v * m.v * y[j];
             at(2 * padded + dissipated, padded + j) += 2 * f.drag * m.v * g[j];
         }
+    }
+    if (thread_ >= 0) {
+        const int own = padded + thread_;
+        for (int a = 0; a < points; ++a) {
+            if (!acts(a)) continue;
+            const double K = pull(a, motion(a, z)).K * own_[a];
+            for (int i = 0; i < padded; ++i) at(padded + i, own) -= row(gains_, a)[i] * K;
+            at(2 * padded + (a < contacts ? bridge_impulse : thread_impulse), own) -= K;
+            if (a < contacts) at(2 * padded + thread_impulse, own) += pull_back_ * K;
+        }
+        const double twice = 2 * thread_loss_ * thread_slope(z);
+        for (int j = 0; j < 2 * padded; ++j) at(2 * padded + dissipated, j) += twice * at(own, j);
     }
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));

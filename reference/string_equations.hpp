@@ -7,10 +7,14 @@
 // Which barriers are touched is given, not decided here: between two events the equations are smooth, and odd beyond the barrier's surface
 // so that a trial step may overshoot. Four sums ride along: impulses of barriers and thread, energy supplied and dissipated. The Jacobian
 // is 2x2 blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's formula.
+//
+// With something in series (in_series.hpp) the last point is its spring to the thread, F_s, and the thread's own displacement is one more
+// v, which forces move and nothing but itself brings back: w Y_c' = -k_c/r_c (w Y_c) + w/r_c (e F_b - F_s), w^2 = 1/(m C_cc).
 #pragma once
 
 #include <vector>
 
+#include "reference/in_series.hpp"
 #include "scenes/modes.hpp"
 
 namespace jvari {
@@ -18,7 +22,7 @@ namespace jvari {
 struct StringEquations {
     enum Sum { bridge_impulse, thread_impulse, supplied, dissipated, sums };  // [N s], [N s], [J], [J]
 
-    StringEquations(const Modes&, const String&);
+    StringEquations(const Modes&, const String&, const std::optional<InSeries>& = {});
 
     int padded = 0;    // modes in whole vectors; what is beyond the last stays zero
     int contacts = 0;  // points 0 ... contacts - 1 are barriers; a thread is the last point
@@ -27,7 +31,9 @@ struct StringEquations {
     double pluck_time = 0;      // since the pluck's start, at t = 0 of the integrator [s]
     bool plucked = false;
 
-    int size() const { return 2 * padded + sums; }  // p, v, sums
+    int size() const { return 2 * padded + sums; }        // p, v, sums
+    double thread_force(const double* z) const noexcept;  // F_s of in_series.hpp, where the thread has a state [N]
+    void put_thread(double Y, double* z) const noexcept;  // Y_c - h_c into that state [m]
     void slope(double t, const double* z, double* dz) const noexcept;
     double penetration(int contact, const double* z) const noexcept;        // eta [m]
     double penetration_speed(int contact, const double* z) const noexcept;  // [m/s]
@@ -42,7 +48,8 @@ struct StringEquations {
 
 private:
     struct Point {
-        double k, alpha, beta, r, height;
+        SeriesLaw law;
+        double beta, r, height;
     };
     struct Pull {  // force of a point, F, and its derivatives -K to y, -R to v; drag: its loss is drag v^2
         double F, K, R, drag, drag_slope;
@@ -55,7 +62,12 @@ private:
     Pull pull(int a, Motion) const noexcept;
     const double* row(const std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * padded; }
 
-    double mass_;
+    double thread_slope(const double* z) const noexcept;  // of the thread's state
+
+    double mass_, pull_back_ = 0;               // e
+    int thread_ = -1;                           // which v the thread's state is
+    double thread_rate_ = 0, thread_loss_ = 0;  // w [1/s], r_c/w^2
+    std::vector<double> own_;                   // of that v in a point's displacement [point]
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                     // none or one
     std::vector<double> omega_, damping_, loss_;   // omega0, 2 sigma, 2 m sigma

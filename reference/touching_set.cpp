@@ -15,7 +15,8 @@ using Complex = std::complex<Real>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr Real stiff = 12;  // the slowest fast pair, in radians per window
+constexpr Real stiff = 12;        // the slowest fast pair, in radians per window
+constexpr Real most_spans = 100;  // of a window
 }  // namespace
 
 TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std::span<const double> stiffness)
@@ -23,7 +24,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     const int P = static_cast<int>(points_.size()), N = w.terms, size = w.size;
     const auto h = [&](int a, int b, int j) { return static_cast<Real>(w.kernel(a, b)[j]); };
     std::vector<Matrix> A(N + 2, Matrix::Zero(P, P));  // H_j K
-    for (int j = 1; j < N; ++j)
+    for (int j = 0; j < N; ++j)
         for (int a = 0; a < P; ++a)
             for (int b = 0; b < P; ++b) A[j](a, b) = h(points_[a], points_[b], j) * k_[b];
 
@@ -32,7 +33,10 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     for (int a = 0; a < P; ++a)
         for (int b = 0; b < P; ++b) symmetric(a, b) = A[1](a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
     const Matrix even = (symmetric + symmetric.transpose()) / 2;
-    if (Eigen::SelfAdjointEigenSolver<Matrix>(even, Eigen::EigenvaluesOnly).eigenvalues()(0) < stiff * stiff) return;
+    if (Eigen::SelfAdjointEigenSolver<Matrix>(even, Eigen::EigenvaluesOnly).eigenvalues()(0) < stiff * stiff || !A[0].isZero(0)) {
+        soften();
+        return;
+    }
     Matrix L = Matrix::Zero(2 * P, 2 * P);
     L.topRightCorner(P, P).setIdentity();
     L.bottomLeftCorner(P, P) = -A[1];
@@ -86,6 +90,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     const Matrix inverse = start.inverse();
 
     pairs_ = P;
+    growth_ = w.reach;
     for (const Complex& rate : rates) rate_.push_back(static_cast<std::complex<double>>(rate));
     beta_.resize(2 * P);
     start_.resize(4 * P * P);
@@ -124,18 +129,44 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
         }
 }
 
+// The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j).
+void TouchingSet::soften() noexcept {
+    const MacroWindow& w = *window_;
+    const int P = static_cast<int>(points_.size()), N = w.terms;
+    std::vector<Matrix> R(N, Matrix::Identity(P, P));
+    Real growth = w.reach;
+    for (int n = 1; n < N; ++n) {
+        R[n].setZero();
+        for (int j = 0; j < n; ++j)
+            for (int a = 0; a < P; ++a)
+                for (int b = 0; b < P; ++b)
+                    R[n].row(a) -= static_cast<Real>(w.kernel(points_[a], points_[b])[j]) * k_[b] * R[n - 1 - j].row(b);
+        if (n >= N / 2) growth = std::max(growth, std::pow(R[n].norm(), Real(1) / n));
+    }
+    growth_ = static_cast<double>(growth);
+    span_ = w.reach / growth_;
+    if (growth > most_spans * w.reach) return;
+    resolvent_.assign(static_cast<std::size_t>(P) * P * 2 * w.size, 0.0);
+    for (int n = 0; n < N; ++n)
+        for (int a = 0; a < P; ++a)
+            for (int b = 0; b < P; ++b) resolvent_[(a * P + b) * 2 * w.size + w.size + n] = static_cast<double>(R[n](a, b));
+}
+
 void TouchingSet::solve(const double* r, double* path, std::complex<double>* amplitude) noexcept {
     const MacroWindow& w = *window_;
-    const int P = pairs_, N = w.terms, stride = w.stride, size = w.size;
+    const int P = static_cast<int>(points_.size()), N = w.terms, stride = w.stride, size = w.size;
     const auto combine = w.sweep().combine;
     for (int a = 0; a < P; ++a) {
         double* out = path + points_[a] * stride;
         std::fill_n(out, size, 0.0);
+        for (int b = 0; pairs_ == 0 && b < P; ++b)
+            combine(out, size, r + points_[b] * stride, N, resolvent_.data() + (static_cast<std::size_t>(a * P + b) * 2 + 1) * size, -1);
+        if (pairs_ == 0) continue;
         for (int b = 0; b < P; ++b)
             combine(out, size, r + points_[b] * stride + 2, N - 2, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
                     static_cast<long>(P) * P * size);
     }
-    for (int k = 0; k < P; ++k) {
+    for (int k = 0; k < pairs_; ++k) {
         double re = 0, im = 0;
         for (int b = 0; b < P; ++b)
             for (int d = 0; d < 2; ++d) {
@@ -147,8 +178,8 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
         beta_[2 * k + 1] = -im;
     }
     const auto add_pairs = [&](int a) {
-        combine(path + a * stride, size, beta_.data(), 2 * P, slow_.data() + static_cast<std::size_t>(a) * P * 2 * size, size);
-        for (int k = 0; k < P; ++k) amplitude[a * P + k] = std::complex<double>(beta_[2 * k], -beta_[2 * k + 1]) * shape_[a * P + k];
+        combine(path + a * stride, size, beta_.data(), 2 * pairs_, slow_.data() + static_cast<std::size_t>(a) * P * 2 * size, size);
+        for (int k = 0; k < pairs_; ++k) amplitude[a * P + k] = std::complex<double>(beta_[2 * k], -beta_[2 * k + 1]) * shape_[a * P + k];
     };
     for (int a : points_) add_pairs(a);
     if (P == w.contacts) return;
@@ -171,7 +202,8 @@ void TouchingSet::moments(int which, const double* path, const std::complex<doub
     double e[3 * most_terms];
     powers(u, 2 * size + 1, e);
     std::fill_n(m, size, 0.0);
-    window_->sweep().combine(m, size, path + a * window_->stride, std::min(window_->terms, count + 2), e + 1, 1);
+    window_->sweep().combine(m, size, path + a * window_->stride, pairs_ > 0 ? std::min(window_->terms, count + 2) : window_->terms, e + 1,
+                             1);
     for (int k = 0; k < pairs_; ++k) {  // X_i = int (u - w)^i/i! e^(lambda w) dw = (X_(i-1) - u^i/i!)/lambda
         const std::complex<double> inverse = 1.0 / rate_[k], c = amplitude[a * pairs_ + k];
         const double size_now = std::exp(rate_[k].real() * u), phase = rate_[k].imag() * u;

@@ -5,8 +5,10 @@
 // has the solution p = p_s + Re sum_k beta_k v_k e^(lambda_k u): one fast pair per touching point, lambda and v from
 // (lambda^2 + sum_j H_j K lambda^(1-j)) v = 0, and a polynomial as slow as the string, p_s = G (r'' + Re sum_k beta_k q_k), with G the
 // inverse of the operator on truncated vectors of derivatives and q_k,n = sum_{j >= n+2} H_j K v_k lambda_k^(n+1-j). beta follows from
-// p(0) = r(0), p'(0) = r'(0). The series in G is asymptotic: see longest_reach. All of it is made once per set of touching points.
-// Leaves out: sets of which some direction is not stiff; splits() is false for them.
+// p(0) = r(0), p'(0) = r'(0). The series in G is asymptotic: see longest_reach. Where some direction is not stiff,
+// or something is in series (H_0 is not zero then), nothing is split off: p follows from r by the resolvent's series over a span that is a
+// part of the window. All of it is made once per set of touching points. Leaves out: sets with such a direction beside one so stiff that
+// spans are short; solves() is false for them.
 #pragma once
 
 #include <complex>
@@ -21,8 +23,10 @@ class TouchingSet {
 public:
     TouchingSet(const MacroWindow&, std::span<const int> points, std::span<const double> stiffness);
 
-    bool splits() const { return pairs_ > 0; }
+    bool solves() const { return pairs_ > 0 || !resolvent_.empty(); }
     int pairs() const { return pairs_; }
+    double growth() const { return growth_; }  // of what is not split off: its derivatives are at most so much larger each
+    double span() const { return span_; }      // how far a solution reaches [window]
     const std::vector<int>& points() const { return points_; }
     const std::complex<double>* rates() const { return rate_.data(); }
 
@@ -34,11 +38,14 @@ public:
     void moments(int which, const double* path, const std::complex<double>* amplitude, double u, int count, double* m) const noexcept;
 
 private:
+    void soften() noexcept;
     const MacroWindow* window_;
     std::vector<int> points_;
     std::vector<double> k_;
     int pairs_ = 0;
+    double growth_ = 0, span_ = 1;
     std::vector<std::complex<double>> rate_, shape_;  // [pair], [contact][pair]
+    std::vector<double> resolvent_;                   // of a soft set [point][point][size zeros, then terms]
     std::vector<double> inverse_;                     // G [column: derivative][column: point][row: point][row: derivative]
     std::vector<double> start_;                       // (p(0), p'(0)) -> beta [2 pairs][2 pairs]
     std::vector<double> slow_;                        // what Re beta and -Im beta of a pair add to the slow part [contact][pair][2][size]

@@ -1,5 +1,5 @@
 // Finite differences: weights on nodes, von Neumann relations against traces, order on linear strings, energy, stability limits, contact.
-#include "schemes/grid/finite_difference.hpp"
+#include "schemes/grid/grid_solve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -119,6 +119,30 @@ TEST(GridWeights, DisplacementAndNutForceAreReadToFourthOrderUpToTheEnds) {
         last_y = y;
         last_nut = nut;
     }
+}
+
+// Sums over neighbours where what is off the diagonal falls fast, factors elsewhere: both to rounding, whatever the ends.
+TEST(GridWeights, GridSolveIsTheFactorsToRounding) {
+    int summed = 0, factored = 0;
+    for (const int N : {6, 40, 41, 47, 64, 155, 436, 1001})
+        for (const double off : {1e-3, 0.02, 0.1, 0.25, 1.0, 30.0})  // -a2/dx^2
+            for (const double curve : {0.0, 1e-4, 0.02, 0.2}) {      // a4/dx^4
+                const double h = 1.0 / N;
+                const Grid g{N, h};
+                GridSolve solve(g, 1.01, -off * h * h, curve * h * h * h * h);
+                std::vector<double> u(N + 17, 7.0), v(N + 1, 0.0);
+                for (int l = 1; l < N; ++l) v[l] = solve.input()[l] = std::sin(1.7 * l * l) + (l == N - 1 ? 3 : 0);
+                solve(u.data());
+                BandedFactor(g, 1.01, -off * h * h, curve * h * h * h * h).solve(v.data());
+                (solve.terms() > 0 ? summed : factored) += 1;
+                EXPECT_EQ(u[N], 0);
+                for (int l = 1; l < N; ++l)
+                    ASSERT_NEAR(u[l], v[l], solve.terms() > 0 ? 4e-15 : 0) << N << " " << off << " " << curve << " node " << l;
+                GridSolve positive(g, 1.01, 0.05 * h * h, 0);  // the theta scheme's sign
+                EXPECT_EQ(positive.terms() > 0, N >= 40);
+            }
+    EXPECT_GT(summed, 100);
+    EXPECT_GT(factored, 30);
 }
 
 TEST(GridWeights, BandedFactorInvertsItsMatrix) {

@@ -1,12 +1,16 @@
 // finite_difference_explicit against a plain loop with the same contact equation, in one run: 20 contacts, 155 and 436 intervals. Each row
 // carries as counters its agreement with the plain loop in long double over the first 3 ms, 1.5 ms of them in contact (later, 20 contacts
 // have amplified rounding too far). The implicit schemes stand beside them for scale.
+//
+// The implicit solve as sums (GridSolve) against the factors L D L' that it replaces: alone, and in a step of either implicit scheme with
+// the bridge and the thread of C3. Counter `error` of a solve: largest against L D L' in long double, relative to the largest value.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "schemes/grid/finite_difference.hpp"
+#include "schemes/grid/midpoint_string.hpp"
+#include "schemes/grid/three_point_string.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 #include "tests/c3.hpp"
@@ -144,6 +148,120 @@ void scheme(benchmark::State& state, const char* name) {
         if (std::strcmp(name, "finite_difference_explicit") == 0) state.counters["error"] = against_long_double(y, N);
     }
 }
+
+// ---- The implicit solve.
+
+class Factors {  // with the face of GridSolve
+public:
+    Factors() = default;
+    Factors(const Grid& g, double a0, double a2, double a4) : factor_(g, a0, a2, a4), from_(g.intervals + 32) {}
+    double* input() { return from_.data() + 7; }
+    void operator()(double* u) {
+        std::memcpy(u, input(), (from_.size() - 24) * sizeof(double));
+        factor_.solve(u);
+    }
+    Stencil response(const Stencil& s) const { return factor_.solve(s); }
+
+private:
+    BandedFactor factor_;
+    AlignedVector from_;
+};
+double implicit_rate(int intervals) {
+    return intervals < 200 ? 48000 : 204800;  // [Hz], near the limit of the theta scheme
+}
+struct Coefficients {
+    Grid grid;
+    double a0, a2, a4;
+};
+Coefficients coefficients(int intervals, bool midpoint) {
+    const String s = c3_free().strings.front();
+    const LossFit loss = fit_losses(s);
+    const Grid grid{intervals, s.length / intervals};
+    const double dt = 1 / implicit_rate(intervals), c2 = s.tension / s.linear_density, kappa2 = s.bending_stiffness / s.linear_density;
+    if (midpoint) return {grid, 1 + loss.sigma0 * dt, -0.25 * dt * dt * c2 - loss.sigma1 * dt, 0.25 * dt * dt * kappa2 + loss.sigma2 * dt};
+    const double m = 0.5 * (1 - tuned_theta(s, dt, grid.dx)) * grid.dx * grid.dx;
+    return {grid, 1 + loss.sigma0 * dt, m - loss.sigma1 * dt, loss.sigma2 * dt};
+}
+
+std::vector<long double> solved(const Coefficients& c, const std::vector<double>& x) {  // L D L' in long double
+    const int n = c.grid.intervals - 1;
+    const long double h2 = static_cast<long double>(c.grid.dx) * c.grid.dx, p = c.a2 / h2, q = c.a4 / (h2 * h2);
+    std::vector<long double> D(n), one(n + 1), two(n + 2), u(x.begin(), x.end());
+    for (int i = 0; i < n; ++i) {
+        long double diagonal = c.a0 - 2 * p + (i == 0 || i == n - 1 ? 5 : 6) * q, below = p - 4 * q;
+        if (i > 1) two[i] = q / D[i - 2], diagonal -= two[i] * two[i] * D[i - 2], below -= two[i] * one[i - 1] * D[i - 2];
+        if (i > 0) one[i] = below / D[i - 1], diagonal -= one[i] * one[i] * D[i - 1];
+        D[i] = diagonal;
+    }
+    for (int i = 1; i < n; ++i) u[i] -= one[i] * u[i - 1] + (i > 1 ? two[i] * u[i - 2] : 0);
+    for (int i = 0; i < n; ++i) u[i] /= D[i];
+    for (int i = n - 2; i >= 0; --i) u[i] -= one[i + 1] * u[i + 1] + (i + 2 < n ? two[i + 2] * u[i + 2] : 0);
+    return u;
+}
+
+template <class Solve>
+void solve(benchmark::State& state, bool midpoint) {
+    const Coefficients c = coefficients(static_cast<int>(state.range(0)), midpoint);
+    Solve s(c.grid, c.a0, c.a2, c.a4);
+    std::vector<double> x, u(c.grid.intervals + 24);
+    for (int l = 1; l < c.grid.intervals; ++l) s.input()[l] = std::sin(0.7 * l * l), x.push_back(s.input()[l]);
+    s(u.data());
+    const auto truth = solved(c, x);
+    long double error = 0, largest = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        error = std::max(error, std::abs(u[i + 1] - truth[i])), largest = std::max(largest, std::abs(truth[i]));
+    const FlushDenormals flush;
+    for (auto _ : state) {
+        s(u.data());
+        benchmark::ClobberMemory();
+    }
+    state.counters["error"] = static_cast<double>(error / largest);
+}
+
+template <class Solve>
+struct Theta {
+    FivePoint pass;
+    Solve solve;
+    void operator()(double* next, const double* now, const double* before) {
+        pass(solve.input(), now, before);
+        solve(next);
+    }
+    Stencil response(const Stencil& s) const { return solve.response(s); }
+};
+
+template <class Solve>
+void step(benchmark::State& state, bool midpoint) {
+    const Coefficients c = coefficients(static_cast<int>(state.range(0)), midpoint);
+    const Scene scene = c3_release();
+    const double dt = 1 / implicit_rate(c.grid.intervals);
+    const GridString g = on_grid(schemes()[0], scene, {}, 0, c.grid, fit_losses(scene.strings.front()));
+    constexpr int steps = 1024;
+    double tap[4];
+    const Block one{1, 4, 1, tap, nullptr};
+    const auto go = [&](auto string) {
+        string.reset();
+        const FlushDenormals flush;
+        for (auto _ : state) string.advance(one);
+    };
+    if (midpoint) go(MidpointString<Solve>(g, dt, steps));
+    else {
+        const double m = 0.5 * (1 - tuned_theta(scene.strings.front(), dt, c.grid.dx)) * c.grid.dx * c.grid.dx;
+        go(ThreePointString<Theta<Solve>>(g, dt, steps, m, 0, {FivePoint(g, dt, m, 0, 1), Solve(c.grid, c.a0, c.a2, c.a4)}));
+    }
+    state.counters["ns_per_step"] =
+        benchmark::Counter(steps * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+constexpr auto solve_sums = solve<GridSolve>, solve_factors = solve<Factors>;
+constexpr auto step_sums = step<GridSolve>, step_factors = step<Factors>;
+BENCHMARK_CAPTURE(solve_sums, theta, false)->Arg(155)->Arg(436);
+BENCHMARK_CAPTURE(solve_factors, theta, false)->Arg(155)->Arg(436);
+BENCHMARK_CAPTURE(solve_sums, midpoint, true)->Arg(155)->Arg(436);
+BENCHMARK_CAPTURE(solve_factors, midpoint, true)->Arg(155)->Arg(436);
+BENCHMARK_CAPTURE(step_sums, theta, false)->Arg(155)->Arg(436)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(step_factors, theta, false)->Arg(155)->Arg(436)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(step_sums, midpoint, true)->Arg(155)->Arg(436)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(step_factors, midpoint, true)->Arg(155)->Arg(436)->Unit(benchmark::kMicrosecond);
 
 BENCHMARK(plain)->Arg(155)->Arg(436)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scheme, explicit, "finite_difference_explicit")->Arg(155)->Arg(436)->Unit(benchmark::kMillisecond);

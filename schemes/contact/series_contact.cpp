@@ -11,6 +11,7 @@ constexpr int most_iterations = 100;
 }  // namespace
 
 double SeriesLaw::power_depth(double zeta) const {
+    if (S == 0) return zeta;
     double eta = std::min(zeta, std::pow(zeta / (S * law.k), 1 / law.alpha));  // both are above the root, and the function is convex
     for (int i = 0; i < most_iterations; ++i) {
         const double load = S * law.k * std::pow(eta, law.alpha);

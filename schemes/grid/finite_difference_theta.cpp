@@ -3,12 +3,14 @@
 //
 //     (theta + (1 - theta) A) (u+ - 2u + u-)/dt^2 = c^2 D2 u - kappa^2 D4 u - R (u+ - u-)/2dt + g F/(mu dx),  A = I + dx^2/2 D2
 //
-// so M = I + (1 - theta) dx^2/2 D2, and u+ costs one solve of three diagonals, or five where the loss has u_xxxxt. Expanding omega^2 = c^2
-// beta^2 + kappa^2 beta^4 in dx and dt, the error c^2 beta^4 [dx^2/12 - c^2 dt^2/12 - (1 - theta) dx^2/2] vanishes for
+// so M = I + (1 - theta) dx^2/2 D2, and u+ costs one solve of three diagonals, or five where the loss has u_xxxxt (grid_solve.hpp).
+// Expanding omega^2 = c^2 beta^2 + kappa^2 beta^4 in dx and dt, the error c^2 beta^4 [dx^2/12 - c^2 dt^2/12 - (1 - theta) dx^2/2] vanishes
+// for
 //     theta = 5/6 + c^2 dt^2/(6 dx^2),
 // the default (option `theta` overrides): what is left is of second order times kappa^2 beta^2/c^2, and of fourth order.
 // Stable where 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4; at the default theta, c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4 <= 1.
 // Losses are centred, and do not enter the limit. Options: `grid` (intervals), `over_limit`, `theta`.
+#include "schemes/grid/grid_solve.hpp"
 #include "schemes/grid/three_point_string.hpp"
 
 namespace jvari {
@@ -16,13 +18,13 @@ namespace jvari {
 namespace {
 struct ThetaUpdate {
     FivePoint pass;
-    BandedFactor factor;  // of M + dt R/2
+    GridSolve solve;  // of M + dt R/2
 
     void operator()(double* next, const double* now, const double* before) noexcept {
-        pass(next, now, before);
-        factor.solve(next);
+        pass(solve.input(), now, before);
+        solve(next);
     }
-    Stencil response(const Stencil& s) const { return factor.solve(s); }
+    Stencil response(const Stencil& s) const { return solve.response(s); }
 };
 
 constexpr Option theta_option{"theta", "", "theta of the scheme, above 0.5; absent: 5/6 + c^2 dt^2/(6 dx^2)"};
@@ -43,8 +45,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
         const Grid grid = grid_for(descriptor, s, settings, limit);
         const GridString g = on_grid(descriptor, scene, settings, static_cast<int>(i), grid, fit_losses(s));
         const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
-        ThetaUpdate update{FivePoint(g, dt, m, 0, 1),
-                           BandedFactor(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt)};
+        ThetaUpdate update{FivePoint(g, dt, m, 0, 1), GridSolve(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt)};
         strings.emplace_back(g, dt, rows, m, 0.0, std::move(update),
                              std::vector<Fact>{{facts::spacing_over_limit, grid.dx / limit}, {facts::theta, theta}});
     }
