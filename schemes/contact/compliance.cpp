@@ -3,11 +3,13 @@
 // on panels that grow geometrically from every place where the integrand has a kink or a boundary layer of width 1/l.
 #include "schemes/contact/compliance.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "scenes/barrier.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/scheme.hpp"
 
@@ -102,21 +104,16 @@ double static_nut_force(const String& s, const Footprint& force) {
     return force.position / s.length;  // the balance of moments about the other end
 }
 
-Sites sites_of(const Scene& scene, int index) {
+Sites sites_of(const Scene& scene, int index, std::span<const Footprint> contacts) {
     const String& s = scene.strings[index];
     Sites all;
-    const auto add = [&all](int part, double position, double width) {
-        all.forces.push_back({position, width});
-        all.part.push_back(part);
-    };
-    if (!s.barriers.empty()) {
-        const auto& b = std::get<LumpedBarrier>(s.barriers.front());
-        add(0, b.position, b.width);
-    }
-    if (s.thread) add(1, s.thread->position, s.thread->width);
-    all.points = static_cast<int>(all.forces.size());
+    all.forces.assign(contacts.begin(), contacts.end());
+    all.contacts = static_cast<int>(contacts.size());
+    if (s.thread) all.forces.push_back({s.thread->position, s.thread->width});
+    all.thread = s.thread.has_value();
     for (const Footprint& f : all.forces) all.readings.push_back({f});
-    if (s.pluck) add(2, s.pluck->position, s.pluck->width);
+    if (s.pluck) all.forces.push_back({s.pluck->position, s.pluck->width});
+    all.pluck = s.pluck.has_value();
     for (std::size_t k = 0; k < scene.taps.size(); ++k) {
         const Tap& tap = scene.taps[k];
         const bool nut = tap.quantity == Quantity::nut_force;
@@ -127,34 +124,109 @@ Sites sites_of(const Scene& scene, int index) {
     return all;
 }
 
-namespace {
-void refuse_soft(const std::string& who, double bb, double bc, double cc) {
-    const auto refuse = [&who](const char* where, double missing) {
-        throw Refusal(who + ": at the " + where + " its own string yields more than the true one, by " + std::to_string(-missing * 1e6) +
-                      " um/N, so nothing can stand in series there; compliance=own always can run, another rate or number of modes may");
-    };
-    if (!(bb >= 0)) refuse("barrier", bb);
-    if (!(cc >= 0)) refuse("thread", cc);
-    if (!(bb * cc >= bc * bc)) refuse("barrier and the thread together", bb - bc * bc / cc);
+std::vector<Footprint> footprints_of(const String& s) {
+    std::vector<Footprint> all;
+    for (const Barrier& barrier : s.barriers)
+        if (const auto* b = std::get_if<LumpedBarrier>(&barrier)) all.push_back({b->position, b->width});
+    return all;
 }
-}  // namespace
 
-MissingCompliance missing_compliance(const std::string& who, const String& s, const Sites& sites, std::size_t taps,
-                                     const std::function<double(int, int)>& own) {
-    MissingCompliance C;
-    C.taps.resize(taps);
-    double* const cell[2][3] = {{&C.bb, &C.bc, &C.be}, {nullptr, &C.cc, &C.ce}};
+Sites sites_of(const Scene& scene, int index) {
+    return sites_of(scene, index, footprints_of(scene.strings[index]));
+}
+
+namespace {
+[[noreturn]] void refuse_soft(const std::string& who, const std::string& where, double excess) {
+    throw Refusal(who + ": at the " + where + " its own string yields more than the true one, by " + std::to_string(excess * 1e6) +
+                  " um/N, so nothing can stand in series there; compliance=own always can run, another rate or number of modes may");
+}
+void refuse_soft(const std::string& who, double bb, double bc, double cc) {
+    if (!(bb >= 0)) refuse_soft(who, "barrier", -bb);
+    if (!(cc >= 0)) refuse_soft(who, "thread", -cc);
+    if (!(bb * cc >= bc * bc)) refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
+}
+
+MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, const OwnResponse& own) {
+    MissingMatrix m;
+    const int forces = static_cast<int>(sites.forces.size()), points = sites.points();
+    m.contacts = sites.contacts;
+    m.thread = sites.thread;
+    m.taps.resize(taps);
     for (int r = 0; r < static_cast<int>(sites.readings.size()); ++r)
-        for (int f = 0; f < static_cast<int>(sites.forces.size()); ++f) {
+        for (int f = 0; f < forces; ++f) {
             const Reading& reading = sites.readings[r];
             const double truth =
                 reading.nut_force ? static_nut_force(s, sites.forces[f]) : static_deflection(s, reading.at, sites.forces[f]);
             const double missing = truth - own(r, f);
-            if (r >= sites.points) C.taps[sites.tap[r - sites.points]][sites.part[f]] = missing;
-            else if (double* to = cell[sites.part[r]][sites.part[f]]) *to = missing;
+            if (r >= points) m.taps[sites.tap[r - points]].push_back(missing);
+            else (f < points ? m.C : m.pluck).push_back(missing);
         }
-    refuse_soft(who, C.bb, C.bc, C.cc);
-    return C;
+    return m;
+}
+}  // namespace
+
+MissingMatrix missing_matrix(const std::string& who, const String& s, const Sites& sites, std::size_t taps, const OwnResponse& own) {
+    MissingMatrix m = difference(s, sites, taps, own);
+    const int n = sites.points();
+    if (n <= 1 + (m.thread ? 1 : 0)) {
+        const MissingCompliance one(m);
+        refuse_soft(who, one.bb, one.bc, one.cc);
+        return m;
+    }
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<Matrix> C(m.C.data(), n, n);
+    const Eigen::SelfAdjointEigenSolver<Matrix> parts(0.5 * (C + C.transpose()));
+    const Eigen::VectorXd values = parts.eigenvalues();
+    m.excess = std::max(0.0, -values(0));
+    if (m.excess > values(n - 1)) refuse_soft(who, "contacts", m.excess);
+    const Matrix positive = parts.eigenvectors() * values.cwiseMax(0).asDiagonal() * parts.eigenvectors().transpose();
+    C = 0.5 * (positive + positive.transpose());  // symmetric to the last bit
+    return m;
+}
+
+MissingCompliance::MissingCompliance(const MissingMatrix& m) {
+    const bool barrier = m.contacts > 0;
+    const int points = m.contacts + (m.thread ? 1 : 0), c = m.contacts;
+    if (barrier) bb = m.C[0];
+    if (m.thread) cc = m.C[c * points + c];
+    if (barrier && m.thread) bc = m.C[1];
+    if (!m.pluck.empty() && barrier) be = m.pluck[0];
+    if (!m.pluck.empty() && m.thread) ce = m.pluck[c];
+    taps.resize(m.taps.size());
+    for (std::size_t k = 0; k < taps.size(); ++k) {
+        if (m.taps[k].empty()) continue;
+        if (barrier) taps[k][0] = m.taps[k][0];
+        if (m.thread) taps[k][1] = m.taps[k][c];
+        if (!m.pluck.empty()) taps[k][2] = m.taps[k][points];
+    }
+}
+
+MissingCompliance missing_compliance(const std::string& who, const String& s, const Sites& sites, std::size_t taps,
+                                     const OwnResponse& own) {
+    return MissingCompliance(missing_matrix(who, s, sites, taps, own));
+}
+
+String with_profile_points(String s, const Settings& settings) {
+    const double count = number_option(settings, profile_points_option);
+    if (!(count >= 1 && count <= most_profile_points) || count != std::floor(count))
+        throw Refusal("option points: found " + std::to_string(count) + ", expected a whole number from 1 to " +
+                      std::to_string(most_profile_points));
+    std::vector<Barrier> barriers;
+    for (const Barrier& barrier : s.barriers) {
+        const auto* b = std::get_if<ProfileBarrier>(&barrier);
+        if (!b) {
+            barriers.push_back(barrier);
+            continue;
+        }
+        const double spacing = (b->to - b->from) / count;
+        std::vector<double> x;
+        for (int q = 0; q < static_cast<int>(count); ++q) x.push_back(b->from + (q + 0.5) * spacing);
+        const auto g = heights(b->curve, x);
+        for (std::size_t q = 0; q < x.size(); ++q)
+            barriers.push_back(LumpedBarrier{x[q], 0, g[q], {b->stiffness.K * spacing}, b->exponent, b->contact_loss});
+    }
+    s.barriers = std::move(barriers);
+    return s;
 }
 
 }  // namespace jvari

@@ -12,6 +12,8 @@
 
 #include <array>
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "schemes/scheme.hpp"
@@ -36,24 +38,60 @@ struct Reading {
     bool nut_force = false;  // the force on the nut, in place of the displacement at `at`
 };
 
-// Where one string of a scene, with at most one barrier, is pushed and read: forces are barrier, thread and pluck, as far as it has them;
-// readings are those of barrier and thread, then the taps of displacement and nut force.
+// Where one string of a scene is pushed and read: forces are its contacts, thread and pluck in this order, as far as it has them; readings
+// are those of contacts and thread, then the taps of displacement and nut force.
 struct Sites {
     std::vector<Footprint> forces;
-    std::vector<int> part;  // of each force: 0 barrier, 1 thread, 2 pluck
-    int points = 0;         // barrier and thread
+    int contacts = 0;
+    bool thread = false, pluck = false;
+    int points() const { return contacts + (thread ? 1 : 0); }
     std::vector<Reading> readings;
     std::vector<std::size_t> tap;  // of the scene, for each reading after the points
 };
-Sites sites_of(const Scene&, int string);
+Sites sites_of(const Scene&, int string, std::span<const Footprint> contacts);
+Sites sites_of(const Scene&, int string);  // with one lumped barrier at most
 
-struct MissingCompliance {                          // [m/N]; 0 where a part is absent
+// own(r, f): what a scheme's string makes at reading r of 1 N of force f.
+using OwnResponse = std::function<double(int reading, int force)>;
+
+// Of several contacts. A string may yield more than the true one under some patterns of loads, as grids and exact three-point recursions do
+// under smooth ones. Nothing can stand in series there: C is then the part of C_true - C_scheme that is positive, and `excess` says how
+// much is left. Refuses where that is the larger part.
+struct MissingMatrix {
+    int contacts = 0;
+    bool thread = false;
+    std::vector<double> C;                  // points x points, the contacts first and then the thread [m/N]
+    std::vector<double> pluck;              // on each point; empty without a pluck [m/N]
+    std::vector<std::vector<double>> taps;  // per tap of the scene, of each point and then the pluck; empty for what is no linear tap
+    double excess = 0;                      // [m/N]
+
+    double on_tap(std::size_t k, const double* force, double F_e) const {  // force: of each point
+        if (taps[k].empty()) return 0;
+        const std::size_t points = contacts + (thread ? 1 : 0);
+        double sum = pluck.empty() ? 0 : taps[k][points] * F_e;
+        for (std::size_t p = 0; p < points; ++p) sum += taps[k][p] * force[p];
+        return sum;
+    }
+};
+MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps, const OwnResponse& own);
+
+struct MissingCompliance {                          // of one contact at most [m/N]; 0 where a part is absent
     double bb = 0, bc = 0, cc = 0, be = 0, ce = 0;  // barrier, thread, pluck
     std::vector<std::array<double, 3>> taps;        // per tap of the scene, of 1 N at each; 0 for what is no linear tap of this string
+    explicit MissingCompliance(const MissingMatrix&);
+    MissingCompliance() = default;
 };
-// own(r, f): what the scheme's string makes at reading r of 1 N of force f. Refuses a string that is too soft already, since what is
-// missing can stand in series only where it is more than nothing; `who` opens the sentence.
-MissingCompliance missing_compliance(const std::string& who, const String&, const Sites&, std::size_t taps,
-                                     const std::function<double(int reading, int force)>& own);
+// Refuses a string that is too soft already, since what is missing can stand in series only where it is more than nothing; `who` opens the
+// sentence.
+MissingCompliance missing_compliance(const std::string& who, const String&, const Sites&, std::size_t taps, const OwnResponse& own);
+
+// ---- Profiles. A scheme's nodes are no places for what stands in series: at them a grid yields more than the true string. So a profile is
+// touched at points of its own, in the middles of as many equal parts.
+
+constexpr int most_profile_points = 256;
+inline constexpr Option profile_points_option{"points", "16", "points that stand for a profile with compliance=matched, up to 256"};
+
+String with_profile_points(String, const Settings&);  // its profiles replaced; Refusal of a number of points that cannot be
+std::vector<Footprint> footprints_of(const String&);  // of its lumped barriers
 
 }  // namespace jvari

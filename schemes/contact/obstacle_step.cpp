@@ -11,9 +11,11 @@ ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const dou
       thread_(thread.has_value()),
       laws_(laws.begin(), laws.end()),
       heights_(heights.begin(), heights.end()),
-      span_(span) {
+      span_(span),
+      theta_(theta.begin(), theta.end()) {
     const int n = contacts_, stride = points();
     coupling_.assign(n, 0.0);
+    if (n > 0) theta_bb_ = theta[0];
     if (thread) {
         stiffness_ = thread->stiffness;
         damping_ = thread->damping;
@@ -23,7 +25,6 @@ ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const dou
         inverse_ = 1 / (1 + s_ * theta_cc_);
         for (int a = 0; a < n; ++a) coupling_[a] = theta[a * stride + n];
     }
-    if (n > 0) theta_bb_ = theta[0];
     std::vector<double> reduced(n * n);
     for (int a = 0; a < n; ++a)
         for (int c = 0; c < n; ++c) reduced[a * n + c] = theta[a * stride + c] - coupling_[a] * s_ * inverse_ * coupling_[c];
@@ -32,7 +33,12 @@ ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const dou
 }
 
 bool ObstacleStep::solve(const double* older, const double* free, double* force) noexcept {
+    if (several_) return solve_several(older, free, force);
     if (series_) return solve_in_series(older, free, force);
+    return solve_points(older, free, force);
+}
+
+bool ObstacleStep::solve_points(const double* older, const double* free, double* force) noexcept {
     const int n = contacts_;
     double thread = 0;  // with no contact force
     if (thread_) thread = -(s_ * free[n] + stiffness_ * (older[n] - rest_)) * inverse_;
@@ -62,32 +68,85 @@ bool ObstacleStep::solve(const double* older, const double* free, double* force)
     return converged;
 }
 
+double ObstacleStep::loss(double r_c) const {
+    if (several_) r_c = several_->thread_moved;
+    if (series_) return series_->damping * moved_ * moved_ / span_;
+    return damping_ * (r_c / span_) * (r_c / span_) + (several_ ? several_->lost / span_ : 0);
+}
+
 double ObstacleStep::potential(const double* reading, int level) const {
     if (series_) return series_->points.energy(contacts_ ? reading[0] : 0, thread_ ? reading[contacts_] : 0, Y_[level]);
-    double sum = 0;
-    for (int a = 0; a < contacts_; ++a) sum += laws_[a].potential(heights_[a] - reading[a]);
-    if (thread_) sum += 0.5 * stiffness_ * (reading[contacts_] - rest_) * (reading[contacts_] - rest_);
+    double sum = several_ ? several_->stored(several_->P[level]) : 0;
+    const auto at = [&](int a) { return reading[a] + (several_ ? several_->yield(a, several_->P[level]) : 0); };
+    for (int a = 0; a < contacts_; ++a) sum += laws_[a].potential(heights_[a] - at(a));
+    if (thread_) sum += 0.5 * stiffness_ * (at(contacts_) - rest_) * (at(contacts_) - rest_);
     return sum;
 }
 
-void ObstacleStep::put_in_series(const MissingCompliance& C, int levels) {
-    const SeriesPoints points(contacts_ ? &laws_[0] : nullptr, contacts_ ? heights_[0] : 0, stiffness_, damping_, rest_, C);
-    series_ = SeriesStep(points, theta_bb_, contacts_ && thread_ ? coupling_[0] : 0, theta_cc_, span_);
+void ObstacleStep::put_in_series(const MissingMatrix& C, int levels) {
+    const int n = points();
     levels_ = levels;
+    if (contacts_ <= 1) {
+        const SeriesPoints points(contacts_ ? &laws_[0] : nullptr, contacts_ ? heights_[0] : 0, stiffness_, damping_, rest_,
+                                  MissingCompliance(C));
+        series_ = SeriesStep(points, theta_bb_, contacts_ && thread_ ? coupling_[0] : 0, theta_cc_, span_);
+        return;
+    }
+    std::vector<double> theta = theta_;
+    for (std::size_t i = 0; i < theta.size(); ++i) theta[i] += C.C[i];
+    std::optional<Thread> thread;
+    if (thread_) thread = Thread{0, 0, stiffness_, damping_, rest_};
+    *this = ObstacleStep(std::vector(laws_), std::vector(heights_), thread, theta, span_);
+    levels_ = levels;
+    several_.emplace();
+    several_->C = C.C;
+    for (auto* v : {&several_->P[0], &several_->P[1], &several_->older, &several_->free}) v->assign(n, 0.0);
 }
 
 void ObstacleStep::begin(const double* reading) {
     if (series_ && thread_) Y_[0] = Y_[1] = begun_ = series_->start(reading[contacts_]);
+    if (several_)
+        for (auto& P : several_->P) std::fill(P.begin(), P.end(), 0.0);
 }
 
 void ObstacleStep::follow(const ObstacleStep& first) {
     Y_[0] = first.begun_;
     Y_[1] = first.Y_[0];
+    if (!several_) return;
+    std::fill(several_->P[0].begin(), several_->P[0].end(), 0.0);
+    several_->P[1] = first.several_->P[1];
 }
 
-SeriesPoints::Forces ObstacleStep::forces(const double* reading, int level) const {
-    if (!series_) return {};
-    return series_->points.forces(contacts_ ? reading[0] : 0, thread_ ? reading[contacts_] : 0, Y_[level]);
+void ObstacleStep::forces(const double* reading, int level, double* force) const {
+    const int n = contacts_;
+    if (several_) {
+        std::copy(several_->P[level].begin(), several_->P[level].end(), force);
+    } else if (series_) {
+        const SeriesPoints::Forces now = series_->points.forces(n ? reading[0] : 0, thread_ ? reading[n] : 0, Y_[level]);
+        if (n) force[0] = now.b;
+        if (thread_) force[n] = now.c;
+    }
+}
+
+bool ObstacleStep::solve_several(const double* older, const double* free, double* force) noexcept {
+    Several& z = *several_;
+    const int n = points();
+    for (int a = 0; a < n; ++a) {
+        const double yield = z.yield(a, z.P[0]);
+        z.older[a] = older[a] + yield;
+        z.free[a] = free[a] - yield;
+    }
+    const bool converged = solve_points(z.older.data(), z.free.data(), force);
+    if (thread_) {
+        z.thread_moved = z.free[n - 1];
+        for (int a = 0; a < n; ++a) z.thread_moved += theta_[(n - 1) * n + a] * force[a];
+    }
+    for (int a = 0; a < n; ++a) z.free[a] = force[a] - z.P[0][a];
+    z.lost = z.stored(z.free);
+    if (levels_ == 2) z.P[0].swap(z.P[1]);
+    std::copy_n(force, n, z.P[1].begin());
+    if (levels_ == 1) std::copy_n(force, n, z.P[0].begin());
+    return converged;
 }
 
 bool ObstacleStep::solve_in_series(const double* older, const double* free, double* force) noexcept {

@@ -7,6 +7,11 @@
 // span is the time between the older and the newer level: dt in two-point schemes (van Walstijn et al. 2016, eqs 44-48), 2 dt in
 // three-point ones, where the thread so sees the mean of the two outer levels and stays stable at any stiffness. The thread is linear and
 // eliminated: it leaves the contacts with Theta_bb' - Theta_bc s Theta_cb'/(1 + s Theta_cc), s = k_c/2 + damping/span.
+//
+// With a compliance C in series with several contacts the points are at Y = reading + C P, P the force of the last step. Of the next one
+//     r_Y = free - C P + (Theta + C) F,
+// so the same equation is solved, with Theta + C for Theta, and F >= 0. P' C P/2 is stored, (F - P)' C (F - P)/2 lost: C stands for modes
+// that are cut off, and keeps nothing of a blow shorter than a step. (The rule at midpoints would lose nothing, and alternate for ever.)
 #pragma once
 
 #include <optional>
@@ -35,15 +40,14 @@ public:
 
     // At the readings of one level [J]; level: 0 the one that the next step starts from, 1 the one after it (with something in series).
     double potential(const double* reading, int level = 0) const;
-    double thread_loss(double r_c) const {  // in the last step [W]
-        return series_ ? series_->damping * moved_ * moved_ / span_ : damping_ * (r_c / span_) * (r_c / span_);
-    }
+    double loss(double r_c) const;  // of the thread, whose reading moved by r_c in the last step, and of what is in series [W]
 
-    // Puts a compliance in series with at most one contact and the thread (series_step.hpp). levels: how many of them a step spans.
-    void put_in_series(const MissingCompliance&, int levels);
-    void begin(const double* reading);                                    // at rest at t = 0
-    void follow(const ObstacleStep& first);                               // after `first` made the first step, of one level
-    SeriesPoints::Forces forces(const double* reading, int level) const;  // at that level, of what is in series
+    // Puts a compliance in series: with one contact at most and the thread as in series_step.hpp, with several contacts as below. levels:
+    // how many of them a step spans.
+    void put_in_series(const MissingMatrix&, int levels);
+    void begin(const double* reading);                                   // at rest at t = 0
+    void follow(const ObstacleStep& first);                              // after `first` made the first step, of one level
+    void forces(const double* reading, int level, double* force) const;  // of each point at that level, of what is in series
 
     struct Tally {  // over the solves since clear()
         double smallest_force = 0, deepest = 0, residual = 0;
@@ -62,10 +66,33 @@ private:
     double stiffness_ = 0, damping_ = 0, rest_ = 0, span_ = 1, s_ = 0, theta_cc_ = 0, inverse_ = 1;
     Tally tally_;
 
+    bool solve_points(const double* older, const double* free, double* force) noexcept;
     bool solve_in_series(const double* older, const double* free, double* force) noexcept;
-    std::optional<SeriesStep> series_;
+    bool solve_several(const double* older, const double* free, double* force) noexcept;
+    std::optional<SeriesStep> series_;  // one contact at most, and the thread
     int levels_ = 1;
     double theta_bb_ = 0, moved_ = 0, begun_ = 0, Y_[2] = {};  // Y_: of the thread at the two levels, less its height [m]
+
+    struct Several {                      // contacts: what is in series with them
+        std::vector<double> C;            // points x points [m/N]
+        std::vector<double> P[2];         // at the two levels [N]
+        std::vector<double> older, free;  // of Y [m]
+        double lost = 0;                  // in the last step [J]
+        double thread_moved = 0;          // in it [m]
+
+        double yield(int a, const std::vector<double>& force) const {
+            double sum = 0;
+            for (std::size_t b = 0; b < force.size(); ++b) sum += C[a * force.size() + b] * force[b];
+            return sum;
+        }
+        double stored(const std::vector<double>& force) const {
+            double sum = 0;
+            for (std::size_t a = 0; a < force.size(); ++a) sum += 0.5 * force[a] * yield(static_cast<int>(a), force);
+            return sum;
+        }
+    };
+    std::optional<Several> several_;
+    std::vector<double> theta_;  // of all points [m/N]
 };
 
 }  // namespace jvari

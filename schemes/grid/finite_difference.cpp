@@ -286,12 +286,8 @@ std::vector<double> initial_shape(const String& s, const Grid& g) {
 
 namespace {
 // What the grid takes from the string's compliance (contact/compliance.hpp); its steps take none under a steady force.
-void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, int index) {
-    const String& s = scene.strings[index];
-    if (s.barriers.size() > 1 || (!s.barriers.empty() && !std::holds_alternative<LumpedBarrier>(s.barriers.front())))
-        throw Refusal(std::string(d.name) +
-                      ": compliance=matched takes one lumped barrier, and a thread; several contacts are not solved for");
-    const Sites sites = sites_of(scene, index);
+void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const String& s, int index) {
+    const Sites sites = sites_of(scene, index, footprints_of(s));
     const BandedFactor stiffness(g.grid, 0, -g.c2, g.kappa2);
     std::vector<std::vector<double>> shape;  // under 1 N of each force
     for (const Footprint& f : sites.forces) {
@@ -301,19 +297,17 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, int i
     }
     std::vector<Stencil> reader;
     for (const Reading& r : sites.readings)
-        reader.push_back(static_cast<int>(reader.size()) < sites.points ? footprint_stencil(g.grid, r.at.position, r.at.width)
-                         : r.nut_force                                  ? nut_force_stencil(g.grid, s)
-                                                                        : displacement_stencil(g.grid, r.at.position));
-    g.series = missing_compliance(d.name, s, sites, scene.taps.size(), [&](int r, int f) { return reader[r].read(shape[f].data()); });
-    if (!s.pluck) return;
-    if (!s.barriers.empty()) g.series_pluck.push_back(g.series->be);
-    if (s.thread) g.series_pluck.push_back(g.series->ce);
+        reader.push_back(static_cast<int>(reader.size()) < sites.points() ? footprint_stencil(g.grid, r.at.position, r.at.width)
+                         : r.nut_force                                    ? nut_force_stencil(g.grid, s)
+                                                                          : displacement_stencil(g.grid, r.at.position));
+    g.series = missing_matrix(d.name, s, sites, scene.taps.size(), [&](int r, int f) { return reader[r].read(shape[f].data()); });
 }
 }  // namespace
 
 GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int index, const Grid& grid,
                    const LossFit& loss) {
-    const String& s = scene.strings[index];
+    const bool matched = choice_option(settings, compliance_option) == "matched";
+    const String s = matched ? with_profile_points(scene.strings[index], settings) : scene.strings[index];
     GridString g;
     g.grid = grid;
     g.mass = s.linear_density * grid.dx;
@@ -348,7 +342,7 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
         if (tap.quantity == Quantity::nut_force) t.stencil = nut_force_stencil(grid, s);
         g.taps.push_back(t);
     }
-    if (choice_option(settings, compliance_option) == "matched") put_in_series(g, descriptor, scene, index);
+    if (matched) put_in_series(g, descriptor, scene, s, index);
     return g;
 }
 

@@ -100,14 +100,14 @@ struct GridString {
     double compliance = 0;  // of the first contact under a steady force, relative to the scene's string; 0 unless it is lumped
     double narrowest = 0;   // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
     std::vector<GridTap> taps;
-    std::optional<MissingCompliance> series;  // in series with the points, compliance=matched
-    std::vector<double> series_pluck;         // its column of the pluck, one per point [m/N]
+    std::optional<MissingMatrix> series;  // in series with the points, compliance=matched
 
-    double pluck_at(double t) const;  // [N]
+    double pluck_at(double t) const;                                    // [N]
+    bool by_pluck() const { return series && !series->pluck.empty(); }  // the pluck moves points by way of what is in series
     // What the points read of u at the time t, with the pluck's part of what is in series.
     void read(const double* u, double t, double* reading) const {
-        const double F_e = series_pluck.empty() ? 0 : pluck_at(t);
-        for (std::size_t a = 0; a < points.size(); ++a) reading[a] = points[a].read(u) + (F_e != 0 ? series_pluck[a] * F_e : 0);
+        const double F_e = by_pluck() ? pluck_at(t) : 0;
+        for (std::size_t a = 0; a < points.size(); ++a) reading[a] = points[a].read(u) + (F_e != 0 ? series->pluck[a] * F_e : 0);
     }
 };
 // The same relations of a string on its grid; m and m4 as in three_point_string.hpp.

@@ -24,7 +24,7 @@ struct ExplicitUpdate {
     }
 };
 
-constexpr Option options[] = {compliance_option, grid_option, over_limit_option};
+constexpr Option options[] = {compliance_option, profile_points_option, grid_option, over_limit_option};
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);

@@ -17,7 +17,7 @@ namespace jvari {
 namespace {
 constexpr Option intervals_option{"grid", "",
                                   "intervals of the grid, a whole number from 5 on; absent: those of the explicit scheme without loss"};
-constexpr Option options[] = {compliance_option, intervals_option};
+constexpr Option options[] = {compliance_option, profile_points_option, intervals_option};
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);

@@ -28,7 +28,7 @@ struct ThetaUpdate {
 };
 
 constexpr Option theta_option{"theta", "", "theta of the scheme, above 0.5; absent: 5/6 + c^2 dt^2/(6 dx^2)"};
-constexpr Option options[] = {compliance_option, grid_option, over_limit_option, theta_option};
+constexpr Option options[] = {compliance_option, profile_points_option, grid_option, over_limit_option, theta_option};
 
 double spacing_limit(const String& s, double dt, double theta) {  // theta 0: the tuned one
     return theta != 0 ? theta_spacing_limit(s, dt, theta) : theta_spacing_limit(s, dt);

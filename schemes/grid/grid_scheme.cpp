@@ -19,6 +19,8 @@ std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) 
         f.push_back({facts::contact_iterations_most, static_cast<double>(t.most_iterations)});
         f.push_back({facts::contact_residual, t.residual});
         if (g.compliance > 0) f.push_back({facts::static_compliance, g.compliance});
+        if (g.series) f.push_back({facts::series_compliance, g.series->C[0]});
+        if (g.series) f.push_back({facts::compliance_excess, g.series->excess});
     }
     return f;
 }

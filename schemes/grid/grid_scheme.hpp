@@ -91,12 +91,9 @@ void add_taps(const Block& out, int row, const std::vector<GridTap>& taps, const
     }
 }
 
-// And of what is in series: the forces of the instant on displacement and nut force.
-inline void add_series_taps(const Block& out, int row, const GridString& g, const SeriesPoints::Forces& force, double F_e) noexcept {
-    for (const GridTap& tap : g.taps) {
-        const auto& on = g.series->taps[tap.column];
-        out.tap[tap.column * out.stride + row] += on[0] * force.b + on[1] * force.c + on[2] * F_e;
-    }
+// And of what is in series: the forces of the instant, one per point, on displacement and nut force.
+inline void add_series_taps(const Block& out, int row, const GridString& g, const double* force, double F_e) noexcept {
+    for (const GridTap& tap : g.taps) out.tap[tap.column * out.stride + row] += g.series->on_tap(tap.column, force, F_e);
 }
 
 inline void add_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {

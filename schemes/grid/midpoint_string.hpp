@@ -37,7 +37,7 @@ public:
             for (int b = 0; b < a; ++b) theta[a * points + b] = theta[b * points + a];
         obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, dt);
         if (g_.series) obstacle_.put_in_series(*g_.series, 1);
-        for (auto* v : {&older_, &free_, &force_}) v->assign(points, 0.0);
+        for (auto* v : {&older_, &free_, &force_, &now_}) v->assign(points, 0.0);
         for (auto* b : {&y_store_, &q_store_, &s_store_}) *b = AlignedVector(offset + g_.grid.intervals + five_point_overhang);
     }
 
@@ -91,9 +91,9 @@ private:
         }
         solve_(s);
         const int points = obstacle_.points();
-        const double change = g_.series_pluck.empty() ? 0 : g_.pluck_at((step_ + 1) * dt_) - g_.pluck_at(step_ * dt_);
+        const double change = !g_.by_pluck() ? 0 : g_.pluck_at((step_ + 1) * dt_) - g_.pluck_at(step_ * dt_);
         g_.read(y, step_ * dt_, older_.data());
-        for (int a = 0; a < points; ++a) free_[a] = g_.points[a].read(s) + (change != 0 ? g_.series_pluck[a] * change : 0);
+        for (int a = 0; a < points; ++a) free_[a] = g_.points[a].read(s) + (change != 0 ? g_.series->pluck[a] * change : 0);
         if (points > 0 && !obstacle_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, step_};
         for (int a = 0; a < points; ++a)
             if (force_[a] != 0) responses_[a].add(xi_ * force_[a], s);
@@ -105,7 +105,7 @@ private:
             budget_ += std::max(work, 0.0);
         }
         if (change != 0)  // the work on the points that the pluck moves by way of what is in series
-            for (int a = 0; a < points; ++a) supplied_ -= force_[a] * g_.series_pluck[a] * change;
+            for (int a = 0; a < points; ++a) supplied_ -= force_[a] * g_.series->pluck[a] * change;
         if (probed) dissipated_ += dt_ * loss();
         move_(N, y, q_, s);
         ++step_;
@@ -131,7 +131,7 @@ private:
     double loss() const noexcept {  // power [W]: <v, R v> and the thread's damper, v = s/dt
         const Squares d = squares(g_.grid, [s = s_](int l) { return s[l]; });
         double power = 2 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
-        if (g_.thread) power += obstacle_.thread_loss(g_.points.back().read(s_));
+        if (!g_.points.empty()) power += obstacle_.loss(g_.points.back().read(s_));
         return power;
     }
 
@@ -142,7 +142,8 @@ private:
         add_taps(out, row, g_.taps, y_, velocity, bridge, thread);
         if (g_.series) {
             g_.read(y_, step_ * dt_, older_.data());
-            add_series_taps(out, row, g_, obstacle_.forces(older_.data(), 0), g_.pluck_at(step_ * dt_));
+            obstacle_.forces(older_.data(), 0, now_.data());
+            add_series_taps(out, row, g_, now_.data(), g_.pluck_at(step_ * dt_));
         }
         if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
@@ -157,7 +158,7 @@ private:
     Solve solve_;  // I + A + B
     std::vector<Stencil> responses_;
     ObstacleStep obstacle_;
-    std::vector<double> older_, free_, force_;
+    std::vector<double> older_, free_, force_, now_;
     AlignedVector y_store_, q_store_, s_store_;
     double *y_ = nullptr, *q_ = nullptr, *s_ = nullptr;  // [l] is node l
     long step_ = 0;

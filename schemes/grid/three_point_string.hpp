@@ -61,7 +61,7 @@ public:
             obstacle_.put_in_series(*g_.series, 2);
             start_.put_in_series(*g_.series, 1);
         }
-        for (auto* v : {&older_, &free_, &force_, &reading_}) v->assign(points, 0.0);
+        for (auto* v : {&older_, &free_, &force_, &reading_, &now_}) v->assign(points, 0.0);
         for (auto& b : buffer_) b = AlignedVector(node_offset + g_.grid.intervals + five_point_overhang);
     }
 
@@ -173,9 +173,9 @@ private:
             supplied_ += work;
             budget_ += std::max(work, 0.0);
         }
-        if (!g_.series_pluck.empty()) {  // the work on the points that the pluck moves by way of what is in series
+        if (g_.by_pluck()) {  // the work on the points that the pluck moves by way of what is in series
             const double change = g_.pluck_at((step_ + 1) * dt_) - g_.pluck_at((step_ - 1) * dt_);
-            for (int a = 0; a < points; ++a) supplied_ -= 0.5 * force_[a] * g_.series_pluck[a] * change;
+            for (int a = 0; a < points; ++a) supplied_ -= 0.5 * force_[a] * g_.series->pluck[a] * change;
         }
         if (probed) dissipated_ += dt_ * loss();
         if (step_ % divergence_check == 0 && !(kinetic(0, 0) <= divergence_factor * budget_ + 1e-30))
@@ -208,7 +208,7 @@ private:
         const double *before = level_[0], *next = level_[2];
         const Squares d = squares(g_.grid, [=](int l) { return next[l] - before[l]; });
         double power = 0.5 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
-        if (g_.thread) power += obstacle_.thread_loss(g_.points.back().read(next) - older_.back());
+        if (!g_.points.empty()) power += obstacle_.loss(g_.points.back().read(next) - older_.back());
         return power;
     }
 
@@ -223,7 +223,8 @@ private:
         add_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
         if (g_.series) {
             g_.read(level_[1], step_ * dt_, reading_.data());
-            add_series_taps(out, row, g_, obstacle_.forces(reading_.data(), 0), g_.pluck_at(step_ * dt_));
+            obstacle_.forces(reading_.data(), 0, now_.data());
+            add_series_taps(out, row, g_, now_.data(), g_.pluck_at(step_ * dt_));
         }
         if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
@@ -237,7 +238,7 @@ private:
     std::vector<Stencil> responses_;
     Stencil pluck_response_;
     ObstacleStep obstacle_, start_;
-    std::vector<double> older_, free_, force_, reading_;
+    std::vector<double> older_, free_, force_, reading_, now_;
     AlignedVector buffer_[3];
     double* level_[3] = {};  // u^{n-1}, u^n, u^{n+1}; [l] is node l
     long step_ = 0;          // n

@@ -17,6 +17,7 @@ using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
 struct TwoPointForm {
+    static constexpr bool reads_x = true;
     static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
         const V s = hn::Add(v, force);
         v = next = hn::Sub(hn::Mul(p, s), hn::MulAdd(r, x, v));
@@ -24,10 +25,20 @@ struct TwoPointForm {
     }
 };
 struct ThreePointForm {
+    static constexpr bool reads_x = true;
     static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
         v = hn::Add(hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)), force);
         x = hn::Add(x, v);
         next = hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, hn::Add(v, v)));
+    }
+};
+
+struct AheadForm {
+    static constexpr bool reads_x = false;
+    static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
+        v = hn::Add(hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)), force);
+        x = hn::Add(x, v);
+        next = hn::Add(x, hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)));
     }
 };
 
@@ -52,22 +63,22 @@ void pass(ModalPass& m) {
             hn::StoreU(vj, d, v + j);
             if constexpr (barrier) {
                 const V g = hn::LoadU(d, m.g_b + j);
-                x_b[k] = hn::MulAdd(g, xj, x_b[k]);
+                if constexpr (Form::reads_x) x_b[k] = hn::MulAdd(g, xj, x_b[k]);
                 v_b[k] = hn::MulAdd(g, next, v_b[k]);
             }
             if constexpr (thread) {
                 const V g = hn::LoadU(d, m.g_c + j);
-                x_c[k] = hn::MulAdd(g, xj, x_c[k]);
+                if constexpr (Form::reads_x) x_c[k] = hn::MulAdd(g, xj, x_c[k]);
                 v_c[k] = hn::MulAdd(g, next, v_c[k]);
             }
         }
     const auto sum = [d](const V(&a)[2]) { return hn::GetLane(hn::SumOfLanes(d, hn::Add(a[0], a[1]))); };
     if constexpr (barrier) {
-        m.x_b = sum(x_b);
+        if constexpr (Form::reads_x) m.x_b = sum(x_b);
         m.v_b = sum(v_b);
     }
     if constexpr (thread) {
-        m.x_c = sum(x_c);
+        if constexpr (Form::reads_x) m.x_c = sum(x_c);
         m.v_c = sum(v_c);
     }
 }
@@ -86,6 +97,9 @@ ModalPassFunction choose_two_point(bool barrier, bool thread, bool pluck) {
 ModalPassFunction choose_three_point(bool barrier, bool thread, bool pluck) {
     return choose<ThreePointForm>(barrier, thread, pluck);
 }
+ModalPassFunction choose_ahead(bool barrier, bool thread, bool pluck) {
+    return choose<AheadForm>(barrier, thread, pluck);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari
@@ -95,12 +109,16 @@ HWY_AFTER_NAMESPACE();
 namespace jvari {
 HWY_EXPORT(choose_two_point);
 HWY_EXPORT(choose_three_point);
+HWY_EXPORT(choose_ahead);
 
 ModalPassFunction two_point_pass(bool barrier, bool thread, bool pluck) {
     return HWY_DYNAMIC_DISPATCH(choose_two_point)(barrier, thread, pluck);
 }
 ModalPassFunction three_point_pass(bool barrier, bool thread, bool pluck) {
     return HWY_DYNAMIC_DISPATCH(choose_three_point)(barrier, thread, pluck);
+}
+ModalPassFunction three_point_pass_ahead(bool barrier, bool thread, bool pluck) {
+    return HWY_DYNAMIC_DISPATCH(choose_ahead)(barrier, thread, pluck);
 }
 }  // namespace jvari
 #endif

@@ -62,8 +62,9 @@ public:
         steady_ = couple(0.5 * m_.k_c + 0.5 * m_.r_c / m_.dt, m_.k_c);
         first_ = couple(0.5 * m_.k_c, 0.5 * m_.k_c);
         const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
-        unplucked_ = three_point_pass(barrier, thread, false);
-        plucked_ = three_point_pass(barrier, thread, true);
+        const auto pass = InSeries<Contact> ? three_point_pass_ahead : three_point_pass;
+        unplucked_ = pass(barrier, thread, false);
+        plucked_ = pass(barrier, thread, true);
         pass_.size = m_.size;
         pass_.p = m_.loss.data();
         pass_.r = m_.num.data();
@@ -92,8 +93,11 @@ public:
             if (!m_.g_b.empty()) r_b_ += m_.g_b[i] * d;
             if (!m_.g_c.empty()) r_c_ += m_.g_c[i] * d;
         }
-        if constexpr (InSeries<Contact>) contact_.begin(y_c_);
-        else contact_.begin(m_.h_b - y_b_);
+        if constexpr (InSeries<Contact>) {
+            contact_.begin(y_c_);
+            pass_.v_b = y_b_ + r_b_;
+            pass_.v_c = y_c_ + r_c_;
+        } else contact_.begin(m_.h_b - y_b_);
         solve();
     }
 
@@ -166,9 +170,9 @@ private:
     }
     void act() {
         const bool at_start = step_ == 0;
-        const double share = at_start ? 0.5 : 1;
-        contact_.act(y_b_, y_c_, m_.pluck_at(step_), at_start);
-        F_e_ = share * m_.pluck_at(step_);
+        const double share = at_start ? 0.5 : 1, pluck = m_.pluck_at(step_);
+        contact_.act(y_b_, y_c_, pluck, at_start);
+        F_e_ = share * pluck;
         F_b_ = share * contact_.force.b;
         F_c_ = share * contact_.force.c;
     }
@@ -194,9 +198,20 @@ private:
         pass_.F_b = F_b_;
         pass_.F_c = F_c_;
         pass_.F_e = F_e_;
+        if constexpr (InSeries<Contact>) step_ahead();
+        else step_and_settle();
+        ++step_;
+    }
+    // The readings need the last pass and the forces alone: this pass runs beside the next forces.
+    void step_ahead() {
+        y_b_ = pass_.v_b + theta_bb_ * F_b_ + theta_bc_ * F_c_ + theta_be_ * F_e_;
+        y_c_ = pass_.v_c + theta_bc_ * F_b_ + theta_cc_ * F_c_ + theta_ce_ * F_e_;
+        (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
+    }
+    void step_and_settle() {
         (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
         if (!m_.g_b.empty()) {
-            if constexpr (!InSeries<Contact>) contact_.settle(m_.h_b - pass_.x_b, m_.h_b - y_b_);
+            contact_.settle(m_.h_b - pass_.x_b, m_.h_b - y_b_);
             y_b_old_ = y_b_;
             y_b_ = pass_.x_b;
             r_b_ = pass_.v_b;
@@ -204,7 +219,6 @@ private:
         y_c_old_ = y_c_;
         y_c_ = pass_.x_c;
         r_c_ = pass_.v_c;
-        ++step_;
     }
 
     // Work and losses of the centred step n >= 1: F_e (y_e^{n+1} - y_e^{n-1})/2, W loss (d^{n+1} + d^n)^2/(4 dt^2), thread.

@@ -18,6 +18,7 @@
 #include <numbers>
 
 #include "scenes/modes.hpp"
+#include "schemes/contact/compliance.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/three_point.hpp"
 #include "schemes/spatial/spatial_forces.hpp"
@@ -51,12 +52,14 @@ struct Problem {
     ThreePoint three_point;
     SpatialPorts ports;
     LinearUpdate update;
+    std::optional<MissingMatrix> missing;  // in series, compliance=matched
 };
 
 template <class Form>
 class SpatialNewton final : public Scheme {
 public:
-    explicit SpatialNewton(Problem p) : p_(std::move(p)), form_(p_.update), forces_(p_.string(), p_.ports.points, p_.update, p_.dt) {
+    explicit SpatialNewton(Problem p)
+        : p_(std::move(p)), form_(p_.update), forces_(p_.string(), p_.ports.points, p_.update, p_.dt, p_.missing) {
         for (const Tap& tap : p_.scene.taps) readings_.push_back(reading_of(tap));
         earlier_force_.assign(p_.update.ports.size(), 0.0);
         for (auto* v : {&modal_now_, &modal_last_, &modal_coming_}) v->assign(p_.modes.count(), 0.0);
@@ -99,7 +102,7 @@ public:
         std::vector<Fact> facts = {{facts::interior_nodes, double(p_.update.modes())},
                                    {facts::modes_above_nyquist, double(p_.three_point.above_nyquist)}};
         forces_.add_facts(facts);
-        if (p_.string().barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(p_.string().barriers.front())) {
+        if (!p_.missing && p_.string().barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(p_.string().barriers.front())) {
             const auto& g = p_.update.ports.front().weights;
             double own = 0;
             for (int j = 0; j < p_.modes.count(); ++j) own += p_.update.gain * g[j] * g[j] / p_.update.kappa[j];
@@ -158,6 +161,7 @@ private:
             supplied_ += 0.5 * forces_.force[e] * r;
         }
         dissipated_ += forces_.dissipated();
+        supplied_ += forces_.supplied();
     }
 
     double stored() noexcept {  // H^{n+1/2}  (21)
@@ -229,6 +233,8 @@ private:
         }
         bridge_impulse_ = thread_impulse_ = 0;
         for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(readings_[k], bridge, thread);
+        if (p_.missing)
+            for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += forces_.on_tap(k);
         if (!out.energy) return;
         out.energy[row] = stored();
         out.energy[out.stride + row] = supplied_;
@@ -262,9 +268,23 @@ constexpr Option form_option{"form",
                              "auto",
                              "how forces reach the grid: as one matrix, on the nodes read alone, by sine transforms, or what costs least",
                              {"auto", "dense", "restricted", "dst"}};
-constexpr Option options[] = {form_option};
+constexpr Option options[] = {compliance_option, profile_points_option, form_option};
 
-std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
+// What cut and step take from the string's compliance: a constant force on a mode moves it by gain/kappa (14).
+MissingMatrix missing_of(const Descriptor& descriptor, const Problem& p) {
+    const String& s = p.string();
+    const Sites sites = sites_of(p.scene, 0, footprints_of(s));
+    std::vector<std::vector<double>> w;
+    for (const Reading& r : sites.readings)
+        w.push_back(r.nut_force ? nut_force_weights(p.modes, s) : footprint_weights(p.modes, r.at.position, r.at.width));
+    return missing_matrix(descriptor.name, s, sites, p.scene.taps.size(), [&](int r, int f) {
+        double sum = 0;
+        for (int j = 0; j < p.modes.count(); ++j) sum += w[r][j] * p.update.ports[f].weights[j] / p.update.kappa[j];
+        return p.update.gain * sum;
+    });
+}
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     validate(scene);
     if (scene.strings.empty()) throw Refusal("modal_spatial_newton: scene " + scene.name + " has no string");
     if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
@@ -272,19 +292,29 @@ std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settin
     p.scene = scene;
     p.dt = 1 / settings.sample_rate;
     p.steps_per_row = steps_per_row(settings);
-    const int intervals = intervals_for(p.string(), settings);
+    const bool matched = choice_option(settings, compliance_option) == "matched";
+    if (matched) p.scene.strings.front() = with_profile_points(p.string(), settings);
+    const int intervals = matched ? modes_for(p.string(), settings) + 1 : intervals_for(p.string(), settings);
     if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
     p.modes = modes_of(p.string(), intervals - 1);
     p.initial = initial_displacement(p.modes, p.string());
-    p.ports = spatial_ports(p.string(), p.modes, intervals, scene.name);
+    p.ports = spatial_ports(p.string(), p.modes, intervals, scene.name, matched);
+    if (matched)
+        for (const ContactPoint& point : p.ports.points)
+            if (point.contact_loss != 0) throw Refusal("modal_spatial_newton: compliance=matched leaves out contact loss");
     const bool linear = p.ports.points.empty() && !p.string().thread;
     p.three_point = three_point(p.modes, p.dt, (linear ? 0.95 : 0.25) * std::numbers::pi);
     p.update = {intervals, p.three_point.Ct, p.three_point.kappa, p.three_point.gain, p.ports.ports, 0};
     p.update.reads = static_cast<int>(p.ports.points.size()) + (p.string().thread ? 1 : 0);
 
+    if (matched) p.missing = missing_of(descriptor, p);
+
     std::string form = choice_option(settings, form_option);
     if (form == "auto") form = cheapest_form(p.update);
-    constexpr int most_dense = 1 << 13;  // half a gigabyte of matrix
+    const bool on_nodes =
+        std::all_of(p.update.ports.begin(), p.update.ports.begin() + p.update.reads, [](const Port& port) { return port.node != 0; });
+    if (form == "restricted" && !on_nodes && p.update.reads > 2) form = "dst";  // it reads two other places at most
+    constexpr int most_dense = 1 << 13;                                         // half a gigabyte of matrix
     if (form == "dense" && p.update.modes() > most_dense)
         throw Refusal("option form: dense takes no more than " + std::to_string(most_dense) + " modes, not " +
                       std::to_string(p.update.modes()));

@@ -30,7 +30,8 @@ double settle(const ContactLaw& law, double free, double theta) {
 
 }  // namespace
 
-SpatialForces::SpatialForces(const String& s, const std::vector<ContactPoint>& points, const LinearUpdate& update, double dt)
+SpatialForces::SpatialForces(const String& s, const std::vector<ContactPoint>& points, const LinearUpdate& update, double dt,
+                             const std::optional<MissingMatrix>& missing)
     : older(update.reads), now(update.reads), free(update.reads), coming(update.reads), force(update.ports.size()), dt_(dt) {
     const auto theta = [&](int a, int b) { return update.gain * inner(update.ports[a].weights, update.ports[b].weights); };
     int next = 0;
@@ -54,6 +55,82 @@ SpatialForces::SpatialForces(const String& s, const std::vector<ContactPoint>& p
         for (int z = 0; z < update.reads; ++z) e.reach.push_back(theta(next, z));
         plucks_.push_back(e);
     }
+    if (!missing) return;
+    const int reads = update.reads;
+    series_ = Series{*missing, {}, {}, {}, std::vector<double>(reads), std::vector<double>(reads), std::vector<double>(reads)};
+    std::vector<double> half;
+    for (int a = 0; a < reads; ++a)
+        for (int b = 0; b < reads; ++b) {
+            series_->theta.push_back(theta(std::min(a, b), std::max(a, b)));
+            half.push_back(0.5 * series_->theta.back());
+        }
+    std::vector<ContactLaw> laws;
+    std::vector<double> heights;
+    for (const ContactPoint& point : points) {
+        laws.push_back(point.law);
+        heights.push_back(point.height);
+    }
+    series_->step = ObstacleStep(laws, heights, s.thread, series_->theta, 2 * dt);
+    series_->start = ObstacleStep(laws, heights, s.thread, half, dt);
+    series_->step.put_in_series(*missing, 2);
+    series_->start.put_in_series(*missing, 1);
+}
+
+double SpatialForces::pluck_at(long n) const {
+    if (plucks_.empty()) return 0;
+    const Pluck& p = plucks_.front().law;
+    const double t = double(n) * dt_ - p.start;
+    return t < 0 || t > p.duration ? 0 : jvari::force(p, double(n) * dt_);
+}
+
+void SpatialForces::begin_in_series() noexcept {
+    Series& s = *series_;
+    const std::size_t reads = now.size();
+    n_ = 0;
+    s.step.clear();
+    s.start.clear();
+    for (std::size_t z = 0; z < reads; ++z) {
+        s.a[z] = now[z] + pluck_on(z, 0);
+        s.b[z] = free[z] + pluck_on(z, 1) - s.a[z];
+    }
+    s.start.begin(s.a.data());
+    s.start.solve(s.a.data(), s.b.data(), force.data());
+    for (std::size_t z = 0; z < reads; ++z) {
+        coming[z] = free[z];
+        for (std::size_t c = 0; c < reads; ++c) coming[z] += 0.5 * s.theta[z * reads + c] * force[c];
+    }
+    s.step.follow(s.start);
+}
+
+Outcome SpatialForces::solve_in_series(long n) noexcept {
+    Series& s = *series_;
+    const std::size_t reads = now.size();
+    n_ = n;
+    for (std::size_t z = 0; z < reads; ++z) {
+        s.a[z] = older[z] + pluck_on(z, n - 1);
+        s.b[z] = free[z] + pluck_on(z, n + 1) - s.a[z];
+        if (!std::isfinite(free[z])) return Outcome::diverged;
+    }
+    const bool converged = s.step.solve(s.a.data(), s.b.data(), force.data());
+    for (std::size_t z = 0; z < reads; ++z) {
+        coming[z] = free[z];
+        for (std::size_t c = 0; c < reads; ++c) coming[z] += s.theta[z * reads + c] * force[c];
+    }
+    return converged ? Outcome::ok : Outcome::not_converged;
+}
+
+double SpatialForces::supplied() const {
+    if (!series_) return 0;
+    double work = 0;
+    for (std::size_t z = 0; z < now.size(); ++z) work -= 0.5 * force[z] * (pluck_on(z, n_ + 1) - pluck_on(z, n_ - 1));
+    return work;
+}
+
+double SpatialForces::on_tap(std::size_t k) const {
+    if (!series_) return 0;
+    for (std::size_t z = 0; z < now.size(); ++z) series_->a[z] = now[z] + pluck_on(z, n_);
+    series_->step.forces(series_->a.data(), 0, series_->now.data());
+    return series_->missing.on_tap(k, series_->now.data(), pluck_at(n_));
 }
 
 double SpatialForces::bridge() const {
@@ -67,6 +144,7 @@ double SpatialForces::thread() const {
 void SpatialForces::begin() noexcept {
     std::fill(force.begin(), force.end(), 0.0);  // a pluck begins from 0
     effort_ = {};
+    if (series_) return begin_in_series();
     std::copy(free.begin(), free.end(), coming.begin());
     double recoil = 0;
     for (Coil& c : threads_) {
@@ -102,6 +180,7 @@ Outcome SpatialForces::solve(long n) noexcept {
         if (force[e.port] != 0)
             for (std::size_t z = 0; z < free.size(); ++z) free[z] += e.reach[z] * force[e.port];
     }
+    if (series_) return solve_in_series(n);
     for (Coil& c : threads_) {
         const double pull = c.law.stiffness * c.law.height + (c.yield - c.law.stiffness) * older[c.port];
         force[c.port] = (pull - c.yield * free[c.port]) / (1 + c.yield * c.theta);
@@ -140,6 +219,13 @@ Outcome SpatialForces::solve(long n) noexcept {
 }
 
 double SpatialForces::stored() const {
+    if (series_) {
+        for (std::size_t z = 0; z < now.size(); ++z) {
+            series_->a[z] = now[z] + pluck_on(z, n_);
+            series_->b[z] = coming[z] + pluck_on(z, n_ + 1);
+        }
+        return 0.5 * (series_->step.potential(series_->a.data(), 0) + series_->step.potential(series_->b.data(), 1));
+    }
     double H = 0;
     for (std::size_t z = 0; z < contacts_.size(); ++z) {
         const Contact& c = contacts_[z];
@@ -153,6 +239,7 @@ double SpatialForces::stored() const {
 }
 
 double SpatialForces::dissipated() const {
+    if (series_) return now.empty() ? 0 : dt_ * series_->step.loss(coming.back() - older.back());
     double lost = 0;
     for (std::size_t z = 0; z < contacts_.size(); ++z) {
         const Contact& c = contacts_[z];
@@ -168,6 +255,18 @@ double SpatialForces::dissipated() const {
 }
 
 void SpatialForces::add_facts(std::vector<Fact>& facts) const {
+    if (series_) {
+        const ObstacleStep::Tally& t = series_->step.tally();
+        facts.push_back({facts::smallest_contact_force, t.smallest_force});
+        facts.push_back({facts::deepest_penetration, t.deepest});
+        facts.push_back({facts::contact_points, double(contacts_.size())});
+        facts.push_back({facts::contact_iterations_mean, t.solves > 0 ? double(t.iterations) / double(t.solves) : 0});
+        facts.push_back({facts::contact_iterations_most, double(t.most_iterations)});
+        facts.push_back({facts::contact_residual, t.residual});
+        facts.push_back({facts::series_compliance, contacts_.empty() ? 0 : series_->missing.C[0]});
+        facts.push_back({facts::compliance_excess, series_->missing.excess});
+        return;
+    }
     facts.push_back({facts::smallest_contact_force, effort_.smallest_force});
     facts.push_back({facts::deepest_penetration, effort_.deepest});
     facts.push_back({facts::contact_points, double(contacts_.size())});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/scene.hpp"
+#include "schemes/contact/obstacle_step.hpp"
 #include "schemes/scheme.hpp"
 #include "schemes/spatial/spatial_forms.hpp"
 #include "schemes/spatial/spatial_ports.hpp"
@@ -15,7 +16,9 @@ namespace jvari {
 
 class SpatialForces {
 public:
-    SpatialForces(const String&, const std::vector<ContactPoint>&, const LinearUpdate&, double dt);
+    // missing: in series with contacts and thread, compliance=matched; these take the steps of obstacle_step.hpp then.
+    SpatialForces(const String&, const std::vector<ContactPoint>&, const LinearUpdate&, double dt,
+                  const std::optional<MissingMatrix>& missing);
 
     // t = 0 at rest: `now` and the motion without force `free` are filled. From rest both neighbours of level 0 carry half of F^0 and the
     // contact force is that at level 1: the equations of a step with u- = u+ and half the compliance.
@@ -25,8 +28,10 @@ public:
 
     double bridge() const;  // [N]
     double thread() const;
-    double stored() const;      // (V^n + V^{n+1})/2 and the thread's likewise [J]
-    double dissipated() const;  // by contact loss and thread in this step [J]
+    double stored() const;               // (V^n + V^{n+1})/2 and the thread's likewise [J]
+    double dissipated() const;           // by contact loss and thread in this step [J]
+    double supplied() const;             // by the pluck, on points that it moves by way of what is in series [J]
+    double on_tap(std::size_t k) const;  // of what is in series, at level n
     int pluck_port() const { return plucks_.empty() ? -1 : plucks_.front().port; }
     void add_facts(std::vector<Fact>&) const;
 
@@ -58,6 +63,18 @@ private:
     std::vector<Contact> contacts_;
     std::vector<Coil> threads_;  // one or none, as plucks_
     std::vector<Finger> plucks_;
+    struct Series {
+        MissingMatrix missing;
+        ObstacleStep step, start;
+        std::vector<double> theta;              // of all reads [m/N]
+        mutable std::vector<double> a, b, now;  // workspaces, one per read
+    };
+    void begin_in_series() noexcept;
+    Outcome solve_in_series(long n) noexcept;
+    double pluck_at(long n) const;  // [N]
+    double pluck_on(std::size_t z, long n) const { return series_->missing.pluck.empty() ? 0 : series_->missing.pluck[z] * pluck_at(n); }
+    std::optional<Series> series_;
+    long n_ = 0;
     double dt_, own_theta_ = 0;  // own: of the contact point, without a yielding thread
     Effort effort_;
 };

@@ -73,14 +73,14 @@ int intervals_for(const String& s, const Settings& settings) {
     return intervals;
 }
 
-SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, const std::string& scene) {
+SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, const std::string& scene, bool coupled_may_be) {
     SpatialPorts out;
     for (const Barrier& barrier : s.barriers) std::visit(PointsOf{s, modes, intervals, scene, out}, barrier);
     const bool all_nodes = std::all_of(out.ports.begin(), out.ports.end(), [](const Port& p) { return p.node != 0; });
-    if (out.points.size() > 1 && !all_nodes)
+    if (out.points.size() > 1 && !all_nodes && !coupled_may_be)
         throw Refusal("modal_spatial_newton solves several contacts only where each is a node of the grid; in scene " + scene +
                       " a barrier with a footprint or between nodes is coupled to another contact");
-    if (out.points.size() > 1 && s.thread)
+    if (out.points.size() > 1 && s.thread && !coupled_may_be)
         throw Refusal("modal_spatial_newton couples a thread to one contact point; scene " + scene + " has " +
                       std::to_string(out.points.size()) + " with " + std::to_string(intervals - 1) + " nodes");
     if (s.thread) out.ports.push_back({footprint_weights(modes, s.thread->position, s.thread->width), 0});

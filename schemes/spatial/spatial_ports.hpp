@@ -27,7 +27,7 @@ struct SpatialPorts {
 // many at most: beyond, it acts through its modal weights) and a profile barrier has 8 nodes.
 int intervals_for(const String&, const Settings&);
 
-// Throws Refusal where contact points are coupled: nodes are not (their weights are orthogonal), all else is.
-SpatialPorts spatial_ports(const String&, const Modes&, int intervals, const std::string& scene);
+// Throws Refusal where contact points are coupled and may not be: nodes are not (their weights are orthogonal), all else is.
+SpatialPorts spatial_ports(const String&, const Modes&, int intervals, const std::string& scene, bool coupled_may_be);
 
 }  // namespace jvari
