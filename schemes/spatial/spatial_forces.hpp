@@ -18,7 +18,7 @@ class SpatialForces {
 public:
     // missing: in series with contacts and thread, compliance=matched; these take the steps of obstacle_step.hpp then.
     SpatialForces(const String&, const std::vector<ContactPoint>&, const LinearUpdate&, double dt,
-                  const std::optional<MissingMatrix>& missing);
+                  const std::optional<MissingMatrix>& missing = {});
 
     // t = 0 at rest: `now` and the motion without force `free` are filled. From rest both neighbours of level 0 carry half of F^0 and the
     // contact force is that at level 1: the equations of a step with u- = u+ and half the compliance.
