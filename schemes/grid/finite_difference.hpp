@@ -7,6 +7,8 @@
 // the energy balance. A point (width 0) is the hat function itself. Profiles are lumped: a node carries the stiffness density times dx.
 // The loss is 2 sigma0 u_t - 2 sigma1 u_xxt + 2 sigma2 u_xxxxt, fitted to the scene's law, since a grid cannot follow a general one. All
 // three are non-negative: no wavenumber of the grid gains energy.
+// With compliance=matched what the grid takes from the string's compliance stands in series with the points, and profiles are touched at
+// points of their own (option `points`): at its nodes a grid yields more than the true string.
 // Left out: contact loss, measured modes, polarisation, the body.
 #pragma once
 

@@ -5,6 +5,10 @@
 // outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ - u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al.
 // 2016, eqs 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two polarisations, several strings.
 //
+// Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from the string's compliance stands in series
+// with contacts and thread (contact/compliance.hpp, obstacle_step.hpp), which may then be coupled; profiles are touched at points of their
+// own (option `points`), and contact loss is left out. Refused where the scheme is too soft already.
+//
 // Order: free motion is exact. Forced motion is second order without losses and first order with them: eq 14 puts dt^2/m F on a mode where
 // a damped one wants e^{-sigma dt} of it (a factor per mode would couple the nodes, so the paper's form is kept).
 //
