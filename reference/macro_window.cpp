@@ -276,7 +276,7 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
         most = std::max(most, reach_[b] + std::abs(s.height[b]) + s.pluck_reach);
     }
     truncation_ = largest * tail_ + modal_tail_ * most;
-    rounding_ = unit_rounding * most;
+    rounding_ = unit_rounding * (most + (threaded() ? reach_[contacts] : 0));  // the thread passes on what is read at its point
 }
 
 void MacroWindow::state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept {
