@@ -357,8 +357,9 @@ void ExactContact::move_on(double by, double left) noexcept {
     const MacroWindow& w = window_;
     const auto combine = w.sweep().combine;
     double e[3 * most_terms], later[3 * most_terms], shifted[most_terms];
-    powers(by, w.size, e);
-    for (int a = 0; a < w.contacts; ++a) {
+    const bool last = by == left;  // of the window: nobody asks for the free motion beyond it
+    if (!last) powers(by, w.size, e);
+    for (int a = 0; !last && a < w.contacts; ++a) {
         double* r = at(r_, a);
         std::fill_n(shifted, w.size, 0.0);
         combine(shifted, w.size, e, w.terms, r, 1);
@@ -370,7 +371,7 @@ void ExactContact::move_on(double by, double left) noexcept {
     for (std::size_t i = 0; i < touched_.size(); ++i) {
         const double* m = at(moment_, static_cast<int>(i));
         extremes_.tolerance = std::max(extremes_.tolerance, w.kernel_truncation() * std::abs(m[0]));
-        for (int a = 0; a < w.contacts; ++a) combine(at(r_, a), w.size, m, count_, w.kernel(a, touched_[i]), 1);
+        for (int a = 0; !last && a < w.contacts; ++a) combine(at(r_, a), w.size, m, count_, w.kernel(a, touched_[i]), 1);
         combine(at(moments_, touched_[i]), w.size, m, count_, later + w.size, -1);
     }
 }

@@ -276,13 +276,14 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
         most = std::max(most, reach_[b] + std::abs(s.height[b]) + s.pluck_reach);
     }
     truncation_ = largest * tail_ + modal_tail_ * most;
-    rounding_ = unit_rounding * most;
+    rounding_ = unit_rounding * (most + (threaded() ? reach_[contacts] : 0));  // the thread passes on what is read at its point
 }
 
 void MacroWindow::state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept {
     const Springs& s = springs;
-    double e[3 * most_terms];
-    powers(at, 2 * size + 1, e);
+    double until[3 * most_terms];
+    const double* e = inverse_factorial.data();  // at^n/n!
+    if (at != 1) powers(at, 2 * size + 1, until), e = until;
     int acting = 0;
     const auto act = [&](int force, const double* m) {
         acting_moments_[acting] = m;
@@ -301,10 +302,11 @@ void MacroWindow::state_at(double at, const double* M, const double* y, const do
         thread_impulse_ = m[0] * seconds();
         if (relaxes()) {
             const double* F = force_.data() + contacts * stride;
-            thread_force_ = 0;
-            for (int n = 0; n < terms; ++n) thread_force_ += F[n] * e[n];
+            double now[3];
+            sweep_->evaluate(F, size, at, now);
+            thread_force_ = now[0];
             for (int b = 0; b < contacts; ++b)
-                for (int n = 0; n < terms; ++n) thread_force_ += answer_[b * stride + n] * M[b * stride + n];
+                for (int n = 0; n < terms && M[b * stride] != 0; ++n) thread_force_ += answer_[b * stride + n] * M[b * stride + n];
         }
         for (int b = 0; series_ && b < contacts; ++b) thread_impulse_ -= series_->pull() * M[b * stride] * seconds();
         act(contacts, m);

@@ -150,10 +150,10 @@ TEST(InSeries, FewModesMatchedAreNearerToManyThanManyUnmatched) {
     EXPECT_EQ(fact(cut, "events"), 1357);
     EXPECT_EQ(fact(with_133, "events"), 25);
     const auto error = [&](const jvari::Run& r, int tap) { return difference(r.trace.column(tap), truth.trace.column(tap)); };
-    EXPECT_LT(error(with_133, 1), 2 * 2.5e-4);  // 2.5e-4 and 7.1e-3 of y and bridge, 1.9e-3 and 4.8e-2 with 20 modes:
-    EXPECT_LT(error(with_133, 2), 2 * 7.1e-3);  // docs/compliance-matching.md
-    EXPECT_LT(error(with_20, 1), 2 * 1.9e-3);
-    EXPECT_LT(error(with_20, 2), 2 * 4.8e-2);
+    EXPECT_LT(error(with_133, 1), 2 * 1.1e-4);  // 1.1e-4 and 4.5e-3 of y and bridge, 1.8e-3 and 4.7e-2 with 20 modes:
+    EXPECT_LT(error(with_133, 2), 2 * 4.5e-3);  // docs/compliance-matching.md
+    EXPECT_LT(error(with_20, 1), 2 * 1.8e-3);
+    EXPECT_LT(error(with_20, 2), 2 * 4.7e-2);
     for (const int tap : {1, 2}) EXPECT_LT(10 * error(with_133, tap), error(cut, tap));
 }
 
