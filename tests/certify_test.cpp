@@ -348,7 +348,7 @@ struct Shelf : Scratch {  // a library of certificates with one in it
     std::string environment = "JVARI_CERTIFICATES=" + path.string();
     void put(bench::trust::KeptCertificate kept, double figure) {
         for (auto& p : kept.certificate.pairs)
-            for (Agreement& tap : p.taps) tap.relative_l2.fill(figure);
+            for (Agreement& tap : p.taps) tap.relative_l2.fill(kept.certificate.entries[p.first].doubled.empty() ? figure : 0);
         write(path / (kept.certificate.scene + ".json"), bench::trust::json_of(kept));
     }
 };
