@@ -118,29 +118,59 @@ TEST(Certificate, ShowsThatTheReferencesAgree) {
     int announced = 0;
     settings.progress = [&](const std::string&, int done, int of) {
         EXPECT_EQ(done, announced++);
-        EXPECT_EQ(of, 6);
+        EXPECT_EQ(of, 7);
     };
     const Certificate c = certify(release(6e-3), settings);
-    EXPECT_EQ(announced, 6);
-    ASSERT_EQ(c.entries.size(), 5u);
+    EXPECT_EQ(announced, 7);
+    ASSERT_EQ(c.entries.size(), 6u);
     EXPECT_EQ(c.entries[0].reference, "exact_contact");
     EXPECT_EQ(c.entries[2].reference, "sundials");
     EXPECT_EQ(c.entries[4].reference, "oversampled modal_spatial_newton");
-    EXPECT_EQ(c.pairs.size(), 10u);
+    EXPECT_EQ(c.entries[5].doubled, "modes");
+    ASSERT_EQ(c.pairs.size(), 11u);  // the last with the default of its own reference alone
+    EXPECT_EQ(c.pairs.back().first, 5);
+    EXPECT_EQ(c.pairs.back().second, 0);
     for (const auto& e : c.entries) {
         EXPECT_EQ(e.status.outcome, Outcome::ok);
         EXPECT_GT(e.wall_seconds, 0);
         EXPECT_NEAR(e.reached, 6e-3, 1e-4);
     }
     for (const auto& pair : c.pairs) {
-        if (pair.first == 4) continue;
+        if (pair.first >= 4) continue;
         EXPECT_LT(pair.taps[0].relative_l2.back(), 1e-9) << pair.first << " " << pair.second;  // nut
         EXPECT_LT(pair.taps[2].relative_l2.back(), 1e-6) << pair.first << " " << pair.second;  // bridge
         EXPECT_NEAR(pair.taps[0].until[2], 6e-3, 1e-4);
     }
-    for (int k = 0; k < 4; ++k) EXPECT_LT(c.pairs.back().taps[k].relative_l2.back(), 10 * c.entries[4].estimate[k].back());
+    for (int k = 0; k < 4; ++k) EXPECT_LT(c.pairs[9].taps[k].relative_l2.back(), 10 * c.entries[4].estimate[k].back());
     EXPECT_GT(c.floor[0].relative_l2.back(), 1e-13);
     EXPECT_LT(c.floor[0].relative_l2.back(), 1e-10);
+}
+
+// 60 modes are far from the string: what all references of 60 modes agree about to 1e-9 is wrong by more than 1e-2.
+TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
+    const Scene scene = release(10e-3);
+    const Certificate c = certify(scene, {60, 44100, 0, {}, {}});
+    const Certificate::Pair& doubled = c.pairs.back();
+    ASSERT_EQ(c.entries[doubled.first].doubled, "modes");
+    const auto trace = [&scene](int modes) { return run(exact_contact, scene, {0, 44100, modes, {}}).trace; };
+    const Trace model = trace(60), twice = trace(120), string = trace(600);
+    for (int k = 0; k < model.taps(); ++k) {
+        EXPECT_DOUBLE_EQ(doubled.taps[k].relative_l2.back(), relative_difference(twice.column(k), model.column(k), 44100, 1));
+        EXPECT_LT(relative_difference(model.column(k), string.column(k), 44100, 1), and_further_ones * doubled.taps[k].relative_l2.back());
+    }
+    EXPECT_GT(doubled.taps[0].relative_l2.back(), 1e-2);
+
+    Scene profile = scene;
+    profile.duration = 2e-3;
+    profile.strings[0].barriers = {ProfileBarrier{ParabolaCurve{0.05}, 0, 0.02, {1e10}, 1, 0}};
+    profile.strings[0].thread.reset();
+    const Certificate p = certify(profile, {20, 44100, 0, {}, {}});
+    ASSERT_EQ(p.entries.back().doubled, "points");
+    EXPECT_EQ(p.entries.back().options, (Certificate::Options{{"nodes", "64"}}));
+    const auto nut = [&profile](const char* nodes) { return run(exact_contact, profile, {0, 44100, 20, {{"nodes", nodes}}}).trace; };
+    const Trace points = nut("32"), more = nut("64");
+    EXPECT_DOUBLE_EQ(p.pairs.back().taps[0].relative_l2.back(), relative_difference(more.column(0), points.column(0), 44100, 1));
+    EXPECT_GT(p.pairs.back().taps[0].relative_l2.back(), 0);
 }
 
 TEST(Certificate, OfASceneThatNoReferenceRepresentsIsTheStandInsOwnEstimate) {
@@ -162,8 +192,8 @@ TEST(Certificate, OfALinearSceneRestsOnTheClosedForm) {
     scene.duration = 20e-3;
     const Certificate c = certify(scene, {30, 44100, 0, {}});
     EXPECT_EQ(c.entries.front().reference, "exact_linear");
-    EXPECT_EQ(c.entries.size(), 5u);
-    for (const auto& pair : c.pairs)
+    EXPECT_EQ(c.entries.size(), 6u);
+    for (const auto& pair : c.pairs)  // one mode swings: twice as many change nothing
         for (const Agreement& tap : pair.taps) EXPECT_LT(tap.relative_l2.back(), 1e-12);
 }
 

@@ -255,16 +255,42 @@ TEST(Trust, IsTheDifferenceFromTheNextReferenceInOrderOfAuthority) {
     const bench::trust::KeptCertificate kept = by_hand();
     const bench::trust::Trust one = bench::trust::trust_of(kept, "one", {}, 0.1);
     EXPECT_EQ(one.against, "two rtol=1e-12");
-    EXPECT_DOUBLE_EQ(one.at(0, 0), 1e-2);      // entries 2 and 0, 10 ms
-    EXPECT_DOUBLE_EQ(one.at(0, 1), 3 * 1e-2);  // 50 ms is the third window
-    EXPECT_DOUBLE_EQ(one.at(0, 2), 7 * 1e-2);  // the whole
+    EXPECT_DOUBLE_EQ(one.in_model(0, 0), 1e-2);      // entries 2 and 0, 10 ms
+    EXPECT_DOUBLE_EQ(one.in_model(0, 1), 3 * 1e-2);  // 50 ms is the third window
+    EXPECT_DOUBLE_EQ(one.in_model(0, 2), 7 * 1e-2);  // the whole
     const bench::trust::Trust two = bench::trust::trust_of(kept, "two", {}, 0.1);
     EXPECT_EQ(two.against, "one");
-    EXPECT_DOUBLE_EQ(two.at(0, 0), 1e-3);  // entries 3 and 0
+    EXPECT_DOUBLE_EQ(two.in_model(0, 0), 1e-3);  // entries 3 and 0
     const bench::trust::Trust coarse = bench::trust::trust_of(kept, "one", {{"window", "0.5"}}, 0.1);
-    EXPECT_DOUBLE_EQ(coarse.at(0, 0), 1e-5);  // entries 2 and 1
+    EXPECT_DOUBLE_EQ(coarse.in_model(0, 0), 1e-5);  // entries 2 and 1
     EXPECT_FALSE(trust_of(kept, "two", {{"rtol", "1e-3"}}, 0.1).any());
     EXPECT_FALSE(trust_of(kept, "four", {}, 0.1).any());
+}
+
+TEST(Trust, OfTheSceneHasWhatDoublingModesAndPointsChanges) {
+    bench::trust::KeptCertificate kept = by_hand();
+    Certificate& c = kept.certificate;
+    const auto all = [](double figure) {
+        Agreement a;
+        a.relative_l2.fill(figure);
+        return a;
+    };
+    const double in_model = bench::trust::trust_of(kept, "two", {}, 0.1).of_scene(0, 0);
+    for (const auto& [what, figure] : {std::pair{"modes", 2e-2}, std::pair{"points", 3e-3}}) {
+        c.entries.push_back({"one", {}, 0, {}, 0.1, 0, {}, {}, what});
+        c.pairs.push_back({static_cast<int>(c.entries.size()) - 1, 0, {all(figure)}});
+    }
+    for (const char* name : {"one", "two"}) {  // they share the model, whichever was doubled
+        const bench::trust::Trust t = bench::trust::trust_of(kept, name, {}, 0.1);
+        EXPECT_EQ(t.doubled, "modes and points");
+        EXPECT_DOUBLE_EQ(t.of_scene(0, 0), t.in_model(0, 0) + and_further_ones * (2e-2 + 3e-3)) << name;
+    }
+    const bench::trust::Trust two = bench::trust::trust_of(kept, "two", {}, 0.1);
+    EXPECT_EQ(two.against, "one");
+    EXPECT_DOUBLE_EQ(two.in_model(0, 0), in_model);  // what is of another model says nothing of the solution of this one
+    c.entries.back().reached = 0.02;                 // it failed there: of more nothing is known
+    EXPECT_TRUE(std::isnan(bench::trust::trust_of(kept, "one", {}, 0.1).of_scene(0, 2)));
+    EXPECT_FALSE(std::isnan(bench::trust::trust_of(kept, "one", {}, 0.1).of_scene(0, 0)));
 }
 
 TEST(Trust, OfAReferenceThatStandsAloneIsItsLargestDifferenceFromItself) {
@@ -273,13 +299,15 @@ TEST(Trust, OfAReferenceThatStandsAloneIsItsLargestDifferenceFromItself) {
         if (e.sample_rate == 0) e.reference = "two";
     kept.certificate.entries[0].options = {{"method", "adams"}};
     const bench::trust::Trust t = bench::trust::trust_of(kept, "two", {}, 0.1);
-    EXPECT_DOUBLE_EQ(t.at(0, 0), 1e-3);  // of 1e-3, 1e-6, 1e-9; the oversampled scheme is left aside
+    EXPECT_DOUBLE_EQ(t.in_model(0, 0), 1e-3);  // of 1e-3, 1e-6, 1e-9; the oversampled scheme is left aside
     EXPECT_EQ(t.against, "two method=adams, two window=0.5, two rtol=1e-12");
 }
 
 TEST(Trust, ReachesAsFarAsTheCertificateAndTakesTheShortestWindowThatHolds) {
     bench::trust::KeptCertificate kept = by_hand();
-    const auto at = [&kept](double until, std::size_t window) { return bench::trust::trust_of(kept, "one", {}, until).at(0, window); };
+    const auto at = [&kept](double until, std::size_t window) {
+        return bench::trust::trust_of(kept, "one", {}, until).of_scene(0, window);
+    };
     EXPECT_DOUBLE_EQ(at(0.015, 2), 2e-2);                             // the window of 20 ms
     EXPECT_TRUE(std::isnan(at(0.015, 1)));                            // there are no 50 ms to compare
     EXPECT_DOUBLE_EQ(at(0.06, 2), 4e-2);                              // 100 ms
@@ -301,10 +329,13 @@ TEST(CommittedCertificates, ThereIsOneForEverySceneOfTheLibraryWithAllThatRepres
         EXPECT_EQ(kept->certificate.modes, modes_for(scene.strings[0], {})) << name;
         for (const auto& planned : certificate_plan(scene).entries)
             EXPECT_TRUE(std::any_of(kept->certificate.entries.begin(), kept->certificate.entries.end(),
-                                    [&](const auto& e) { return e.reference == planned.reference && e.options == planned.options; }))
+                                    [&](const auto& e) {
+                                        return e.reference == planned.reference && e.options == planned.options &&
+                                               e.doubled == planned.doubled;
+                                    }))
                 << name << ": " << planned.reference;
         if (const Descriptor* reference = best_reference(scene)) {
-            EXPECT_GT(trust_of(*kept, reference->name, {}, 10e-3).at(0, 0), 0) << name;
+            EXPECT_GT(trust_of(*kept, reference->name, {}, 10e-3).of_scene(0, 0), 0) << name;
         } else {
             EXPECT_EQ(kept->certificate.entries.back().reference.rfind("oversampled ", 0), 0u) << name;
         }
@@ -317,7 +348,7 @@ struct Shelf : Scratch {  // a library of certificates with one in it
     std::string environment = "JVARI_CERTIFICATES=" + path.string();
     void put(bench::trust::KeptCertificate kept, double figure) {
         for (auto& p : kept.certificate.pairs)
-            for (Agreement& tap : p.taps) tap.relative_l2.fill(figure);
+            for (Agreement& tap : p.taps) tap.relative_l2.fill(kept.certificate.entries[p.first].doubled.empty() ? figure : 0);
         write(path / (kept.certificate.scene + ".json"), bench::trust::json_of(kept));
     }
 };

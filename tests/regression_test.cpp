@@ -48,7 +48,7 @@ struct Tally {
 constexpr double row = 1.0 / 44100;  // [s]
 
 bool is_text(const std::string& column) {
-    for (const char* name : {"scene", "scheme", "options", "status", "flags", "reference", "reason"})
+    for (const char* name : {"scene", "scheme", "options", "status", "flags", "reference", "reference_doubling", "reason"})
         if (column == name) return true;
     return false;
 }

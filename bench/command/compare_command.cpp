@@ -48,12 +48,24 @@ std::string floor_text(const compare::Comparison& c) {
     return text;
 }
 
+// What the reference is, and for how long two of its kind stay together: beyond that no waveform error says anything.
+std::string truth_text(const compare::Comparison& c) {
+    const auto until = [&c](double t) { return t >= c.scene.duration - 1e-3 ? std::string("to the end") : fmt::format("to {:.4g} s", t); };
+    std::string text =
+        "reference: " + (c.truth.empty() ? fmt::format("{} modes, those of the schemes", c.reference_settings.modes) : c.truth);
+    text +=
+        fmt::format("\nits horizon: within 10 % of itself {} when started 1e-12 apart", until(compare::horizon_of(c.floor, c.headline)));
+    if (!std::isnan(c.horizon)) text += fmt::format(", {} with half of its modes", until(c.horizon));
+    return text + "\n";
+}
+
 std::string certificate_text(const compare::Comparison& c) {
     const trust::Trust& t = c.trust;
     if (!t.any()) return "no certificate: " + t.missing;
-    return fmt::format("{} is certain to the figures of the first line, by {}{}", c.reference_name, t.against,
+    return fmt::format("{} is certain to the figures of the first line, by {}{}{}", c.reference_name, t.against,
+                       t.doubled.empty() ? "" : " and by doubling its " + t.doubled,
                        t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + ")") +
-           (std::isnan(t.at(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
+           (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
            (c.reference_note.empty() ? "" : "\n" + c.reference_note);
 }
 }  // namespace
@@ -89,7 +101,7 @@ int compare_command(const CompareCall& r) {
                               c.reference_name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
                               c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
                               c.scene.taps.at(c.headline.bridge).name));
-    console.print(headline_text(cells) + "\n" + certificate_text(c) + "\n" + floor_text(c));
+    console.print(headline_text(cells) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = exit_code(c);

@@ -43,7 +43,8 @@ Bound bound_of(const store::Table& cells, std::size_t row, const std::string& er
     Bound b;
     b.error = cells.number(row, error_column);
     b.floor = cells.number(row, "floor_" + error_column);
-    if (error_column.starts_with("error_l2_")) b.certificate = cells.number(row, column_of("certificate", error_column));
+    if (error_column.starts_with("error_l2_") || error_column.starts_with("error_in_model_l2_"))
+        b.certificate = cells.number(row, column_of("certificate", error_column));
     return b;
 }
 

@@ -10,6 +10,7 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/cost.hpp"
 #include "bench/compare/time_limit.hpp"
+#include "bench/compare/truth.hpp"
 #include "bench/store/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "schemes/run.hpp"
@@ -112,13 +113,14 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
     throw Refusal("reference: none represents scene " + scene.name + refusals);
 }
 
-Trace measure(Cell& cell, const Scene& scene, const Trace* reference, const ProgressOf& progress) {
+Trace measure(Cell& cell, const Scene& scene, const Trace* truth, const Trace* model, const ProgressOf& progress) {
     RunOptions options;
     options.energy = true;
     options.progress = progress;
     Run result = run(*cell.scheme, scene, cell.settings, options);
     cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
-    if (reference) cell.errors = errors_of(result.trace, *reference);
+    if (truth) cell.errors = errors_of(result.trace, *truth);
+    if (model) cell.in_model = model == truth ? cell.errors : errors_of(result.trace, *model);
     if (result.status.outcome != Outcome::ok)
         cell.reason =
             fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
@@ -133,7 +135,15 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     for (const std::string& note : plan.notes) console.note(note);
     c.cells = plan.cells;
 
-    const Reference reference = run_reference(plan.references, c.scene, request.jobs, console);
+    const Reference model = run_reference(plan.references, c.scene, request.jobs, console);
+    std::optional<Truth> truth;
+    if (request.reference_modes) truth = run_truth(plan.references, c.scene, *request.reference_modes, request.jobs, console);
+    const Reference& reference = truth ? truth->reference : model;
+    if (truth) {
+        c.truth = truth->said;
+        c.horizon = truth->horizon;
+    }
+    c.model_trust = model.trust;
     c.reference = reference.choice.scheme;
     c.reference_name = reference.choice.name();
     c.reference_settings = reference.choice.settings;
@@ -156,7 +166,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     store::side_by_side(sizes, request.jobs, console, "errors", [&](std::size_t i, store::Done& done) {
         Cell& cell = c.cells[i];
         try {
-            const Trace trace = measure(cell, c.scene, &reference.run.trace, told_to(done));
+            const Trace trace = measure(cell, c.scene, &reference.run.trace, &model.run.trace, told_to(done));
             if (cell.reason.empty()) cell.sound = store::sound_of(trace.column(c.headline.nut), trace.tap_rate);
         } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
             cell.refused = true;

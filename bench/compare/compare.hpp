@@ -23,11 +23,12 @@ struct Cell {
     const Descriptor* scheme;
     Settings settings;
     bool refused = false;
-    std::string reason;  // of a refusal or a failure
-    Summary summary{};   // of the accuracy run; empty where refused
-    Errors errors;
-    store::Sound sound{};                                           // of the headline's nut tap, where the run reached its end
-    Spread wall{};                                                  // of the timed runs [s], of the whole scene or up to the failure
+    std::string reason;    // of a refusal or a failure
+    Summary summary{};     // of the accuracy run; empty where refused
+    Errors errors;         // from the scene's own motion (truth.hpp)
+    Errors in_model;       // from that of a string with as many modes as all cells: errors of the scheme alone
+    store::Sound sound{};  // of the headline's nut tap, where the run reached its end
+    Spread wall{};         // of the timed runs [s], of the whole scene or up to the failure
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
     int modes() const { return refused ? settings.modes : summary.modes; }
 };
@@ -39,9 +40,12 @@ struct Comparison {
     std::string reference_name;  // its name, "oversampled modal_two_point" for a scheme that stands in
     Settings reference_settings;
     Summary reference_summary;
-    std::string reference_note;  // why this one, where it was not asked for
-    Errors floor;                // of the reference started 1e-12 apart
-    trust::Trust trust;          // the figures of its certificate
+    std::string reference_note;                                 // why this one, where it was not asked for
+    Errors floor;                                               // of the reference started 1e-12 apart
+    trust::Trust trust;                                         // the figures of its certificate
+    trust::Trust model_trust;                                   // of the reference that the errors in the model are measured against
+    std::string truth;                                          // how far the doubling of its modes went; "": it has those of the cells
+    double horizon = std::numeric_limits<double>::quiet_NaN();  // of the truth against itself with half its modes [s]
     store::Sound reference_sound;
     std::vector<Cell> cells;
 };

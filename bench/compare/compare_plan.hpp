@@ -37,9 +37,9 @@ struct Reference {
 // runs computes for longer than `time_limit` [s]: another in its place would make the errors a matter of the machine.
 Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const store::Console&, double time_limit = HUGE_VAL);
 
-// Runs the cell and fills summary, errors and reason; errors stay empty without a reference. Throws Refusal. What `progress` throws ends
-// it.
+// Runs the cell and fills summary, reason and its errors: from the truth, and from a reference of its own modes. They stay empty where that
+// is null. Throws Refusal. What `progress` throws ends it.
 using ProgressOf = std::function<void(long done, long rows)>;
-Trace measure(Cell&, const Scene&, const Trace* reference, const ProgressOf& progress);
+Trace measure(Cell&, const Scene&, const Trace* truth, const Trace* model, const ProgressOf& progress);
 
 }  // namespace jvari::bench::compare

@@ -34,6 +34,12 @@ double error_in(const Cell& cell, int tap, int measure) {
     return cell.errors.empty() ? nan : cell.errors[tap][measure];
 }
 
+// error_l2_50ms: error_in_model_l2_50ms; third_octave_db: third_octave_db_in_model.
+std::string in_model(const std::string& column) {
+    const std::string error = "error_";
+    return column.starts_with(error) ? error + "in_model_" + column.substr(error.size()) : column + "_in_model";
+}
+
 std::string status_of(const Cell& cell) {
     return cell.refused ? "refused" : name_of(cell.summary.status.outcome);
 }
@@ -129,11 +135,30 @@ void add_row(store::Table& table, const Comparison& c, const Cell& cell, const s
         for (std::size_t k = 0; k < measures().size(); ++k)
             if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column + "_" + c.scene.taps[tap].name, c.floor[tap][k]);
     row.text("reason", cell.reason);
+    const auto all_taps = [&c](const auto& each) {
+        for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap) each(static_cast<int>(tap), "_" + c.scene.taps[tap].name);
+    };
     const auto figures = [&](int tap, const std::string& suffix) {
-        for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) row.number(trust::Trust::columns[w] + suffix, c.trust.at(tap, w));
+        for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w)
+            row.number(trust::Trust::columns[w] + suffix, c.trust.of_scene(tap, w));
     };
     figures(c.headline.nut, "");
-    for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap) figures(static_cast<int>(tap), "_" + c.scene.taps[tap].name);
+    all_taps(figures);
+    row.count("reference_modes", c.reference_settings.modes, c.reference_settings.modes > 0);
+    row.number("reference_horizon_s", horizon_of(c.floor, c.headline));
+    row.text("reference_doubling", c.truth);
+    const auto own = [&](std::size_t tap, std::size_t k) { return cell.in_model.empty() ? nan : cell.in_model[tap][k]; };
+    for (std::size_t k = 0; k < measures().size(); ++k) row.number(in_model(measures()[k].column), own(c.headline.tap(measures()[k]), k));
+    all_taps([&](int tap, const std::string& suffix) {
+        for (std::size_t k = 0; k < measures().size(); ++k) row.number(in_model(measures()[k].column) + suffix, own(tap, k));
+    });
+    const auto solved = [&](int tap, const std::string& suffix) {
+        for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w)
+            row.number("certificate_in_model" + std::string(trust::Trust::columns[w]).substr(std::string("certificate").size()) + suffix,
+                       c.model_trust.in_model(tap, w));
+    };
+    solved(c.headline.nut, "");
+    all_taps(solved);
 }
 
 Json certificate_json(const Comparison& c) {
@@ -141,11 +166,12 @@ Json certificate_json(const Comparison& c) {
     if (!t.any()) return {{"missing", t.missing}};
     Json figures = Json::object();
     for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
-        figures[trust::Trust::columns[w]] = t.at(c.headline.nut, w);
+        figures[trust::Trust::columns[w]] = t.of_scene(c.headline.nut, w);
         for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
-            figures[trust::Trust::columns[w] + ("_" + c.scene.taps[tap].name)] = t.at(tap, w);
+            figures[trust::Trust::columns[w] + ("_" + c.scene.taps[tap].name)] = t.of_scene(tap, w);
     }
     Json j{{"against", t.against}};
+    if (!t.doubled.empty()) j["doubled"] = t.doubled;
     if (!t.file.empty()) j["file"] = std::filesystem::path(t.file).filename().string();
     if (!t.key.empty()) j["key"] = t.key;
     j["figures"] = figures;
@@ -202,6 +228,9 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                    {"status", name_of(c.reference_summary.status.outcome)},
                    {"valid_until_s", c.reference_summary.duration},
                    {"note", c.reference_note},
+                   {"doubling", c.truth},
+                   {"horizon_of_half_s", c.horizon},
+                   {"horizon_of_1e-12_s", horizon_of(c.floor, c.headline)},
                    {"certificate", certificate_json(c)},
                    {"facts", facts}};
     const Json scene{{"name", c.scene.name},        {"asked_as", r.scene},          {"set", r.set}, {"source", c.scene.source},

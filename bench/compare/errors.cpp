@@ -84,4 +84,10 @@ Headline headline_of(const Scene& scene) {
     return h;
 }
 
+double horizon_of(const Errors& errors, const Headline& h) {
+    std::size_t k = 0;
+    while (measures()[k].column != "horizon_s") ++k;
+    return errors.empty() ? nan : errors[h.nut][k];
+}
+
 }  // namespace jvari::bench::compare

@@ -28,5 +28,6 @@ struct Headline {
     int tap(const Measure& m) const { return m.bridge ? bridge : nut; }
 };
 Headline headline_of(const Scene&);
+double horizon_of(const Errors&, const Headline&);  // [s]
 
 }  // namespace jvari::bench::compare

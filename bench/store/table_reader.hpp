@@ -42,6 +42,11 @@ public:
         if (!n || *n < 1 || *n >= 10'000'000) refuse(v, key, "a whole number > 0");
         return static_cast<int>(*n);
     }
+    int none_or(const Value& v, const std::string& key) const {  // 0, or a count
+        const auto* n = std::get_if<std::int64_t>(&v.content);
+        if (!n || *n < 0 || *n >= 10'000'000) refuse(v, key, "a whole number, 0 or more");
+        return static_cast<int>(*n);
+    }
     std::string toml(const Value& v, const std::string& key) const {  // a value as it could stand behind --set key=
         if (const auto* s = std::get_if<std::string>(&v.content)) return quote(*s);
         if (const auto* x = std::get_if<double>(&v.content)) return number_text(*x);

@@ -25,9 +25,9 @@ static_assert(facet_names.size() == all_facets.size());
 
 CellSet set_of(const store::SuiteReader& read, const Value& v, const std::string& within) {
     read.table(v, within);
-    read.only(v, within + ": ",
-              {"scenes",  "schemes", "rates",    "modes",        "duration", "tap_rate", "repeats", "reference", "options",  "sweep",
-               "measure", "tap",     "elements", "time_limit_s", "taps",     "trace",    "extent",  "profile",   "envelope", "centroid"});
+    read.only(v, within + ": ", {"scenes",          "schemes", "rates",   "modes",    "duration", "tap_rate", "repeats",      "reference",
+                                 "reference_modes", "options", "sweep",   "measure",  "tap",      "elements", "time_limit_s", "taps",
+                                 "trace",           "extent",  "profile", "envelope", "centroid"});
     const auto text = [&read](const Value& x, const std::string& k) { return read.text(x, k); };
     const auto number = [&read](const Value& x, const std::string& k) { return read.positive(x, k); };
     const auto count = [&read](const Value& x, const std::string& k) { return read.count(x, k); };
@@ -44,6 +44,7 @@ CellSet set_of(const store::SuiteReader& read, const Value& v, const std::string
     if (const Value* x = v.find("tap_rate")) s.tap_rate = number(*x, key("tap_rate"));
     if (const Value* x = v.find("repeats")) s.repeats = count(*x, key("repeats"));
     if (const Value* x = v.find("reference")) s.reference = text(*x, key("reference"));
+    if (const Value* x = v.find("reference_modes")) s.reference_modes = read.none_or(*x, key("reference_modes"));
     if (const Value* x = v.find("tap")) s.tap = text(*x, key("tap"));
     if (const Value* x = v.find("time_limit_s")) s.time_limit = number(*x, key("time_limit_s"));
     if (const Value* x = v.find("options"))
@@ -161,6 +162,7 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
                 base.duration = set.duration;
                 base.tap_rate = set.tap_rate;
                 base.reference = set.reference;
+                base.reference_modes = set.reference_modes;
                 base.repeats = set.repeats;
                 std::vector<compare::CompareRequest> requests{base};
                 const auto vary = [&requests](const std::vector<std::string>& values, const auto& apply) {

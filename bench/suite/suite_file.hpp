@@ -6,6 +6,7 @@
 //   rates = [44100]                    modes = 40 or [20, 40]         (absent: as compare)
 //   duration = 0.5      tap_rate = 44100      repeats = 5             [s], [Hz], timed runs
 //   reference = "exact_contact"                                       (absent: the highest that represents the scene)
+//   reference_modes = 0                                               (0: doubled until nothing moves; absent: those of the cell)
 //   options = { "modal_controls:control" = ["a", "b"], name = "x" }   [SCHEME:]NAME, one value or several to vary
 //   sweep = { "string.0.barrier.0.stiffness" = [1e6, 1e8] }           any scene key, each with the values to vary
 //   measure = ["errors", "cost", "spectrogram", "sound", "dispersion"]   cost goes with errors alone: no speed without an error
@@ -59,6 +60,7 @@ struct CellSet {
     std::vector<double> rates;  // [Hz]
     std::vector<int> modes;     // {0}: as compare
     std::optional<double> duration, tap_rate;
+    std::optional<int> reference_modes;
     int repeats = 5;
     std::string reference, tap;
     std::vector<VariedOption> options;

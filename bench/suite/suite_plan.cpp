@@ -79,7 +79,14 @@ SuitePlan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const
         Json references = Json::array(), measure = Json::array();
         for (const compare::ReferenceChoice& c : plan.references)
             references.push_back({{"name", c.scheme->name}, {"settings", settings_json(c.settings)}});
-        p.reference_key = hash + references.dump() + store::text_of(point.set->time_limit.value_or(HUGE_VAL));
+        const std::string limit = store::text_of(point.set->time_limit.value_or(HUGE_VAL));
+        p.reference_key = hash + references.dump() + limit;
+        if (point.request.reference_modes) {
+            p.truth_modes = *point.request.reference_modes;
+            Json modeless = references;
+            for (Json& r : modeless) r["settings"].erase("modes");
+            p.truth_key = std::to_string(p.truth_modes) + hash + modeless.dump() + limit;
+        }
         for (const Facet f : facets())
             if (point.set->measures(f)) measure.push_back(name_of(f));
         for (const compare::Cell& cell : plan.cells) {
@@ -89,7 +96,10 @@ SuitePlan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const
                           {"scheme", cell.scheme->name},
                           {"settings", settings_json(cell.settings)},
                           {"measure", measure}};
-            if (point.set->measures(Facet::errors)) identity["references"] = references;
+            if (point.set->measures(Facet::errors)) {
+                identity["references"] = references;
+                if (point.request.reference_modes) identity["reference_modes"] = *point.request.reference_modes;
+            }
             if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
             if (point.set->measures(Facet::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
             if (!point.set->figures.identity.empty()) identity["figures"] = point.set->figures.identity;

@@ -18,6 +18,8 @@ struct PlannedPoint {  // one scene at one point of the sweep, and who is its re
     std::optional<compare::Element> element;                 // that the scene is without; the probe: that is on while it is timed
     std::vector<compare::ReferenceChoice> references;
     std::string reference_key;  // points that share it share the reference's run and its time limit
+    std::string truth_key;      // likewise of the truth, whose modes are none of the cells'; "": the reference is all there is
+    int truth_modes = 0;        // 0: found by doubling
     int tap = 0;                // of the spectrogram
 };
 

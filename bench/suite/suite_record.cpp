@@ -14,14 +14,17 @@ namespace jvari::bench::suite {
 namespace {
 using Json = nlohmann::ordered_json;
 
-store::Table row_of(const PlannedCell& planned, const compare::Cell& cell, const compare::Errors& floor,
-                    const trust::Trust& trust) {  // compare's row of a comparison of this cell alone
+store::Table row_of(const PlannedCell& planned, const compare::Cell& cell,
+                    const Against& against) {  // compare's row of a comparison of this cell alone
     compare::Comparison c;
     c.scene = without_profile_taps(planned.point->scene);
     c.headline = compare::headline_of(c.scene);
-    c.floor = floor;
-    c.trust = trust;
-    if (floor.empty())
+    c.floor = against.floor;
+    c.trust = against.trust;
+    c.model_trust = against.model_trust;
+    c.reference_settings.modes = against.modes;
+    c.truth = against.truth;
+    if (against.floor.empty())
         c.floor.assign(c.scene.taps.size(), std::vector<double>(compare::measures().size(), std::numeric_limits<double>::quiet_NaN()));
     c.cells = {cell};
     return compare::cells_of(c);
@@ -32,11 +35,11 @@ void set(store::Table& row, const std::string& column, const std::string& value)
 }
 }  // namespace
 
-SuiteRecord record_of(const PlannedCell& planned, const compare::Cell& cell, const compare::Errors& floor, const trust::Trust& trust) {
+SuiteRecord record_of(const PlannedCell& planned, const compare::Cell& cell, const Against& against) {
     SuiteRecord r;
     compare::Cell untimed = cell;
     untimed.wall = spread_of({});
-    r.row = row_of(planned, untimed, floor, trust);
+    r.row = row_of(planned, untimed, against);
     r.ran = !cell.refused;
     r.duration = cell.summary.duration;
     r.seconds = cell.summary.wall_seconds;
@@ -51,7 +54,7 @@ void add_clock(SuiteRecord& r, const PlannedCell& planned, const compare::Cell& 
     cell.worst_block = timed.worst_block;
     cell.summary.duration = r.duration;
     cell.summary.steps = r.steps;
-    const store::Table row = row_of(planned, cell, {}, {}), rest = compare::errors_only(row);
+    const store::Table row = row_of(planned, cell, {}), rest = compare::errors_only(row);
     for (std::size_t k = 0; k < row.columns.size(); ++k)
         if (rest.column(row.columns[k]) < 0) set(r.row, row.columns[k], row.rows[0][k]);
     r.timed = true;

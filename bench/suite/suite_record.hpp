@@ -25,7 +25,13 @@ struct SuiteRecord {
     std::map<Facet, store::Table> rows;  // of each row facet that was asked for
 };
 
-SuiteRecord record_of(const PlannedCell&, const compare::Cell& measured, const compare::Errors& floor, const trust::Trust&);
+struct Against {  // what a cell was measured against; nothing is known of a reference that there was not
+    compare::Errors floor;
+    trust::Trust trust, model_trust;
+    int modes = 0;
+    std::string truth;  // as Comparison has it
+};
+SuiteRecord record_of(const PlannedCell&, const compare::Cell& measured, const Against&);
 void add_clock(SuiteRecord&, const PlannedCell&, const compare::Cell& timed);
 
 std::string json_of(const SuiteRecord&, const std::string& identity);

@@ -9,6 +9,7 @@
 
 #include "bench/compare/cost.hpp"
 #include "bench/compare/time_limit.hpp"
+#include "bench/compare/truth.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/side_by_side.hpp"
 #include "bench/suite/row_facet.hpp"
@@ -16,23 +17,28 @@
 namespace jvari::bench::suite {
 
 namespace {
-struct Truth {  // the run of a reference, made by the first cell that needs it, gone with the last
+struct Known {  // the run of a reference, made by the first cell that needs it, gone with the last
     std::once_flag once;
-    std::unique_ptr<compare::Reference> reference;
+    std::unique_ptr<compare::Truth> truth;
     compare::Errors floor;
     std::string refused;
     std::atomic<int> needed_by = 0;
 
-    void make(const PlannedPoint& p, double time_limit) {
+    template <class Make>
+    void make(Make run) {
         std::call_once(once, [&] {
             try {
-                reference = std::make_unique<compare::Reference>(
-                    compare::run_reference(p.references, p.scene, 1, store::Console(false, true), time_limit));
-                floor = compare::errors_of(reference->moved.trace, reference->run.trace);
+                truth = std::make_unique<compare::Truth>(run());
+                floor = compare::errors_of(truth->reference.moved.trace, truth->reference.run.trace);
             } catch (const std::exception& e) {
                 refused = e.what();
             }
         });
+    }
+    const compare::Reference* reference() const { return truth ? &truth->reference : nullptr; }
+    const Trace* trace() const { return truth ? &truth->reference.run.trace : nullptr; }
+    void release() {
+        if (--needed_by == 0) truth.reset();
     }
 };
 
@@ -42,9 +48,12 @@ public:
         : plan_(plan), todo_(std::move(missing)), folder_(std::move(folder)), into_(into) {
         for (const std::size_t i : todo_)
             if (plan_.cells[i].set->measures(Facet::errors)) {
-                auto& truth = truths_[plan_.cells[i].point->reference_key];
-                if (!truth) truth = std::make_unique<Truth>();
-                ++truth->needed_by;
+                for (const std::string& key : {plan_.cells[i].point->reference_key, plan_.cells[i].point->truth_key}) {
+                    if (key.empty()) continue;
+                    auto& known = known_[key];
+                    if (!known) known = std::make_unique<Known>();
+                    ++known->needed_by;
+                }
             }
     }
 
@@ -63,12 +72,18 @@ public:
 private:
     SuiteRecord cell(const PlannedCell& planned, store::Done& fraction) {
         const double limit = planned.set->time_limit.value_or(HUGE_VAL);
-        Truth* truth = nullptr;
+        const PlannedPoint& point = *planned.point;
+        const store::Console silent(false, true);
+        Known *model = nullptr, *truth = nullptr;
         if (planned.set->measures(Facet::errors)) {
-            truth = truths_.at(planned.point->reference_key).get();
-            truth->make(*planned.point, limit);
+            model = truth = known_.at(point.reference_key).get();
+            model->make([&] { return compare::Truth{compare::run_reference(point.references, point.scene, 1, silent, limit), {}}; });
         }
-        const bool known = truth && truth->reference;
+        if (truth && !point.truth_key.empty()) {
+            truth = known_.at(point.truth_key).get();
+            truth->make([&] { return compare::run_truth(point.references, point.scene, point.truth_modes, 1, silent, limit); });
+        }
+        const bool known = truth && truth->reference();
         compare::Cell cell = planned.cell;
         Trace trace;
         std::string status;
@@ -76,8 +91,8 @@ private:
             fraction.store(static_cast<double>(done) / static_cast<double>(rows), std::memory_order_relaxed);
         };
         try {
-            trace =
-                compare::measure(cell, planned.point->scene, known ? &truth->reference->run.trace : nullptr, compare::within(limit, told));
+            trace = compare::measure(cell, point.scene, known ? truth->trace() : nullptr, known ? model->trace() : nullptr,
+                                     compare::within(limit, told));
         } catch (const Refusal& e) {
             status = "refused";
             cell.reason = e.what();
@@ -90,17 +105,23 @@ private:
         }
         cell.refused = !status.empty();
         if (truth && !known) cell.reason += (cell.reason.empty() ? "" : "; ") + truth->refused;
-        SuiteRecord record =
-            record_of(planned, cell, known ? truth->floor : compare::Errors{}, known ? truth->reference->trust : trust::Trust{});
+        Against against;
+        if (known) {
+            const compare::Reference& r = *truth->reference();
+            against = {truth->floor, r.trust, model->truth ? model->reference()->trust : trust::Trust{}, r.choice.settings.modes,
+                       truth->truth->said};
+        }
+        SuiteRecord record = record_of(planned, cell, against);
         if (!status.empty()) record.row.rows[0][record.row.column("status")] = status;
-        if (known) record.reference = truth->reference->choice.name();
+        if (known) record.reference = truth->reference()->choice.name();
         if (planned.set->measures(Facet::spectrogram) && !cell.refused)
             record.levels = levels_of(trace.column(planned.point->tap), trace.tap_rate);
         for (const RowFacet& f : row_facets())
             if (planned.set->measures(f.facet) && !cell.refused)
-                record.rows[f.facet] = f.rows({planned.point->scene, *cell.scheme, cell.settings, trace,
-                                               known ? &truth->reference->run.trace : nullptr, planned.point->tap, *planned.set});
-        if (truth && --truth->needed_by == 0) truth->reference.reset();
+                record.rows[f.facet] = f.rows({planned.point->scene, *cell.scheme, cell.settings, trace, known ? truth->trace() : nullptr,
+                                               planned.point->tap, *planned.set});
+        if (truth && truth != model) truth->release();
+        if (model) model->release();
         return record;
     }
 
@@ -108,7 +129,7 @@ private:
     const std::vector<std::size_t> todo_;
     const std::filesystem::path folder_;
     SuiteRun& into_;
-    std::map<std::string, std::unique_ptr<Truth>> truths_;
+    std::map<std::string, std::unique_ptr<Known>> known_;
 };
 
 // Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.

@@ -19,7 +19,7 @@ namespace jvari::bench::trust {
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int format = 2;  // of the file
+constexpr int format = 3;  // of the file
 
 std::string window_name(std::size_t w) {
     return w + 1 < agreement_windows.size() ? fmt::format("{:.0f}ms", 1e3 * agreement_windows[w]) : "whole";
@@ -73,6 +73,7 @@ Json options_json(const Certificate::Options& options) {
 Json entry_json(const Certificate& c, const Certificate::Entry& e) {
     Json j{{"reference", e.reference}, {"options", options_json(e.options)}};
     if (e.sample_rate > 0) j["sample_rate_hz"] = e.sample_rate;
+    if (!e.doubled.empty()) j["doubled"] = e.doubled;
     if (!e.reason.empty()) {
         j["status"] = "refused";
         j["reason"] = e.reason;
@@ -92,6 +93,7 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
     e.reference = j.at("reference");
     for (const auto& [name, value] : j.at("options").items()) e.options.emplace_back(name, value);
     e.sample_rate = j.value("sample_rate_hz", 0.0);
+    e.doubled = j.value("doubled", "");
     e.wall_seconds = nan;
     const std::string status = j.at("status");
     if (status == "refused") {
@@ -108,7 +110,7 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
 
 std::string key_of(const std::string& hash, const Certificate& plan) {
     Json runs = Json::array();
-    for (const auto& e : plan.entries) runs.push_back({e.reference, options_json(e.options), e.sample_rate});
+    for (const auto& e : plan.entries) runs.push_back({e.reference, options_json(e.options), e.sample_rate, e.doubled});
     return store::hash_of(Json{format, hash, store::machine().version, plan.modes, plan.tap_rate, plan.duration, runs}.dump());
 }
 }  // namespace

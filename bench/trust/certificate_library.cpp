@@ -43,8 +43,12 @@ struct Evidence {
 };
 }  // namespace
 
-double Trust::at(std::size_t tap, std::size_t window) const {
+double Trust::in_model(std::size_t tap, std::size_t window) const {
     return tap < figure.size() ? figure[tap][window] : nan;
+}
+
+double Trust::of_scene(std::size_t tap, std::size_t window) const {
+    return in_model(tap, window) + (tap < left_out.size() ? left_out[tap][window] : 0);
 }
 
 bool Trust::any() const {
@@ -62,8 +66,9 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
     const Certificate& c = kept.certificate;
     Trust t;
     t.key = kept.key;
-    const auto mine = std::find_if(c.entries.begin(), c.entries.end(),
-                                   [&](const auto& e) { return e.reference == reference && e.options == options && e.reason.empty(); });
+    const auto mine = std::find_if(c.entries.begin(), c.entries.end(), [&](const auto& e) {
+        return e.reference == reference && e.options == options && e.doubled.empty() && e.reason.empty();
+    });
     if (mine == c.entries.end()) {
         t.missing = "the certificate of this scene has no " + reference + (options.empty() ? "" : " " + store::options_text(options));
         return t;
@@ -73,7 +78,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
         const int index = static_cast<int>(mine - c.entries.begin());
         if (p.first != index && p.second != index) continue;
         const Certificate::Entry& other = c.entries[p.first == index ? p.second : p.first];
-        if (other.sample_rate > 0) continue;
+        if (other.sample_rate > 0 || !other.doubled.empty()) continue;
         (other.reference == reference ? same : independent).push_back({&other, &p.taps, std::min(mine->reached, other.reached)});
     }
     std::sort(independent.begin(), independent.end(), [](const Evidence& a, const Evidence& b) { return a.other < b.other; });  // authority
@@ -93,6 +98,14 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
             if (!std::isnan(figure)) continue;
             for (const Evidence& e : same)
                 if (!std::isnan(of(e))) figure = std::fmax(figure, of(e)), named(e);
+        }
+    for (const auto& p : c.pairs)  // whichever reference was doubled: they share the model
+        if (const Certificate::Entry& e = c.entries[p.first]; !e.doubled.empty()) {
+            t.left_out.resize(c.taps.size(), {0, 0, 0});
+            for (std::size_t k = 0; k < c.taps.size(); ++k)
+                for (std::size_t w = 0; w < ends.size(); ++w)
+                    t.left_out[k][w] += and_further_ones * covering(p.taps[k].relative_l2, ends[w], std::min(mine->reached, e.reached));
+            t.doubled += (t.doubled.empty() ? "" : " and ") + e.doubled;
         }
     for (const std::string& name : names) t.against += (t.against.empty() ? "" : ", ") + name;
     if (!t.any()) t.missing = fmt::format("the certificate of this scene has nothing for {} over {:.6g} s", reference, until);

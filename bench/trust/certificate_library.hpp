@@ -4,6 +4,10 @@
 // at other tolerances or by another integrator. A scheme at a multiple of a rate confirms no reference, its own error being larger: it is
 // left aside. For a scheme at a multiple of a rate that stands in: its estimate of its own error, by Richardson's rule. A window has the
 // figure of the shortest certified window that holds it; none where the certificate ends before.
+//
+// That is how far the reference solves its model: a string cut off at so many modes, a profile of so many points. How far the model is the
+// scene's is another figure: what changes when modes and points are doubled, the two added. With all further
+// doublings it counts and_further_ones times. An error of the scene is certain to both figures together.
 #pragma once
 
 #include <array>
@@ -18,11 +22,14 @@ namespace jvari::bench::trust {
 
 struct Trust {
     static constexpr std::array<const char*, 3> columns = {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole"};
-    std::vector<std::array<double, 3>> figure;  // by tap of the scene, by window; NaN: none. Empty: no certificate at all
-    std::string against;                        // "sundials rtol=1e-12"
-    std::string file, key;                      // of the certificate; "" where there is no file
-    std::string missing;                        // why there is none
-    double at(std::size_t tap, std::size_t window) const;
+    std::vector<std::array<double, 3>> figure;    // by tap of the scene, by window; NaN: none. Empty: no certificate at all
+    std::vector<std::array<double, 3>> left_out;  // of the model, likewise
+    std::string against;                          // "sundials rtol=1e-12"
+    std::string doubled;                          // "modes and points"; "": nothing, and left_out is empty
+    std::string file, key;                        // of the certificate; "" where there is no file
+    std::string missing;                          // why there is none
+    double in_model(std::size_t tap, std::size_t window) const;
+    double of_scene(std::size_t tap, std::size_t window) const;
     bool any() const;
 };
 

@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const double until : {0.005, 0.05, 1.0, 1e300}) {
             const bench::trust::Trust trust = bench::trust::trust_of(*kept, entry.reference, entry.options, until);
             for (std::size_t tap = 0; tap < trust.figure.size(); ++tap)
-                for (std::size_t window = 0; window < 3; ++window) trust.at(tap, window);
+                for (std::size_t window = 0; window < 3; ++window) trust.of_scene(tap, window);
             promise(trust.any() == trust.missing.empty(), "figures, or why there are none", trust.missing);
         }
     std::string written;
