@@ -29,8 +29,4 @@ PolynomialDamping woodhouse(double eta_air, double eta_friction, double eta_bend
     return {0.5 * eta_air, 0.5 * c * eta_friction, 0.5 * c * lambda * eta_bending};  // (53)
 }
 
-double moment_of_inertia(double radius) {
-    return pi / 4 * std::pow(radius, 4);
-}
-
 }  // namespace jvari

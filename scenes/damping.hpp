@@ -18,7 +18,4 @@ double decay_rate(const PerPeriodDamping&, double f1);
 // c = sqrt(T/mu), lambda = EI/T   (van Walstijn et al. 2016, eq 53). eta_A [1/s], eta_F and eta_B dimensionless.
 PolynomialDamping woodhouse(double eta_air, double eta_friction, double eta_bending, const String&);
 
-// I = pi r^4/4 [m^4] of a round string of radius r [m]
-double moment_of_inertia(double radius);
-
 }  // namespace jvari

@@ -85,53 +85,5 @@ TEST(Order, RunsThatFailedOrWereExactAreLeftOut) {
     EXPECT_THROW(observed_order(rates, Signal{1}), std::invalid_argument);
 }
 
-TEST(Order, PerWindowAndPairwise) {
-    Signal windows = power_law(5, 1);
-    for (double v : power_law(5, 2)) windows.push_back(v);
-    const auto o = observed_orders(rates, windows);
-    ASSERT_EQ(o.size(), 2u);
-    EXPECT_NEAR(o[0].order, 1, 1e-12);
-    EXPECT_NEAR(o[1].order, 2, 1e-12);
-    EXPECT_THROW(observed_orders(rates, Signal{1, 2, 3}), std::invalid_argument);
-    const auto p = pairwise_orders(Signal{1, 2, 6, 12}, Signal{1, 0.25, 0.25 / 9, nan});
-    ASSERT_EQ(p.size(), 3u);
-    EXPECT_NEAR(p[0], 2, 1e-12);
-    EXPECT_NEAR(p[1], 2, 1e-12);
-    EXPECT_TRUE(std::isnan(p[2]));
-}
-
-TEST(Richardson, IsExactForOnePowerAndOneOrderBetterForASmoothMethod) {
-    EXPECT_NEAR(richardson(7 + 5.0, 7 + 5.0 / 9, 3, 2), 7, 1e-12);
-    // Midpoint rule for y' = y over [0, 1]: second order, the next term is of the third.
-    const auto midpoint = [](int steps) { return std::pow(1 + 1.0 / steps + 0.5 / (double(steps) * steps), steps); };
-    Signal error;
-    for (int n : {16, 32, 64, 128}) error.push_back(std::abs(richardson(midpoint(n), midpoint(2 * n), 2, 2) - std::exp(1.0)));
-    EXPECT_NEAR(observed_order(Signal{16, 32, 64, 128}, error).order, 3, 0.1);
-}
-
-TEST(Richardson, EstimatesOrderAndErrorWithoutAReference) {
-    Signal limit, a, b, c;
-    for (int n = 0; n < 200; ++n) {
-        limit.push_back(std::cos(0.1 * n));
-        const double d = 0.01 * std::sin(0.3 * n);
-        a.push_back(limit[n] + d), b.push_back(limit[n] + d / 4), c.push_back(limit[n] + d / 16);
-    }
-    EXPECT_NEAR(order_of_three(a, b, c, 2), 2, 1e-10);
-    const auto better = richardson(b, c, 2, 2);
-    double gap = 0, norm = 0;
-    for (int n = 0; n < 200; ++n) {
-        EXPECT_NEAR(better[n], limit[n], 1e-14);
-        gap += (c[n] - limit[n]) * (c[n] - limit[n]), norm += c[n] * c[n];
-    }
-    EXPECT_NEAR(richardson_error(b, c, 2, 2), std::sqrt(gap / norm), 1e-12);
-    EXPECT_EQ(richardson_error(c, c, 2, 2), 0);
-    EXPECT_TRUE(std::isnan(richardson_error({}, c, 2, 2)));
-    a[5] = nan;
-    EXPECT_EQ(richardson_error(a, c, 2, 2), inf);
-    EXPECT_TRUE(std::isnan(order_of_three(a, b, c, 2)));
-    EXPECT_TRUE(std::isnan(order_of_three(b, c, c, 2)));
-    EXPECT_EQ(richardson(Signal{}, c, 2, 2).size(), 0u);
-}
-
 }  // namespace
 }  // namespace jvari

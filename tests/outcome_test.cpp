@@ -111,6 +111,29 @@ TEST(Outcome, ColumnsLeftEmptySayNothing) {
     EXPECT_EQ(m.verdict(Balance::none), bench::map::Verdict::sound);
 }
 
+TEST(Outcome, ARunThatNothingSpeaksOfIsUnjudgedAndNeverSound) {
+    MadeUp m;
+    std::fill(m.run.trace.energy.begin(), m.run.trace.energy.end(), 0.0);
+    m.run.facts.clear();
+    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::map::Verdict::unjudged);
+    EXPECT_NE(m.judgement(Balance::none, false).detail, "");
+    EXPECT_EQ(m.judgement(Balance::none, true).verdict, bench::map::Verdict::sound);  // its reference speaks
+    EXPECT_EQ(bench::map::judge({{}, 0, nan, nan, nan, Balance::none}).verdict, bench::map::Verdict::sound);
+    EXPECT_EQ(bench::map::judge({{}, nan, 0, nan, nan, Balance::none}).verdict, bench::map::Verdict::sound);
+    EXPECT_EQ(bench::map::judge({{}, nan, nan, 0, nan, Balance::none}).verdict, bench::map::Verdict::sound);
+    EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, 0, Balance::none}).verdict, bench::map::Verdict::sound);
+}
+
+TEST(Outcome, ARunThatIsNotEvenNumbersHasDiverged) {
+    MadeUp m;
+    m.run.trace.tap[150] = nan;
+    EXPECT_EQ(m.judgement(Balance::exact, true).verdict, bench::map::Verdict::diverged);
+    m.run.trace.tap.assign(m.run.trace.tap.size(), nan);
+    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::map::Verdict::diverged);
+    m.run.trace.energy.clear();
+    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::map::Verdict::diverged);
+}
+
 TEST(Outcome, APullIsMeasuredAgainstTheHardestPushOfOneStep) {
     MadeUp m;  // 3 N over a row of two steps: 6 N at most
     m.run.facts[0].value = -0.9 * 6e-6;
@@ -135,7 +158,7 @@ TEST(Outcome, TheGravestNameWins) {
     EXPECT_EQ(bench::map::judge({{}, nan, 1, 1, 1, Balance::exact}).verdict, bench::map::Verdict::energy_gaining);
     EXPECT_EQ(bench::map::judge({{}, nan, nan, 1, 1, Balance::exact}).verdict, bench::map::Verdict::adhesive);
     EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, 1, Balance::exact}).verdict, bench::map::Verdict::inaccurate);
-    EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, nan, Balance::exact}).verdict, bench::map::Verdict::sound);
+    EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, nan, Balance::exact}).verdict, bench::map::Verdict::unjudged);
 }
 
 }  // namespace

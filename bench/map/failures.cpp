@@ -33,7 +33,7 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
     std::map<std::pair<std::string, Verdict>, const JudgedPoint*> cheapest;
     for (const JudgedPoint& p : run.points) {
         const Verdict v = p.tried.judgement.verdict;
-        if (v == Verdict::sound || v == Verdict::refused || !p.at.map->reproduce) continue;
+        if (v == Verdict::sound || v == Verdict::unjudged || v == Verdict::refused || !p.at.map->reproduce) continue;
         const JudgedPoint*& kept = cheapest[{p.at.scheme->name, v}];
         if (!kept || p.tried.steps < kept->tried.steps) kept = &p;
     }

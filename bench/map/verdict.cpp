@@ -13,8 +13,8 @@
 namespace jvari::bench::map {
 
 namespace {
-constexpr std::array all = {Verdict::sound,         Verdict::inaccurate, Verdict::adhesive, Verdict::energy_gaining,
-                            Verdict::not_converged, Verdict::diverged,   Verdict::refused};
+constexpr std::array all = {Verdict::sound,          Verdict::unjudged,      Verdict::inaccurate, Verdict::adhesive,
+                            Verdict::energy_gaining, Verdict::not_converged, Verdict::diverged,   Verdict::refused};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int listening_points = 2, nut = 2, contact = 3;  // columns of listened(scene)
 
@@ -36,9 +36,9 @@ Energy energy_of(const Trace& t) {
     return {budget, gain};
 }
 
-double largest(std::span<const double> values) {
+double largest(std::span<const double> values) {  // infinite where a value is not finite
     double most = 0;
-    for (const double x : values) most = std::max(most, std::abs(x));
+    for (const double x : values) most = std::max(most, std::isfinite(x) ? std::abs(x) : HUGE_VAL);
     return most;
 }
 }  // namespace
@@ -48,7 +48,7 @@ std::span<const Verdict> verdicts() {
 }
 
 const char* name_of(Verdict v) {
-    constexpr std::array names = {"sound", "inaccurate", "adhesive", "energy_gaining", "not_converged", "diverged", "refused"};
+    constexpr std::array names = {"sound", "unjudged", "inaccurate", "adhesive", "energy_gaining", "not_converged", "diverged", "refused"};
     static_assert(names.size() == all.size());
     return names[static_cast<std::size_t>(v)];
 }
@@ -63,6 +63,8 @@ Judgement judge(const Figures& f) {
         return {Verdict::energy_gaining, fmt::format("{:.3g} of its energy gained", f.energy_gain), 0};
     if (f.pull > pull_allowed) return {Verdict::adhesive, fmt::format("pulls by {:.3g} of the largest contact force", f.pull), 0};
     if (f.error > error_allowed) return {Verdict::inaccurate, fmt::format("error {:.3g}", f.error), 0};
+    if (std::isnan(f.displacement) && std::isnan(f.energy_gain) && std::isnan(f.pull) && std::isnan(f.error))
+        return {Verdict::unjudged, "no energy, no smallest contact force and no reference to judge it by", 0};
     return {Verdict::sound, std::isnan(f.error) ? "" : fmt::format("error {:.3g}", f.error), 0};
 }
 
@@ -88,7 +90,7 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& sett
     const String& s = scene.strings.front();
     double most = 0;
     for (int k = 0; k < listening_points; ++k) most = std::max(most, largest(run.trace.column(k)));
-    f.displacement = energy.budget > 0 ? most / std::sqrt(energy.budget * s.length / (2 * s.tension)) : nan;
+    f.displacement = std::isinf(most) ? most : energy.budget > 0 ? most / std::sqrt(energy.budget * s.length / (2 * s.tension)) : nan;
     f.pull = f.error = nan;
     if (const double least = compare::fact(run.facts, facts::smallest_contact_force); !std::isnan(least) && run.trace.taps() > contact) {
         // a row is the mean over its steps: one step may have pushed as many times harder

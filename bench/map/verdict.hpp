@@ -14,7 +14,8 @@
 //                   whose force does not vanish beside the string's
 //   inaccurate      relative L2 error of the nut force over the run above 10 %: the headline signal of compare, and the threshold of its
 //                   predictability horizon
-//   sound           none of these
+//   unjudged        none of these, and no figure at all that could have told: no energy reported, no smallest contact force, no reference
+//   sound           none of these, and at least one figure that would have told
 #pragma once
 
 #include <span>
@@ -24,7 +25,7 @@
 
 namespace jvari::bench::map {
 
-enum class Verdict { sound, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused };
+enum class Verdict { sound, unjudged, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused };
 std::span<const Verdict> verdicts();
 const char* name_of(Verdict);
 
@@ -42,7 +43,7 @@ struct Figures {              // NaN where a run has no such figure
 };
 
 struct Judgement {
-    Verdict verdict = Verdict::sound;
+    Verdict verdict = Verdict::unjudged;
     std::string detail;  // the figure that decided, or the reason of a refusal
     long step = 0;       // where a run failed by itself; else 0
 };

@@ -1,0 +1,164 @@
+#include "tests/contract_scenes.hpp"
+
+#include "scenes/scene_file.hpp"
+#include "tests/c3.hpp"
+
+namespace jvari {
+
+namespace {
+std::vector<Scene> shortened(std::vector<Scene> scenes) {
+    for (Scene& s : scenes) s.duration = static_cast<double>(contract_rows) / contract_tap_rate;
+    return scenes;
+}
+
+Scene named(Scene scene, const char* name) {
+    scene.name = name;
+    return scene;
+}
+
+Scene least(bool plucked) {  // a string without stiffness and losses
+    Scene scene = named(lossless(c3_free()), "string");
+    String& s = scene.strings.front();
+    s.bending_stiffness = 0;
+    if (plucked) s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5, 0.1};
+    else s.initial = ModeInitial{1, 1.9e-3};
+    return scene;
+}
+
+LumpedBarrier bridge_at(const String& s, int node) {  // a point, on a node where the modes have as many nodes between the ends
+    return {node * s.length / (contract_modes + 1), 0, 0, {4.39e8}, 1, 0};
+}
+
+// The scene with a feature that it has not; where it cannot have it, or has it, as it is.
+Scene with(Feature feature, Scene scene) {
+    String& s = scene.strings.front();
+    const auto on_its_barriers = [&s](auto change) {
+        if (s.barriers.empty()) s.barriers = {bridge_at(s, 1)};
+        for (Barrier& b : s.barriers) std::visit(change, b);
+    };
+    switch (feature) {
+        case Feature::several_strings: scene.strings.push_back(s); break;
+        case Feature::bending_stiffness: s.bending_stiffness = 1e-6 * s.tension * s.length * s.length; break;
+        case Feature::damping: s.damping = PolynomialDamping{0.6, 0, 0}; break;
+        case Feature::frequency_dependent_damping: s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6}; break;
+        case Feature::measured_modes: {
+            TableDamping table;
+            for (int i = 1; i <= contract_modes; ++i) table.frequency_hz.push_back(131.3 * i), table.decay_rate.push_back(0.6);
+            s.damping = table;
+            break;
+        }
+        case Feature::lumped_barrier: s.barriers.emplace_back(bridge_at(s, 1)); break;
+        case Feature::profile_barrier: s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {1e9}, 1, 0}); break;
+        case Feature::several_barriers: s.barriers.assign({bridge_at(s, 1), bridge_at(s, 3)}); break;
+        case Feature::power_law_contact: on_its_barriers([](auto& b) { b.exponent = 1.5; }); break;
+        case Feature::contact_loss: on_its_barriers([](auto& b) { b.contact_loss = 0.5; }); break;
+        case Feature::thread: s.thread = Thread{5e-3 * s.length, 1.2e-3 * s.length, 1.2e5, 0, 0}; break;
+        case Feature::polarisation: s.polarisation = Polarisation{0.1, 0.3}; break;
+        case Feature::initial_shape: s.initial = ModeInitial{1, 1.9e-3 * s.length}; break;
+        case Feature::pluck: s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5 * s.length, 0.1 * s.length}; break;
+        case Feature::body: scene.body = Body{"bridge.wav", "nut.wav"}; break;
+    }
+    return scene;
+}
+
+struct Change {  // of a string: false where there is nothing to change
+    String& s;
+    bool several_strings() { return s.tension *= 1.02, true; }
+    bool bending_stiffness() { return s.bending_stiffness *= 2, true; }
+    bool damping() { return s.damping = NoDamping{}, true; }
+    bool frequency_dependent_damping() {  // what all modes have in common stays
+        if (auto* p = std::get_if<PolynomialDamping>(&s.damping)) return p->sigma1 = p->sigma3 = 0, true;
+        if (auto* q = std::get_if<QualityFactorDamping>(&s.damping)) return q->viscoelastic_angle *= 2, true;
+        if (auto* t = std::get_if<TableDamping>(&s.damping)) return t->decay_rate.back() *= 2, true;
+        return false;
+    }
+    bool measured_modes() {
+        auto* t = std::get_if<TableDamping>(&s.damping);
+        if (!t) return false;
+        for (double& f : t->frequency_hz) f *= 1.01;
+        return true;
+    }
+    template <class Kind>
+    bool without() {
+        return std::erase_if(s.barriers, [](const Barrier& b) { return std::holds_alternative<Kind>(b); }) > 0;
+    }
+    bool several_barriers(bool first) {
+        if (s.barriers.size() < 2) return false;
+        s.barriers.erase(first ? s.barriers.begin() : s.barriers.end() - 1);
+        return true;
+    }
+    template <class Do>
+    bool each_barrier(Do change) {
+        for (Barrier& b : s.barriers) std::visit(change, b);
+        return !s.barriers.empty();
+    }
+    bool thread(double factor) { return s.thread && (s.thread->stiffness *= factor, true); }
+    bool initial_shape() {
+        return s.initial && (std::visit([](auto& i) { i.amplitude *= 1.1; }, *s.initial), true);
+    }
+    bool pluck() { return s.pluck && (s.pluck->amplitude *= 1.1, true); }
+    bool polarisation() { return s.polarisation && (s.polarisation->rotation += 0.2, s.polarisation->pluck_angle += 0.2, true); }
+};
+}  // namespace
+
+std::vector<Scene> contract_scenes() {
+    std::vector<Scene> scenes;
+    for (const std::string& name : library_scenes()) scenes.push_back(read_scene(name));
+    scenes.push_back(named(c3_free(), "rest"));
+    scenes.push_back(named(lossless(c3_release()), "lossless_release"));
+    scenes.push_back(named(lossless(c3_free()), "lossless_free"));
+    scenes.back().strings.front().initial = ModeInitial{2, 1e-3};
+    scenes.push_back(named(c3_pluck(), "pluck_that_starts_and_ends_between_rows"));
+    scenes.back().strings.front().pluck->start = 1.01e-3;
+    scenes.back().strings.front().pluck->duration = 2.003e-3;
+    return shortened(scenes);
+}
+
+std::vector<Scene> scenes_with(Feature feature) {
+    std::vector<Scene> scenes;
+    for (const bool plucked : {false, true}) scenes.push_back(with(feature, least(plucked)));
+    for (const Scene& s : contract_scenes()) {
+        scenes.push_back(s);
+        if (!needed_by(s).has(feature)) scenes.push_back(with(feature, s));
+    }
+    std::erase_if(scenes, [feature](const Scene& s) { return !needed_by(s).has(feature); });
+    for (Scene& s : scenes) {
+        s.taps.clear();  // where a string that is without the feature can be heard as well
+        for (const double x : {0.3, 0.4375})
+            s.taps.push_back({"y" + std::to_string(s.taps.size()), Quantity::displacement, static_cast<int>(s.strings.size()) - 1,
+                              x * s.strings.back().length});
+    }
+    return shortened(scenes);
+}
+
+std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
+    std::vector<Scene> all;
+    const auto add = [&](auto change) {
+        Scene other = scene;
+        Change last{other.strings.back()};  // where there are several strings, one of them
+        if (change(last)) all.push_back(std::move(other));
+    };
+    switch (feature) {
+        case Feature::several_strings: add([](Change& c) { return c.several_strings(); }); break;
+        case Feature::bending_stiffness: add([](Change& c) { return c.bending_stiffness(); }); break;
+        case Feature::damping: add([](Change& c) { return c.damping(); }); break;
+        case Feature::frequency_dependent_damping: add([](Change& c) { return c.frequency_dependent_damping(); }); break;
+        case Feature::measured_modes: add([](Change& c) { return c.measured_modes(); }); break;
+        case Feature::lumped_barrier: add([](Change& c) { return c.without<LumpedBarrier>(); }); break;
+        case Feature::profile_barrier: add([](Change& c) { return c.without<ProfileBarrier>(); }); break;
+        case Feature::several_barriers:
+            add([](Change& c) { return c.several_barriers(false); });
+            add([](Change& c) { return c.several_barriers(true); });
+            break;
+        case Feature::power_law_contact: add([](Change& c) { return c.each_barrier([](auto& b) { b.exponent += 0.25; }); }); break;
+        case Feature::contact_loss: add([](Change& c) { return c.each_barrier([](auto& b) { b.contact_loss *= 2; }); }); break;
+        case Feature::thread: add([](Change& c) { return c.thread(0.5); }); break;
+        case Feature::initial_shape: add([](Change& c) { return c.initial_shape(); }); break;
+        case Feature::pluck: add([](Change& c) { return c.pluck(); }); break;
+        case Feature::polarisation: add([](Change& c) { return c.polarisation(); }); break;
+        case Feature::body: break;
+    }
+    return all;
+}
+
+}  // namespace jvari

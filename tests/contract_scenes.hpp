@@ -1,0 +1,22 @@
+// The scenes on which the contract is asked for, and what a feature of one can be changed to.
+#pragma once
+
+#include <vector>
+
+#include "scenes/scene.hpp"
+
+namespace jvari {
+
+constexpr double contract_tap_rate = 44100;  // [Hz]
+constexpr int contract_modes = 40;
+constexpr long contract_rows = 200;
+
+std::vector<Scene> contract_scenes();  // the library and a few made here, each of contract_rows
+
+// Scenes that need a feature and listen to the motion: two that need little else, then those above, with it where they are without.
+std::vector<Scene> scenes_with(Feature);
+
+// The same scene with this one feature otherwise: another value of it, or none. A scheme that heeds the feature tells the two apart.
+std::vector<Scene> otherwise(const Scene&, Feature);
+
+}  // namespace jvari

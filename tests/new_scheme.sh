@@ -1,0 +1,56 @@
+#!/bin/sh
+# A new scheme is one file, one word in CMakeLists.txt and one line in schemes/schemes.def: a copy of tests/contract_plugins/honest.hpp is
+# added to a copy of the tree, and the tests that look at every scheme are green there.
+# usage: new_scheme.sh BUILD: quick, with the objects of this build (contract_test, seam_test and jvari) and the two files that differ
+#        new_scheme.sh full:  everything that these tests need is built anew, by CMake; the smoke record is compared as well
+here=$(cd "$(dirname "$0")/.." && pwd) || exit 2
+[ -n "$1" ] || { echo "usage: new_scheme.sh BUILD | full" >&2; exit 2; }
+scratch=$(mktemp -d) && trap 'rm -rf "$scratch"' EXIT
+tree=$scratch/tree name=added_by_a_test
+say() { echo "new_scheme.sh: $*"; }
+must() { say "$1"; shift; "$@" >"$scratch/said" 2>&1 || { cat "$scratch/said"; say "FAILED: $*"; exit 1; }; }
+
+mkdir "$tree" && tar -C "$here" --exclude=./build --exclude=./node_modules --exclude=./.git --exclude=./report --exclude=./results/runs -cf - . |
+    tar -C "$tree" -xf - || exit 2
+{  # the file
+    sed -e '/^#pragma once/d' -e 's|"schemes/plugin.hpp"|"schemes/scheme.hpp"|' -e '/^}  \/\/ namespace jvari/,$d' "$here/tests/contract_plugins/honest.hpp"
+    echo "extern const Descriptor $name;"
+    echo "const Descriptor $name{\"$name\", \"a test\", honest_features, Balance::exact, Clock::stepped, planted<Honest>};"
+    echo '}  // namespace jvari'
+} >"$tree/schemes/modal/$name.cpp"
+sed -i "s|modal/modal_strang.cpp|& modal/$name.cpp|" "$tree/CMakeLists.txt"  # the word
+echo "JVARI_SCHEME($name)" >>"$tree/schemes/schemes.def"                      # the line
+
+if [ "$1" = full ]; then
+    build=$scratch/build
+    export CCACHE_BASEDIR="$scratch"
+    must "configures" cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release
+    must "builds" cmake --build "$build" --parallel 2 --target jvari contract_test seam_test regression_test
+    jvari=$build/jvari contract=$build/tests/contract_test seam=$build/tests/seam_test
+    must "smoke record unchanged" "$build/tests/regression_test"
+else
+    build=$(cd "$1" && pwd) || exit 2
+    commands() { ninja -C "$build" -t commands "$1"; }
+    compile=$(commands jvari | grep -- '-c .*/schemes/registry.cpp$' | sed 's| -o .*||; s|-MD .*-MF [^ ]*||')
+    cd "$build" || exit 2
+    for source in registry modal/$name; do
+        object=$scratch/$(basename $source).o
+        must "compiles schemes/$source.cpp" sh -c "$compile -iquote $tree -o $object -c $tree/schemes/$source.cpp"
+    done
+    for target in jvari tests/contract_test tests/seam_test; do
+        link=$(commands $target | tail -1 | sed "s| -o $target | $scratch/registry.o $scratch/$name.o -o $scratch/$(basename $target) |")
+        must "links $target" sh -c "$link"
+    done
+    jvari=$scratch/jvari contract=$scratch/contract_test seam=$scratch/seam_test
+fi
+export JVARI_SCENES="$tree/scenes"
+must "layers" sh "$tree/tests/layering.sh" "$tree"
+must "is listed" sh -c "$jvari list schemes --quiet | grep -q '^  $name '"
+must "keeps the contract" "$contract" --gtest_brief=1 "--gtest_filter=*/${name}*"
+must "was asked for it" sh -c "'$contract' --gtest_list_tests '--gtest_filter=*/${name}*' | grep -q lossless_free"
+must "seam" "$seam" --gtest_brief=1
+must "lacks its row in README" sh -c "! sh '$tree/tests/readme.sh' $jvari"
+must "writes its row" env WRITE=1 sh "$tree/tests/readme.sh" "$jvari"
+must "has its row in README" grep -q "^| \`$name\` |" "$tree/README.md"
+must "smoke names its schemes" sh -c "[ \$(grep -c '^\[\[cells\]\]' $tree/bench/suites/smoke.toml) = \$(grep -c '^schemes = ' $tree/bench/suites/smoke.toml) ]"
+say "green"
