@@ -186,7 +186,7 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
         z[i] = modes_.omega0[i] * y_[i];
         z[equations_.padded + i] = flight_.window.osc.rate * u_[i];
     }
-    if (series()) {
+    if (series() && series()->relaxes()) {
         double y_c = 0;
         const auto& g = flight_.window.springs.weights;  // the thread's are the last
         for (int i = 0; i < modes_.count(); ++i) y_c += g[g.size() - flight_.window.osc.padded + i] * y_[i];

@@ -31,7 +31,7 @@
 namespace jvari {
 
 template <class Contact>
-concept InSeries = Contact::in_series;
+concept ActsInSeries = Contact::in_series;
 
 template <class Contact>
 class ModalThreePoint : public Scheme {
@@ -62,7 +62,7 @@ public:
         steady_ = couple(0.5 * m_.k_c + 0.5 * m_.r_c / m_.dt, m_.k_c);
         first_ = couple(0.5 * m_.k_c, 0.5 * m_.k_c);
         const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
-        const auto pass = InSeries<Contact> ? three_point_pass_ahead : three_point_pass;
+        const auto pass = ActsInSeries<Contact> ? three_point_pass_ahead : three_point_pass;
         unplucked_ = pass(barrier, thread, false);
         plucked_ = pass(barrier, thread, true);
         pass_.size = m_.size;
@@ -93,7 +93,7 @@ public:
             if (!m_.g_b.empty()) r_b_ += m_.g_b[i] * d;
             if (!m_.g_c.empty()) r_c_ += m_.g_c[i] * d;
         }
-        if constexpr (InSeries<Contact>) {
+        if constexpr (ActsInSeries<Contact>) {
             contact_.begin(y_c_);
             pass_.v_b = y_b_ + r_b_;
             pass_.v_c = y_c_ + r_c_;
@@ -103,14 +103,14 @@ public:
 
     Status advance(const Block& out) noexcept override {
         if (status_.outcome != Outcome::ok) return status_;
-        if constexpr (InSeries<Contact>) contact_.probed = out.energy != nullptr;
+        if constexpr (ActsInSeries<Contact>) contact_.probed = out.energy != nullptr;
         for (int row = 0; row < out.rows; ++row) {
             write(out, row);
             const double weight = step_ == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
             impulse_b_ = weight * F_b_;
             impulse_c_ = weight * F_c_;
             supplied_ = dissipated_ = 0;
-            if constexpr (InSeries<Contact>) contact_.lost = 0;
+            if constexpr (ActsInSeries<Contact>) contact_.lost = 0;
             if (out.energy && step_ > 0) ledger(0.5);
             for (int k = 0; k < m_.steps_per_row; ++k) {
                 step();
@@ -124,7 +124,7 @@ public:
             impulse_b_ += 0.5 * F_b_;
             impulse_c_ += 0.5 * F_c_;
             if (out.energy) ledger(0.5);
-            if constexpr (InSeries<Contact>) dissipated_ += contact_.lost;
+            if constexpr (ActsInSeries<Contact>) dissipated_ += contact_.lost;
             if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
             if (!contact_.solved()) return status_ = {Outcome::not_converged, step_ - 1};
         }
@@ -135,7 +135,7 @@ public:
     std::vector<Fact> facts() const override {
         if (m_.g_b.empty()) return {};
         std::vector<Fact> f = contact_.facts();
-        if constexpr (!InSeries<Contact>) f.push_back({facts::static_compliance, compliance_ / m_.true_compliance});
+        if constexpr (!ActsInSeries<Contact>) f.push_back({facts::static_compliance, compliance_ / m_.true_compliance});
         return f;
     }
     std::vector<FreeMode> free_modes() const override {
@@ -165,7 +165,7 @@ private:
 
     // The forces of step n from the dots that the last pass left.
     void solve() {
-        if constexpr (InSeries<Contact>) act();
+        if constexpr (ActsInSeries<Contact>) act();
         else solve_points();
     }
     void act() {
@@ -198,7 +198,7 @@ private:
         pass_.F_b = F_b_;
         pass_.F_c = F_c_;
         pass_.F_e = F_e_;
-        if constexpr (InSeries<Contact>) step_ahead();
+        if constexpr (ActsInSeries<Contact>) step_ahead();
         else step_and_settle();
         ++step_;
     }
@@ -230,7 +230,7 @@ private:
             if (F_e_ != 0) work += m_.g_e[i] * r;
         }
         const double r_c = increment_c_;
-        if constexpr (InSeries<Contact>) dissipated_ += weight * loss / (4 * m_.dt * m_.dt);  // the thread's: at the row
+        if constexpr (ActsInSeries<Contact>) dissipated_ += weight * loss / (4 * m_.dt * m_.dt);  // the thread's: at the row
         else dissipated_ += weight * (loss / (4 * m_.dt * m_.dt) + m_.r_c * r_c * r_c / (4 * m_.dt));
         supplied_ += weight * 0.5 * F_e_ * work;
     }
@@ -249,7 +249,7 @@ private:
     }
 
     double stored() const {
-        if constexpr (InSeries<Contact>)
+        if constexpr (ActsInSeries<Contact>)
             return contact_.energy() + (step_ == 0 ? modal_energy(true) : 0.5 * (modal_energy(true) + modal_energy(false)));
         else return stored_at_half_steps();
     }
@@ -269,9 +269,9 @@ private:
                 for (int i = 0; i < m_.size; ++i) sum += weights[i] * (next_increment(i) + d_[i]);
             return sum / (2 * m_.dt);
         };
-        write_taps<InSeries<Contact> ? modal_dot_by_eights : modal_dot>(out, row, m_.taps, q_, velocity, impulse_b_ / per_row,
-                                                                        impulse_c_ / per_row);
-        if constexpr (InSeries<Contact>)
+        write_taps<ActsInSeries<Contact> ? modal_dot_by_eights : modal_dot>(out, row, m_.taps, q_, velocity, impulse_b_ / per_row,
+                                                                            impulse_c_ / per_row);
+        if constexpr (ActsInSeries<Contact>)
             for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += contact_.on_tap(k);
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
     }
