@@ -62,8 +62,9 @@ std::string truth_text(const compare::Comparison& c) {
 std::string certificate_text(const compare::Comparison& c) {
     const trust::Trust& t = c.trust;
     if (!t.any()) return "no certificate: " + t.missing;
-    return fmt::format("{} is certain to the figures of the first line, by {}{}{}", c.reference_name, t.against,
-                       t.doubled.empty() ? "" : " and by doubling its " + t.doubled,
+    std::string by = t.against;
+    if (!t.doubled.empty()) by += (by.empty() ? "doubling its " : " and by doubling its ") + t.doubled;
+    return fmt::format("{} is certain to the figures of the first line, by {}{}", c.reference_name, by,
                        t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + ")") +
            (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
            (c.reference_note.empty() ? "" : "\n" + c.reference_note);
