@@ -366,7 +366,9 @@ TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateToge
     const double measured = bench::store::read_csv(content(out + "/cells.csv")).number(0, "error_l2_50ms");
     EXPECT_NE(o.out.find(fmt::format("\u2264{:.2e}", measured + 0.25)), std::string::npos) << o.out;
     EXPECT_NE(o.out.find("within 10 %    not known"), std::string::npos) << o.out;
-    EXPECT_NE(o.out.find("certain to the figures of the first line, by exact_contact and by doubling its modes (free_string.json)"), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find("certain to the figures of the first line, by exact_contact and by doubling its modes (free_string.json)"),
+              std::string::npos)
+        << o.out;
     EXPECT_EQ(o.err.find("jvari certify"), std::string::npos) << o.err;
     for (const char* file : {"/cells.csv", "/errors.csv"}) {
         const bench::store::Table t = bench::store::read_csv(content(out + file));
