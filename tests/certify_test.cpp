@@ -239,7 +239,7 @@ bench::trust::KeptCertificate by_hand() {  // one tap, 0.1 s; pair (i, j) differ
     c.taps = {"nut"};
     c.duration = 0.1;
     const auto entry = [&c](const char* name, Certificate::Options options, double rate = 0) {
-        c.entries.push_back({name, std::move(options), rate, {}, 0.1, 0, {}, {}});
+        c.entries.push_back({name, std::move(options), rate, {}, 0.1, 0, {}, {}, {}});
     };
     entry("one", {});
     entry("one", {{"window", "0.5"}});
