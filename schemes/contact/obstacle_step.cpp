@@ -98,7 +98,7 @@ void ObstacleStep::put_in_series(const MissingMatrix& C, int levels) {
     if (thread_) thread = Thread{0, 0, stiffness_, damping_, rest_};
     *this = ObstacleStep(std::vector(laws_), std::vector(heights_), thread, theta, span_);
     levels_ = levels;
-    several_.emplace();
+    several_ = Several{};
     several_->C = C.C;
     for (auto* v : {&several_->P[0], &several_->P[1], &several_->older, &several_->free}) v->assign(n, 0.0);
 }

@@ -93,8 +93,8 @@ MidpointPass midpoint_pass() {
     return HWY_DYNAMIC_DISPATCH(choose_midpoint)();
 }
 
-GridSolve::Sums GridSolve::sums(int near) {
-    return HWY_DYNAMIC_DISPATCH(choose)(near);
+GridSolve::Sums GridSolve::sums(int pairs) {
+    return HWY_DYNAMIC_DISPATCH(choose)(pairs);
 }
 
 namespace {

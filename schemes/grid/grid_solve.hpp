@@ -27,7 +27,7 @@ public:
 private:
     static constexpr int most = 16, near = 6, offset = 4 * most + 15;  // nodes beyond either end; node 1 on a 64-byte boundary
     using Sums = void (*)(const double* close, const double* far, int terms, int intervals, double* x, double* between, double* u);
-    static Sums sums(int near);
+    static Sums sums(int pairs);
     int intervals_ = 0;
     BandedFactor factor_;
     std::array<double, near + 1> near_{};  // A(-z) B(-z^2)
