@@ -341,15 +341,15 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         schemes = ["modal_two_point", "unwilling", "throwing", "slow"]
         rates = [44100]
         modes = 10
-        duration = 0.1
-        time_limit_s = 0.02
+        duration = 1.0
+        time_limit_s = 0.2
         measure = ["errors", "cost", "spectrogram"]
     )",
                                                                 "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
     const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 2, w.console).records);
     const std::pair<const char*, const char*> expected[] = {
-        {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.02 s"}};
+        {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.2 s"}};
     ASSERT_EQ(t.rows.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(t.at(i, "status"), expected[i].first);
