@@ -340,16 +340,16 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         scenes = ["free_string"]
         schemes = ["modal_two_point", "unwilling", "throwing", "slow"]
         rates = [44100]
-        modes = 10
+        modes = 3
         duration = 1.0
-        time_limit_s = 0.2
+        time_limit_s = 0.45
         measure = ["errors", "cost", "spectrogram"]
     )",
                                                                 "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
     const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 2, w.console).records);
     const std::pair<const char*, const char*> expected[] = {
-        {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.2 s"}};
+        {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.45 s"}};
     ASSERT_EQ(t.rows.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(t.at(i, "status"), expected[i].first);
