@@ -345,7 +345,7 @@ double ExactContact::collocated(double left, int& crossed) noexcept {
         crossed = first;
         if (std::abs(end - d) <= 4e-16) break;
         d = end;
-        if (!(d > 0)) return 0;
+        if (!(d > negligible)) return 0;
         if (collocation_.step(r_.data(), touched_, d, From::same_start) == HUGE_VAL) return -1;
         ++extremes_.steps;
     }
