@@ -7,14 +7,10 @@ using namespace jvari;
 class Planted final : public Honest {
 public:
     using Honest::Honest;
-    Status advance(const Block& out) noexcept override {
-        const long first = row_;
-        const Status status = Honest::advance(out);
-        for (int n = 0; n < out.rows; ++n) {
-            const long row = first + n;
-            if (out.energy && row > 0) out.energy[n + out.stride] += 0.8e-11 * start_;
-        }
-        return status;
+
+protected:
+    void spoil(const Block& out, int n) noexcept override {
+        if (out.energy && row_ > 0) out.energy[n + out.stride] += 0.8e-11 * start_;
     }
 };
 }  // namespace

@@ -7,14 +7,10 @@ using namespace jvari;
 class Planted final : public Honest {
 public:
     using Honest::Honest;
-    Status advance(const Block& out) noexcept override {
-        const long first = row_;
-        const Status status = Honest::advance(out);
-        for (int n = 0; n < out.rows; ++n) {
-            const long row = first + n;
-            for (int k = 0; row > 0 && out.energy && k < out.taps; ++k) out.tap[n + k * out.stride] *= 1 + 1e-12;
-        }
-        return status;
+
+protected:
+    void spoil(const Block& out, int n) noexcept override {
+        for (int k = 0; row_ > 0 && out.energy && k < out.taps; ++k) out.tap[n + k * out.stride] *= 1 + 1e-12;
     }
 };
 }  // namespace

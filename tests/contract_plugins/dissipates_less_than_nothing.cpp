@@ -7,16 +7,12 @@ using namespace jvari;
 class Planted final : public Honest {
 public:
     using Honest::Honest;
-    Status advance(const Block& out) noexcept override {
-        const long first = row_;
-        const Status status = Honest::advance(out);
-        for (int n = 0; n < out.rows; ++n) {
-            const long row = first + n;
-            if (!out.energy || row != 70) continue;
-            out.energy[n + out.stride] -= 1e-6 * start_ + out.energy[n + 2 * out.stride];
-            out.energy[n + 2 * out.stride] = -1e-6 * start_;
-        }
-        return status;
+
+protected:
+    void spoil(const Block& out, int n) noexcept override {
+        if (!out.energy || row_ != 70) return;
+        out.energy[n + out.stride] -= 1e-6 * start_ + out.energy[n + 2 * out.stride];
+        out.energy[n + 2 * out.stride] = -1e-6 * start_;
     }
 };
 }  // namespace

@@ -7,14 +7,10 @@ using namespace jvari;
 class Planted final : public Honest {
 public:
     using Honest::Honest;
-    Status advance(const Block& out) noexcept override {
-        const long first = row_;
-        const Status status = Honest::advance(out);
-        for (int n = 0; n < out.rows; ++n) {
-            const long row = first + n;
-            if (row >= 150 && out.taps > 0) out.tap[n] = std::nan("");
-        }
-        return status;
+
+protected:
+    void spoil(const Block& out, int n) noexcept override {
+        if (row_ >= 150 && out.taps > 0) out.tap[n] = std::nan("");
     }
 };
 }  // namespace
