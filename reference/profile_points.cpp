@@ -7,15 +7,6 @@
 
 namespace jvari {
 
-namespace {
-std::vector<double> middles(const ProfileBarrier& b, int count) {
-    std::vector<double> x;
-    const double spacing = (b.to - b.from) / count;
-    for (int q = 0; q < count; ++q) x.push_back(b.from + (q + 0.5) * spacing);
-    return x;
-}
-}  // namespace
-
 ProfilePoints profile_points(const Settings& settings) {
     if (option(settings, nodes_option) == "grid") return {0};
     const double count = number_option(settings, nodes_option);
@@ -39,9 +30,7 @@ String with_points(String s, int modes, ProfilePoints points) {
         const auto x = grid ? nodes_on(*b, s.length, modes + 1).x : middles(*b, points.count);
         if (x.empty())
             throw Refusal("no node of a grid of " + std::to_string(modes) + " lies on a profile barrier; ask for more modes, or for nodes");
-        const auto g = heights(b->curve, x);
-        for (std::size_t q = 0; q < x.size(); ++q)
-            barriers.push_back(LumpedBarrier{x[q], 0, g[q], {b->stiffness.K * spacing}, b->exponent, b->contact_loss});
+        for (const LumpedBarrier& point : lumped(*b, x, spacing)) barriers.push_back(point);
     }
     if (profiles && barriers.size() > most_points)
         throw Refusal("the profiles come to " + std::to_string(barriers.size()) + " points of contact; the references take " +

@@ -54,6 +54,20 @@ ProfileNodes nodes_on(const ProfileBarrier& b, double length, int intervals) {
     return nodes;
 }
 
+std::vector<double> middles(const ProfileBarrier& b, int count) {
+    std::vector<double> x;
+    const double spacing = (b.to - b.from) / count;
+    for (int q = 0; q < count; ++q) x.push_back(b.from + (q + 0.5) * spacing);
+    return x;
+}
+
+std::vector<LumpedBarrier> lumped(const ProfileBarrier& b, const std::vector<double>& x, double spacing) {
+    std::vector<LumpedBarrier> points;
+    const auto g = heights(b.curve, x);
+    for (std::size_t q = 0; q < x.size(); ++q) points.push_back({x[q], 0, g[q], {b.stiffness.K * spacing}, b.exponent, b.contact_loss});
+    return points;
+}
+
 double contact_modulus(double young1, double poisson1, double young2, double poisson2) {
     return 1 / ((1 - poisson1 * poisson1) / (2 * young1) + (1 - poisson2 * poisson2) / (2 * young2));  // (55)
 }

@@ -20,6 +20,12 @@ struct ProfileNodes {
 };
 ProfileNodes nodes_on(const ProfileBarrier&, double length, int intervals);
 
+// The middles [m] of count equal parts of a profile.
+std::vector<double> middles(const ProfileBarrier&, int count);
+
+// A profile as point contacts: one at each x [m], of the stiffness that it has over the given spacing [m].
+std::vector<LumpedBarrier> lumped(const ProfileBarrier&, const std::vector<double>& x, double spacing);
+
 // Contact modulus E* [Pa] from Young's moduli [Pa] and Poisson's ratios   (van Walstijn et al. 2016, eq 55)
 double contact_modulus(double young1, double poisson1, double young2, double poisson2);
 

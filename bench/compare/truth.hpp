@@ -3,8 +3,8 @@
 // A string cut off at 133 modes is another string: its nut force after half a second has little to do with that of the scene. So the
 // reference does not take its modes from the cells. From those below 20 kHz, and from the points that stand for a profile unasked, both are
 // doubled until a doubling changes the headline figure by less than `settled`, or until the next would cost more than `budget`. It then
-// says so. What the last doubling changed is part of what the reference is certain to, on every tap and window: with an order of one or
-// more in modes and points all further doublings together change no more than that.
+// says so. What the last doubling changed is part of what the reference is certain to, on every tap and window, and so is what all further
+// ones may change together: and_further_ones (certificate.hpp), less the one that was made.
 //
 // `settled` is a tenth of the finest accuracy that the table of the cheapest asks for. An error of less than ten times what the reference
 // is certain to is shown as a bound (bound.hpp), so that no figure depends on the cells beside it.

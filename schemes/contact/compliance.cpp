@@ -218,12 +218,8 @@ String with_profile_points(String s, const Settings& settings) {
             barriers.push_back(barrier);
             continue;
         }
-        const double spacing = (b->to - b->from) / count;
-        std::vector<double> x;
-        for (int q = 0; q < static_cast<int>(count); ++q) x.push_back(b->from + (q + 0.5) * spacing);
-        const auto g = heights(b->curve, x);
-        for (std::size_t q = 0; q < x.size(); ++q)
-            barriers.push_back(LumpedBarrier{x[q], 0, g[q], {b->stiffness.K * spacing}, b->exponent, b->contact_loss});
+        for (const LumpedBarrier& point : lumped(*b, middles(*b, static_cast<int>(count)), (b->to - b->from) / count))
+            barriers.push_back(point);
     }
     s.barriers = std::move(barriers);
     return s;

@@ -347,7 +347,7 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
 }
 
 double GridString::pluck_at(double t) const {
-    return pluck && t >= pluck->start && t <= pluck->start + pluck->duration ? force(*pluck, t) : 0;
+    return pluck ? force(*pluck, t) : 0;
 }
 
 // ---- The band matrix.

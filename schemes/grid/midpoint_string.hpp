@@ -83,12 +83,8 @@ private:
         double *y = y_, *s = s_;
         mirror();
         pass_(pull_, N, solve_.input(), y, q_, nullptr);
-        double F_e = 0;
-        const double t = (step_ + 0.5) * dt_;
-        if (g_.pluck && t >= g_.pluck->start && t <= g_.pluck->start + g_.pluck->duration) {
-            F_e = force(*g_.pluck, t);
-            g_.pluck_stencil.add(xi_ * F_e, solve_.input());
-        }
+        const double F_e = g_.pluck_at((step_ + 0.5) * dt_);
+        if (F_e != 0) g_.pluck_stencil.add(xi_ * F_e, solve_.input());
         solve_(s);
         const int points = obstacle_.points();
         const double change = !g_.by_pluck() ? 0 : g_.pluck_at((step_ + 1) * dt_) - g_.pluck_at(step_ * dt_);

@@ -141,8 +141,7 @@ private:
     double thread_force() const noexcept { return g_.thread ? force_.back() : 0; }
 
     double pluck(double t, double share, double* next) const noexcept {  // returns the force [N]
-        if (!g_.pluck || t < g_.pluck->start || t > g_.pluck->start + g_.pluck->duration) return 0;
-        const double F = force(*g_.pluck, t);
+        const double F = g_.pluck_at(t);
         if (F != 0) pluck_response_.add(share * gain_ * F, next);
         return F;
     }

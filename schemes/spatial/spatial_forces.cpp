@@ -77,10 +77,7 @@ SpatialForces::SpatialForces(const String& s, const std::vector<ContactPoint>& p
 }
 
 double SpatialForces::pluck_at(long n) const {
-    if (plucks_.empty()) return 0;
-    const Pluck& p = plucks_.front().law;
-    const double t = double(n) * dt_ - p.start;
-    return t < 0 || t > p.duration ? 0 : jvari::force(p, double(n) * dt_);
+    return plucks_.empty() ? 0 : jvari::force(plucks_.front().law, double(n) * dt_);
 }
 
 void SpatialForces::begin_in_series() noexcept {
