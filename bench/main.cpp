@@ -2,9 +2,10 @@
 #include <cstring>
 
 #include "bench/command/commands.hpp"
-#include "bench/store/console.hpp"
+#include "bench/command/console.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/interruption.hpp"
+#include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/scheme.hpp"
 
@@ -19,9 +20,9 @@ struct Verb {
 };
 
 int fail(bool json, int code, const char* status, const std::string& message) {
-    jvari::bench::store::tell("jvari: " + message);
+    jvari::bench::command::tell("jvari: " + message);
     try {
-        jvari::bench::store::Console(json, false)
+        jvari::bench::command::Console(json, false)
             .print_json(jvari::bench::store::indented({{"status", status}, {"message", message}, {"exit_code", code}}));
     } catch (const jvari::bench::store::Unwritable&) {  // the code says it
     }
@@ -31,26 +32,27 @@ int fail(bool json, int code, const char* status, const std::string& message) {
 
 int main(int argc, char** argv) {
     using namespace jvari;
-    bench::store::hold_standard_streams();
+    bench::command::hold_standard_streams();
     bench::store::heed_interruptions();
     bool json = false;
     for (int k = 1; k < argc; ++k) json = json || std::strcmp(argv[k], "--json") == 0;
     try {
         const auto request = bench::command::read_arguments(argc, argv);
-        return request ? std::visit(Verb{}, *request) : static_cast<int>(bench::store::done);
+        return request ? std::visit(Verb{}, *request) : bench::command::exit_code::done;
     } catch (const bench::store::UsageError& e) {
-        return fail(json, bench::store::bad_usage, "bad_usage", e.what());
+        return fail(json, bench::command::exit_code::bad_usage, "bad_usage", e.what());
     } catch (const SceneFileError& e) {
-        return fail(json, bench::store::bad_usage, "bad_scene", e.what());
+        return fail(json, bench::command::exit_code::bad_usage, "bad_scene", e.what());
     } catch (const BadScene& e) {
-        return fail(json, bench::store::bad_usage, "bad_scene", e.what());
+        return fail(json, bench::command::exit_code::bad_usage, "bad_scene", e.what());
     } catch (const UnknownOption& e) {
-        return fail(json, bench::store::bad_usage, "bad_usage", e.what());
+        return fail(json, bench::command::exit_code::bad_usage, "bad_usage", e.what());
     } catch (const Refusal& e) {
-        return fail(json, bench::store::refused, "refused", e.what());
+        return fail(json, bench::command::exit_code::refused, "refused", e.what());
     } catch (const std::exception& e) {
-        return fail(json, bench::store::run_failed, "error", e.what());
+        return fail(json, bench::command::exit_code::run_failed, "error", e.what());
     } catch (...) {  // a plugin may throw what it likes
-        return fail(json, bench::store::run_failed, "error", "something was thrown that is no exception of the standard library");
+        return fail(json, bench::command::exit_code::run_failed, "error",
+                    "something was thrown that is no exception of the standard library");
     }
 }

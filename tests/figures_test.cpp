@@ -95,8 +95,7 @@ const char* one_mode = R"(
 struct OneMode {
     bench::suite::Suite suite = bench::suite::parse_suite(one_mode, "a.toml");
     bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    std::vector<bench::suite::SuiteRecord> records =
-        bench::suite::run_suite(plan, "", false, 1, bench::store::Console(false, true)).records;
+    std::vector<bench::suite::SuiteRecord> records = bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records;
     const Scene& scene = plan.points[0].scene;
     double omega = modes_of(scene.strings[0], 1).omega0[0];
     double amplitude = initial_displacement(modes_of(scene.strings[0], 1), scene.strings[0])[0];

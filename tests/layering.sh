@@ -29,6 +29,8 @@ for room in command report suite map compare trust store; do  # each room of ben
     forbid "bench/$room opens the namespace of its room" "^namespace jvari(::bench::[a-z]+)? \\{$" \
         $(grep -LE "^namespace jvari::bench::$room \\{$" $(files bench/$room))
 done
+forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
+    $(files scenes schemes reference analysis bench/store bench/trust bench/compare bench/map bench/suite bench/report)
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
 forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
 # Libraries, as the table of CONTRIBUTING.md says. The benchmarks of bench/kernels and the tests compare with any of them.

@@ -12,7 +12,7 @@
 namespace jvari::test {
 namespace {
 
-const bench::store::Console quiet(false, true);
+const bench::store::Listener quiet;
 void wait(int milliseconds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }

@@ -146,7 +146,7 @@ public:
 struct Workshop {  // the schemes of the program, and three for the tests
     Descriptor counting{original()}, slow{original()}, unwilling{original()}, stumbling{original()};
     bench::compare::Catalogue catalogue;
-    bench::store::Console console{false, true};
+    bench::store::Listener listener;
     Workshop() {
         counting.name = "counting";
         counting.make = counted;
@@ -183,11 +183,11 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
     ASSERT_EQ(plan.cells.size(), 8u);
     makes = 0;
-    const bench::suite::SuiteRun first = bench::suite::run_suite(plan, scratch.path, false, 2, w.console);
+    const bench::suite::SuiteRun first = bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
     EXPECT_EQ(first.ran, 8);
     EXPECT_EQ(first.timed, 8);
     EXPECT_EQ(makes, 8 * (1 + 2));  // each once for its errors and twice for the clock
-    const bench::suite::SuiteRun second = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
+    const bench::suite::SuiteRun second = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
     EXPECT_EQ(makes, 8 * (1 + 2));
     EXPECT_EQ(second.read_back, 8);
     EXPECT_EQ(second.ran + second.timed, 0);
@@ -211,15 +211,15 @@ TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
     const std::string whole = bench::store::csv(
-        bench::compare::errors_only(bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.console).records)));
-    bench::suite::run_suite(plan, scratch.path, false, 3, w.console);
+        bench::compare::errors_only(bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.listener).records)));
+    bench::suite::run_suite(plan, scratch.path, false, 3, w.listener);
     fs::remove(scratch.path / (plan.cells[1].id + ".json"));
     fs::remove(scratch.path / (plan.cells[6].id + ".json"));
     fs::resize_file(scratch.path / (plan.cells[3].id + ".json"), 100);  // not ours: files appear whole
     fs::copy_file(scratch.path / (plan.cells[5].id + ".json"), scratch.path / (plan.cells[4].id + ".json"),
                   fs::copy_options::overwrite_existing);  // another cell's
     makes = 0;
-    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 3, w.console);
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 3, w.listener);
     EXPECT_EQ(resumed.ran, 4);
     EXPECT_EQ(makes, 4 * (1 + 2));
     EXPECT_EQ(bench::store::csv(bench::compare::errors_only(table_of(plan, resumed.records))), whole);
@@ -231,11 +231,11 @@ TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
     const std::string whole = bench::store::csv(bench::compare::errors_only(
-        bench::suite::table_of(plan, bench::suite::run_suite(plan, scratch.path, false, 2, w.console).records)));
+        bench::suite::table_of(plan, bench::suite::run_suite(plan, scratch.path, false, 2, w.listener).records)));
     const std::string path = scratch / (plan.cells[2].id + ".json"), kept = content(path);
     const auto ran_with = [&](const std::string& text) {
         std::ofstream(path, std::ios::binary) << text;
-        const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
+        const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
         EXPECT_EQ(bench::store::csv(bench::compare::errors_only(table_of(plan, resumed.records))), whole);
         return resumed.ran;
     };
@@ -260,12 +260,12 @@ TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures
                                                                 "a.toml");
     const Workshop w;
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    bench::suite::run_suite(plan, scratch.path, false, 1, w.console);
+    bench::suite::run_suite(plan, scratch.path, false, 1, w.listener);
     const std::string path = scratch / (plan.cells[0].id + ".json");
     auto json = nlohmann::ordered_json::parse(bench::store::unsealed(content(path)));
     json["rows"]["sound"]["rows"][0] = nlohmann::ordered_json::array();
     std::ofstream(path) << bench::store::sealed(json.dump());
-    EXPECT_EQ(run_suite(plan, scratch.path, true, 1, w.console).ran, 1);
+    EXPECT_EQ(run_suite(plan, scratch.path, true, 1, w.listener).ran, 1);
 }
 
 TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
@@ -273,7 +273,7 @@ TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
     const Workshop w;
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    bench::suite::run_suite(plan, scratch.path, false, 2, w.console);
+    bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
     const std::string another = "0123456-another";
     const auto recorded_by_another = [&](int cell, const std::string& what) {  // a file of this cell's name, of another program
         const fs::path path = scratch.path / (plan.cells[cell].id + ".json");
@@ -286,7 +286,7 @@ TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
     recorded_by_another(1, bench::store::machine().cell_sources);
     recorded_by_another(2, bench::store::machine().build);
     recorded_by_another(5, bench::store::machine().compiler);
-    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
     EXPECT_EQ(resumed.ran, 3);
     EXPECT_EQ(resumed.read_back, 5);
 }
@@ -320,14 +320,14 @@ TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
     const Workshop w;
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    bench::suite::run_suite(plan, scratch.path, false, 2, w.console);
+    bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
     const fs::path path = scratch.path / (plan.cells[2].id + ".json");
     auto json = nlohmann::ordered_json::parse(content(path));
     json.erase("checksum");
     json["timed"] = false;
     std::ofstream(path) << bench::store::sealed(json.dump());
     makes = 0;
-    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.console);
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
     EXPECT_EQ(resumed.ran, 0);
     EXPECT_EQ(resumed.timed, 1);
     EXPECT_EQ(makes, 2);
@@ -347,7 +347,7 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
     )",
                                                                 "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 2, w.console).records);
+    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 2, w.listener).records);
     const std::pair<const char*, const char*> expected[] = {
         {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.45 s"}};
     ASSERT_EQ(t.rows.size(), 4u);
@@ -373,7 +373,7 @@ TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
     )",
                                                                 "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.console).records);
+    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.listener).records);
     EXPECT_EQ(t.at(0, "status"), "ok");
     EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
     EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.5 s");

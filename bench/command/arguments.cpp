@@ -8,8 +8,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "bench/store/console.hpp"
+#include "bench/command/console.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::command {
 
@@ -229,7 +230,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     } catch (const CLI::Success& asked) {
         std::ostringstream text, nothing;
         app.exit(asked, text, nothing);
-        store::Console(false, false).print(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
+        Console(false, false).print(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
         return std::nullopt;
     } catch (const CLI::ParseError& e) {
         throw store::UsageError(std::string(e.what()) + " (see jvari " + (argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : "") +

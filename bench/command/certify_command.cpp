@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/commands.hpp"
+#include "bench/command/console.hpp"
 #include "bench/compare/catalogue.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
+#include "bench/store/listener.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/usage.hpp"
 #include "bench/trust/certificate_file.hpp"
 #include "bench/trust/certificate_library.hpp"
 
@@ -106,8 +108,8 @@ std::string text_of(const Certificate& c) {
            "\nnoise floor: the first against itself, started a relative 1e-12 apart";
 }
 
-Certificate made(const Scene& scene, CertifySettings settings, const store::Console& console) {
-    store::Console::Progress progress(console, "certify");
+Certificate made(const Scene& scene, CertifySettings settings, const Console& console) {
+    const auto progress = console.begin("certify");
     double from = 0, part = 1;
     std::string what;
     settings.progress = [&](const std::string& reference, int done, int of) {
@@ -115,13 +117,13 @@ Certificate made(const Scene& scene, CertifySettings settings, const store::Cons
         from = done * part;
         what = reference;
     };
-    settings.within = [&](double fraction) { progress.show(from + part * fraction, what); };
+    settings.within = [&](double fraction) { progress->show(from + part * fraction, what); };
     return certify(scene, settings);
 }
 }  // namespace
 
 int certify_command(const CertifyRequest& r) {
-    const store::Console console(r.json, r.quiet);
+    const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
     CertifySettings settings;
@@ -169,7 +171,7 @@ int certify_command(const CertifyRequest& r) {
                                         {"cost_file", trust::cost_path(path).string()},
                                         {"certificate", Json::parse(trust::json_of(kept))},
                                         {"wall_seconds", costs}}));
-    return good ? store::done : store::run_failed;
+    return good ? exit_code::done : exit_code::run_failed;
 }
 
 }  // namespace jvari::bench::command

@@ -8,6 +8,7 @@
 
 #include "bench/command/commands.hpp"
 #include "bench/command/compare_text.hpp"
+#include "bench/command/console.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
@@ -30,11 +31,11 @@ void make_folder(const fs::path& folder) {
     store::must_be_writable(folder / "cells.csv");
 }
 
-int exit_code(const compare::Comparison& c) {
+int code_of(const compare::Comparison& c) {
     const auto good = [](const compare::Cell& cell) { return !cell.refused && cell.summary.status.outcome == Outcome::ok; };
-    if (c.cells.empty() || std::any_of(c.cells.begin(), c.cells.end(), good)) return store::done;
-    return std::all_of(c.cells.begin(), c.cells.end(), [](const compare::Cell& cell) { return cell.refused; }) ? store::refused
-                                                                                                               : store::run_failed;
+    if (c.cells.empty() || std::any_of(c.cells.begin(), c.cells.end(), good)) return exit_code::done;
+    return std::all_of(c.cells.begin(), c.cells.end(), [](const compare::Cell& cell) { return cell.refused; }) ? exit_code::refused
+                                                                                                               : exit_code::run_failed;
 }
 
 std::string floor_text(const compare::Comparison& c) {
@@ -72,7 +73,7 @@ std::string certificate_text(const compare::Comparison& c) {
 }  // namespace
 
 int compare_command(const CompareCall& r) {
-    const store::Console console(r.json, r.quiet);
+    const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     if (!r.out.empty()) make_folder(r.out);
@@ -105,12 +106,12 @@ int compare_command(const CompareCall& r) {
     console.print(headline_text(cells) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (!r.out.empty()) console.print("written: " + r.out);
-    const int code = exit_code(c);
+    const int code = code_of(c);
     console.print_json(store::indented({{"scene", c.scene.name},
                                         {"reference", c.reference_name},
-                                        {"status", code == store::done      ? "ok"
-                                                   : code == store::refused ? "refused"
-                                                                            : "failed"},
+                                        {"status", code == exit_code::done      ? "ok"
+                                                   : code == exit_code::refused ? "refused"
+                                                                                : "failed"},
                                         {"manifest", Json::parse(manifest)},
                                         {"cells", Json::parse(store::rows_json(compare::with_bounds(cells)))},
                                         {"cheapest", Json::parse(store::rows_json(cheapest))},

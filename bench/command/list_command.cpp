@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/commands.hpp"
+#include "bench/command/console.hpp"
 #include "bench/command/list_seam.hpp"
 #include "bench/compare/catalogue.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/suite/suite_file.hpp"
 #include "scenes/scene_file.hpp"
@@ -126,7 +126,7 @@ std::string suites_text() {
 }  // namespace
 
 int list_command(const ListRequest& r) {
-    const store::Console console(r.json, r.quiet);
+    const Console console(r.json, r.quiet);
     Shelf shelf{compare::Catalogue(r.plugins), {}, {}};
     const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
     if (asked("scenes"))
@@ -143,7 +143,7 @@ int list_command(const ListRequest& r) {
                                                       : list_descriptors("", all).markdown;
         console.print(table);
         console.print_json(store::indented({{"markdown", table}}));
-        return store::done;
+        return exit_code::done;
     }
     Json json = Json::object();
     std::string text;
@@ -167,7 +167,7 @@ int list_command(const ListRequest& r) {
     text.pop_back();
     console.print(text);
     console.print_json(store::indented(json));
-    return store::done;
+    return exit_code::done;
 }
 
 }  // namespace jvari::bench::command

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/commands.hpp"
+#include "bench/command/console.hpp"
 #include "bench/report/report.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/indented.hpp"
 
 namespace jvari::bench::command {
@@ -15,14 +15,14 @@ namespace fs = std::filesystem;
 }  // namespace
 
 int report_command(const ReportRequest& r) {
-    const store::Console console(r.json, r.quiet);
+    const Console console(r.json, r.quiet);
     Json files = Json::array();
     for (const std::string& name : report::write_report(r.folder, console)) {
         files.push_back((fs::path(r.folder) / name).string());
         console.print("written: " + (fs::path(r.folder) / name).string());
     }
     console.print_json(store::indented({{"folder", r.folder}, {"files", files}}));
-    return store::done;
+    return exit_code::done;
 }
 
 }  // namespace jvari::bench::command

@@ -5,14 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/commands.hpp"
+#include "bench/command/console.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/summary.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/trace_file.hpp"
+#include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::command {
@@ -102,7 +103,7 @@ store::TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene&
 }  // namespace
 
 int run_command(const RunRequest& r) {
-    const store::Console console(r.json, r.quiet);
+    const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
@@ -116,10 +117,10 @@ int run_command(const RunRequest& r) {
 
     Run result;
     {
-        store::Console::Progress progress(console, fmt::format("{} on {}", d.name, scene.name));
+        const auto progress = console.begin(fmt::format("{} on {}", d.name, scene.name));
         RunOptions options;
         options.energy = r.energy;
-        options.progress = [&progress](long done, long rows) { progress.show(static_cast<double>(done) / static_cast<double>(rows)); };
+        options.progress = [&progress](long done, long rows) { progress->show(static_cast<double>(done) / static_cast<double>(rows)); };
         options.slow = [&](long done, long rows, const std::vector<Fact>& facts) {
             console.note(fmt::format("{} on {}: {} of {} rows in {} s{}", d.name, scene.name, done, rows, long_run, dearest(facts)));
         };
@@ -136,9 +137,9 @@ int run_command(const RunRequest& r) {
     }
     console.print(text);
     console.print_json(store::indented(json));
-    if (result.status.outcome == Outcome::ok) return store::done;
+    if (result.status.outcome == Outcome::ok) return exit_code::done;
     console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome), result.status.step, result.trace.rows));
-    return store::run_failed;
+    return exit_code::run_failed;
 }
 
 }  // namespace jvari::bench::command

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "bench/command/commands.hpp"
+#include "bench/command/console.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
@@ -88,10 +89,10 @@ std::string kept_text(const suite::SuitePlan& plan, const suite::Suite& suite, c
     return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", text, folder.string());
 }
 
-int exit_code(const std::vector<suite::SuiteRecord>& records) {
+int code_of(const std::vector<suite::SuiteRecord>& records) {
     const auto is = [](const char* status) { return [status](const suite::SuiteRecord& r) { return r.row.at(0, "status") == status; }; };
-    if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return store::done;  // empty: a suite of maps alone
-    return std::all_of(records.begin(), records.end(), is("refused")) ? store::refused : store::run_failed;
+    if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return exit_code::done;  // empty: a suite of maps alone
+    return std::all_of(records.begin(), records.end(), is("refused")) ? exit_code::refused : exit_code::run_failed;
 }
 
 void make_folder(const fs::path& folder) {
@@ -106,7 +107,7 @@ void make_folder(const fs::path& folder) {
 }  // namespace
 
 int suite_command(const SuiteRequest& r) {
-    const store::Console console(r.json, r.quiet);
+    const Console console(r.json, r.quiet);
     if (r.resume && r.out.empty()) throw store::UsageError("--resume: there is no --out DIR to resume from");
     const suite::Suite suite = suite::read_suite(r.suite);
     const compare::Catalogue catalogue(r.plugins);
@@ -151,8 +152,8 @@ int suite_command(const SuiteRequest& r) {
     if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (!r.out.empty()) console.print("written: " + folder.string());
-    const int code = exit_code(run.records);
-    const char* status = code == store::done ? "ok" : code == store::refused ? "refused" : "failed";
+    const int code = code_of(run.records);
+    const char* status = code == exit_code::done ? "ok" : code == exit_code::refused ? "refused" : "failed";
     console.print_json(store::indented({{"suite", suite.name},
                                         {"status", status},
                                         {"ran", run.ran},

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "bench/store/console.hpp"
+#include "bench/store/listener.hpp"
+#include "bench/store/usage.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/registry.hpp"
@@ -42,10 +43,10 @@ bool Catalogue::is_reference(const Descriptor& d) const {
     return std::find(references.begin(), references.end(), &d) != references.end();
 }
 
-void note_slow_plugins(const store::Console& console) {
+void note_slow_plugins(const store::Listener& listener) {
     for (const LoadedPlugin& l : loaded_plugins())
         if (!l.plugin->optimised)
-            console.note("warning: plugin " + l.path + " is compiled without optimisation: its times say nothing of its schemes");
+            listener.note("warning: plugin " + l.path + " is compiled without optimisation: its times say nothing of its schemes");
 }
 
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration) {

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/store/console.hpp"
+#include "bench/store/listener.hpp"
+#include "bench/store/usage.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari::bench::compare {
@@ -20,7 +21,7 @@ struct Catalogue {
 };
 
 // Warns of plugins that were compiled without optimisation.
-void note_slow_plugins(const store::Console&);
+void note_slow_plugins(const store::Listener&);
 
 // A file or a library name, with overrides "key.path=value"; throws SceneFileError, BadScene or UsageError.
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration);

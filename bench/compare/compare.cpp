@@ -78,7 +78,7 @@ std::string certify_command(const CompareRequest& r, const Comparison& c) {  // 
 }
 }  // namespace
 
-Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const store::Console& console,
+Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const store::Listener& listener,
                         double time_limit) {
     std::string refusals;
     bool ordered = false;
@@ -86,14 +86,14 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
     for (std::size_t k = 0; k < in_turn.size(); ++k) try {
             if (in_turn[k].oversampled && k + 1 < in_turn.size() && !ordered) {
                 const std::span<ReferenceChoice> rest(in_turn.begin() + static_cast<long>(k), in_turn.end());
-                store::side_by_side({1}, 1, console, "stand-in", [&](std::size_t, store::Done& done) {
+                store::side_by_side({1}, 1, listener, "stand-in", [&](std::size_t, store::Done& done) {
                     least_error_first(rest, scene, within(time_limit, told_to(done)));
                 });
                 ordered = true;
             }
             const ReferenceChoice& choice = in_turn[k];
             Reference r{choice, {}, {}, {}};
-            store::side_by_side({1, 1}, jobs, console, "reference", [&](std::size_t i, store::Done& done) {
+            store::side_by_side({1, 1}, jobs, listener, "reference", [&](std::size_t i, store::Done& done) {
                 const ProgressOf progress = within(time_limit, told_to(done));
                 if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress);
                 else if (choice.oversampled) run_oversampled(r, scene, progress);
@@ -127,17 +127,17 @@ Trace measure(Cell& cell, const Scene& scene, const Trace* truth, const Trace* m
     return std::move(result.trace);
 }
 
-Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Console& console) {
+Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener) {
     Comparison c;
     c.scene = load_scene(request.scene, request.set, request.duration);
     c.headline = headline_of(c.scene);
     const Plan plan = plan_of(request, catalogue, c.scene);
-    for (const std::string& note : plan.notes) console.note(note);
+    for (const std::string& note : plan.notes) listener.note(note);
     c.cells = plan.cells;
 
-    const Reference model = run_reference(plan.references, c.scene, request.jobs, console);
+    const Reference model = run_reference(plan.references, c.scene, request.jobs, listener);
     std::optional<Truth> truth;
-    if (request.reference_modes) truth = run_truth(plan.references, c.scene, *request.reference_modes, request.jobs, console);
+    if (request.reference_modes) truth = run_truth(plan.references, c.scene, *request.reference_modes, request.jobs, listener);
     const Reference& reference = truth ? truth->reference : model;
     if (truth) {
         c.truth = truth->said;
@@ -152,18 +152,18 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     c.reference_summary = summary_of(*c.reference, c.scene, c.reference_settings, reference.run);
     c.floor = errors_of(reference.moved.trace, reference.run.trace);
     c.reference_sound = store::sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
-    if (!c.reference_note.empty()) console.note(c.reference_note);
+    if (!c.reference_note.empty()) listener.note(c.reference_note);
     if (!c.trust.any())
-        console.note(reference.choice.oversampled
-                         ? c.reference_name + " has no estimate of its own error: " + c.trust.missing
-                         : fmt::format("{}: the errors have none. To make one: {}", c.trust.missing, certify_command(request, c)));
+        listener.note(reference.choice.oversampled
+                          ? c.reference_name + " has no estimate of its own error: " + c.trust.missing
+                          : fmt::format("{}: the errors have none. To make one: {}", c.trust.missing, certify_command(request, c)));
     if (reference.run.status.outcome != Outcome::ok)
-        console.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
-                                 name_of(reference.run.status.outcome), c.reference_summary.duration));
+        listener.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
+                                  name_of(reference.run.status.outcome), c.reference_summary.duration));
 
     std::vector<double> sizes;
     for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0));
-    store::side_by_side(sizes, request.jobs, console, "errors", [&](std::size_t i, store::Done& done) {
+    store::side_by_side(sizes, request.jobs, listener, "errors", [&](std::size_t i, store::Done& done) {
         Cell& cell = c.cells[i];
         try {
             const Trace trace = measure(cell, c.scene, &reference.run.trace, &model.run.trace, told_to(done));
@@ -175,7 +175,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     });
     std::vector<Contender> contenders;
     for (Cell& cell : c.cells) contenders.push_back({&cell, &c.scene});
-    time_cells(contenders, request.repeats, console);
+    time_cells(contenders, request.repeats, listener);
     return c;
 }
 

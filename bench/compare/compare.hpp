@@ -13,8 +13,9 @@
 #include "bench/compare/errors.hpp"
 #include "bench/compare/request.hpp"
 #include "bench/compare/summary.hpp"
-#include "bench/store/console.hpp"
+#include "bench/store/listener.hpp"
 #include "bench/store/sound.hpp"
+#include "bench/store/usage.hpp"
 #include "bench/trust/certificate_library.hpp"
 
 namespace jvari::bench::compare {
@@ -50,6 +51,6 @@ struct Comparison {
     std::vector<Cell> cells;
 };
 
-Comparison compare(const CompareRequest&, const Catalogue&, const store::Console&);  // throws UsageError, BadScene, Refusal
+Comparison compare(const CompareRequest&, const Catalogue&, const store::Listener&);  // throws UsageError, BadScene, Refusal
 
 }  // namespace jvari::bench::compare

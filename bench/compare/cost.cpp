@@ -35,7 +35,7 @@ double sample(const Timed& t) {
 }
 }  // namespace
 
-void time_cells(const std::vector<Contender>& contenders, int repeats, const store::Console& console) {
+void time_cells(const std::vector<Contender>& contenders, int repeats, const store::Listener& listener) {
     std::vector<Timed> timed;
     double work = 0, finished = 0;
     for (const Contender& c : contenders) {
@@ -49,12 +49,12 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
     // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike
     std::stable_sort(timed.begin(), timed.end(),
                      [](const Timed& a, const Timed& b) { return a.cell->settings.sample_rate < b.cell->settings.sample_rate; });
-    store::Console::Progress progress(console, "cost");
+    const auto progress = listener.begin("cost");
     for (int round = 0; round < repeats; ++round)
         for (Timed& t : timed) {
             if (round >= t.repeats) continue;
-            progress.show(finished / work,
-                          fmt::format("round {}: {} at {} Hz", round + 1, t.cell->scheme->name, t.cell->settings.sample_rate));
+            progress->show(finished / work,
+                           fmt::format("round {}: {} at {} Hz", round + 1, t.cell->scheme->name, t.cell->settings.sample_rate));
             t.samples.push_back(sample(t));
             finished += t.cell->summary.wall_seconds * t.runs;
         }

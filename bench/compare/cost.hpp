@@ -18,6 +18,6 @@ struct Contender {
     const Scene* scene;
     bool probe = false;  // timed with the energy probe on: what the probe costs
 };
-void time_cells(const std::vector<Contender>&, int repeats, const store::Console&);
+void time_cells(const std::vector<Contender>&, int repeats, const store::Listener&);
 
 }  // namespace jvari::bench::compare

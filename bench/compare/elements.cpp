@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "bench/store/console.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::compare {
 

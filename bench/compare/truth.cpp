@@ -73,13 +73,13 @@ trust::Trust trust_of(const trust::Trust& solved, const Run& more, const Run& fe
 }
 }  // namespace
 
-Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes, int jobs, const store::Console& console,
+Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes, int jobs, const store::Listener& listener,
                 double time_limit) {
     const bool find = modes == 0;
     std::vector<ReferenceChoice> first;
     for (const ReferenceChoice& c : choices)
         first.push_back(c.oversampled ? c : sized(c, {find ? first_size(scene, c.settings.options).modes : std::max(1, modes / 2), 0}));
-    Truth truth{run_reference(first, scene, jobs, console, time_limit), {}};
+    Truth truth{run_reference(first, scene, jobs, listener, time_limit), {}};
     if (truth.reference.choice.oversampled) {
         truth.said = "a stand-in, as it is: no modes to double";
         return truth;
@@ -93,7 +93,7 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         Reference fewer = std::move(truth.reference);
         size = find ? size.twice() : Size{modes, 0};
         try {
-            truth.reference = run_reference({sized(choice, size)}, scene, jobs, console, time_limit);
+            truth.reference = run_reference({sized(choice, size)}, scene, jobs, listener, time_limit);
         } catch (const BadScene&) {  // no string has as many, or there are no more that were measured
             truth.reference = std::move(fewer);
             size = size.half();

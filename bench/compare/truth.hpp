@@ -26,7 +26,7 @@ struct Truth {
     std::string said;
     double horizon = std::numeric_limits<double>::quiet_NaN();  // [s], of the headline against itself with half the modes and points
 };
-Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, int jobs, const store::Console&,
+Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, int jobs, const store::Listener&,
                 double time_limit = HUGE_VAL);
 
 }  // namespace jvari::bench::compare

@@ -29,7 +29,7 @@ Verdict verdict_called(const std::string& name) {
 }
 }  // namespace
 
-std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jobs, const store::Console& console) {
+std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jobs, const store::Listener& listener) {
     std::map<std::pair<std::string, Verdict>, const JudgedPoint*> cheapest;
     for (const JudgedPoint& p : run.points) {
         const Verdict v = p.tried.judgement.verdict;
@@ -40,7 +40,7 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
     std::vector<Reproducer> all;
     for (const auto& [key, point] : cheapest)
         all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)), trial_at(point->at), point->tried.judgement});
-    store::side_by_side(std::vector<double>(all.size(), 1), jobs, console, "failures", [&](std::size_t i, store::Done&) {
+    store::side_by_side(std::vector<double>(all.size(), 1), jobs, listener, "failures", [&](std::size_t i, store::Done&) {
         const Verdict wanted = all[i].expected.verdict;
         all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths).judgement.verdict == wanted; });
         all[i].trial.scene.name += "_minimised";

@@ -17,7 +17,7 @@ struct Reproducer {
 };
 
 // Of each scheme and outcome that is neither sound nor refused, the failure that took the fewest steps, among maps that reproduce theirs.
-std::vector<Reproducer> reproducers_of(const MapRun&, Truths&, int jobs, const store::Console&);
+std::vector<Reproducer> reproducers_of(const MapRun&, Truths&, int jobs, const store::Listener&);
 
 void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>&);
 std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const compare::Catalogue&);

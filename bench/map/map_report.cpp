@@ -9,7 +9,7 @@ namespace jvari::bench::map {
 namespace fs = std::filesystem;
 
 RecordedMaps run_and_record_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogue, const MapRequest& r,
-                                 const store::Console& console) {
+                                 const store::Listener& listener) {
     if (maps.empty()) return {};
     const bool kept = !r.folder.empty();
     if (kept)
@@ -19,7 +19,7 @@ RecordedMaps run_and_record_maps(const std::vector<Map>& maps, const compare::Ca
             store::must_be_writable(r.folder / name / "any");
         }
     Truths truths(catalogue);
-    const MapRun run = run_maps(maps, truths, r.program, kept ? r.folder / "points" : fs::path(), r.resume, r.jobs, console);
+    const MapRun run = run_maps(maps, truths, r.program, kept ? r.folder / "points" : fs::path(), r.resume, r.jobs, listener);
     RecordedMaps recorded{{}, maps_text(run)};
     if (!kept) return recorded;
     const auto write = [&](const fs::path& name, const std::string& content) {
@@ -27,7 +27,7 @@ RecordedMaps run_and_record_maps(const std::vector<Map>& maps, const compare::Ca
         recorded.files.push_back((r.folder / name).string());
     };
     write("maps.csv", store::csv(maps_table(run)));
-    const std::vector<Reproducer> failures = reproducers_of(run, truths, r.jobs, console);
+    const std::vector<Reproducer> failures = reproducers_of(run, truths, r.jobs, listener);
     Reproducers files_of;
     for (const Reproducer& f : failures) files_of[{f.trial.scheme->name, f.expected.verdict}] = "failures/" + f.file;
     write_failures(r.folder / "failures", failures);

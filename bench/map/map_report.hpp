@@ -9,7 +9,7 @@
 #include "bench/map/map_file.hpp"
 
 namespace jvari::bench::store {
-class Console;
+class Listener;
 }
 
 namespace jvari::bench::map {
@@ -25,6 +25,6 @@ struct RecordedMaps {
     std::vector<std::string> files;  // written
     std::string text;                // for the terminal; "" where there are no maps
 };
-RecordedMaps run_and_record_maps(const std::vector<Map>&, const compare::Catalogue&, const MapRequest&, const store::Console&);
+RecordedMaps run_and_record_maps(const std::vector<Map>&, const compare::Catalogue&, const MapRequest&, const store::Listener&);
 
 }  // namespace jvari::bench::map

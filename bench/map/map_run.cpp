@@ -170,7 +170,7 @@ double Boundary::relative_difference() const {
 }
 
 MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string& program, const fs::path& folder, bool resume, int jobs,
-                const store::Console& console) {
+                const store::Listener& listener) {
     MapRun result;
     for (const Map& m : maps) {
         if (!m.reference.empty() && m.reference != "none") truths.catalogue().find(m.reference);
@@ -182,7 +182,7 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
     }
     for (const JudgedPoint& p : result.points) trial_at(p.at);  // scenes and keys that are none are said before anything runs
     Laboratory laboratory(truths, program, folder, resume);
-    store::side_by_side(std::vector<double>(result.points.size(), 1), jobs, console, "points",
+    store::side_by_side(std::vector<double>(result.points.size(), 1), jobs, listener, "points",
                         [&](std::size_t i, store::Done&) { result.points[i].tried = laboratory(result.points[i].at); });
 
     struct Pair {
@@ -195,7 +195,7 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string&
         if (same_row && !p.at.map->x.at.empty() && p.tried.judgement.verdict != q.tried.judgement.verdict) changes.push_back({&p, &q});
     }
     std::vector<std::optional<Boundary>> found(changes.size());
-    store::side_by_side(std::vector<double>(changes.size(), 1), jobs, console, "boundaries", [&](std::size_t i, store::Done&) {
+    store::side_by_side(std::vector<double>(changes.size(), 1), jobs, listener, "boundaries", [&](std::size_t i, store::Done&) {
         const JudgedPoint *low = changes[i].low, *high = changes[i].high;  // clang 14 captures no structured binding
         const MapAxis& axis = low->at.map->x;
         const Bracket b =

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/map/trial.hpp"
-#include "bench/store/console.hpp"
+#include "bench/store/listener.hpp"
 
 namespace jvari::bench::map {
 
@@ -40,7 +40,7 @@ struct MapRun {
 // `folder`: where points are kept, "" for nowhere. `program` counts into a point's address. Throws what a scene or a name that is none
 // throws, before anything is run.
 MapRun run_maps(const std::vector<Map>&, Truths&, const std::string& program, const std::filesystem::path& folder, bool resume, int jobs,
-                const store::Console&);
+                const store::Listener&);
 
 // Bisection of a change between two outcomes along one axis: `verdict_at(x)` is asked at most `times` times, at the geometric mean of
 // positive numbers and the arithmetic of others, and not between neighbours where only `whole` numbers count. Where a third outcome lies

@@ -167,12 +167,12 @@ std::string figure_spec(const suite::Figure& f, const store::Table& t) {
 
 std::vector<DrawnFigure> draw_figures(const suite::Suite& suite, const suite::SuitePlan& plan,
                                       const std::vector<suite::SuiteRecord>& records, const store::Table& cells,
-                                      const store::Console& console) {
+                                      const store::Listener& listener) {
     std::vector<DrawnFigure> drawn;
     if (suite.figures.empty()) return drawn;
     const Vega vega = find_vega();
     if (!vega.missing.empty()) {
-        console.note(vega.missing);
+        listener.note(vega.missing);
         return drawn;
     }
     for (const suite::Figure& f : suite.figures) {
@@ -188,7 +188,7 @@ std::vector<DrawnFigure> draw_figures(const suite::Suite& suite, const suite::Su
         } catch (const store::UsageError& e) {
             why = e.what();
         }
-        if (!why.empty()) console.note(file + ": " + why);
+        if (!why.empty()) listener.note(file + ": " + why);
     }
     return drawn;
 }

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/store/console.hpp"
+#include "bench/store/listener.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/usage.hpp"
 #include "bench/suite/figure_file.hpp"
 #include "bench/suite/suite_record.hpp"
 
@@ -19,6 +20,6 @@ struct DrawnFigure {
 };
 // What cannot be drawn is said as a note, with the reason, and left out.
 std::vector<DrawnFigure> draw_figures(const suite::Suite&, const suite::SuitePlan&, const std::vector<suite::SuiteRecord>&,
-                                      const store::Table& cells, const store::Console&);
+                                      const store::Table& cells, const store::Listener&);
 
 }  // namespace jvari::bench::report

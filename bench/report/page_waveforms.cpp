@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report/page_sections.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/sound.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::report {
 

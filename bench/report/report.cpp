@@ -32,7 +32,7 @@ store::Table without_names(const store::Table& t) {
     return t.only({t.columns.begin() + 2, t.columns.end()});
 }
 
-std::vector<std::string> write_report(const fs::path& folder, const store::Console& console) {
+std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener) {
     const Results results = read_results(folder);
     store::must_be_writable(folder / "report.html");
     Page page;
@@ -47,7 +47,7 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Conso
     const Vega vega = find_vega();
     page.missing = vega.missing;
     if (vega.missing.empty()) page.scripts = vega_scripts(vega).value_or("");
-    else console.note(vega.missing);
+    else listener.note(vega.missing);
     for (const Section& s : page.sections)
         for (const Chart& c : s.charts)
             for (const Twin& t : c.twins) {
@@ -56,7 +56,7 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Conso
                 std::string why;
                 const auto svg = svg_of(vega, t.spec, why);
                 if (svg) store::write_fresh(folder / t.file, *svg);
-                else console.note(t.file + ": " + why);
+                else listener.note(t.file + ": " + why);
                 if (svg) written.push_back(t.file);
             }
     page.sections.push_back(picture_section(results, own));

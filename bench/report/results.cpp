@@ -11,8 +11,8 @@
 
 #include "bench/store/cell_rows.hpp"
 #include "bench/store/checksum.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::report {
 

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <vector>
 
-#include "bench/store/console.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::store {
 

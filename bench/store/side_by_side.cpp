@@ -11,7 +11,7 @@
 
 namespace jvari::bench::store {
 
-void side_by_side(const std::vector<double>& sizes, int jobs, const Console& console, const std::string& label,
+void side_by_side(const std::vector<double>& sizes, int jobs, const Listener& listener, const std::string& label,
                   const std::function<void(std::size_t, Done&)>& work) {
     const std::size_t count = sizes.size();
     if (jobs <= 0) jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -39,7 +39,7 @@ void side_by_side(const std::vector<double>& sizes, int jobs, const Console& con
         }
     };
     {
-        Console::Progress progress(console, label);
+        const auto progress = listener.begin(label);
         const auto start = std::chrono::steady_clock::now();
         std::vector<std::jthread> threads;
         for (std::size_t k = 0; k < std::min<std::size_t>(jobs, count); ++k) threads.emplace_back(worker);
@@ -50,7 +50,7 @@ void side_by_side(const std::vector<double>& sizes, int jobs, const Console& con
             for (std::size_t i = 0; i < count; ++i) all += sizes[i], so_far += sizes[i] * done[i].load(std::memory_order_relaxed);
             const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             const double left = so_far > 0 ? elapsed * (all - so_far) / so_far : 0;
-            progress.show(so_far / all, fmt::format("{} of {}, about {:.0f} s left", finished, count, left));
+            progress->show(so_far / all, fmt::format("{} of {}, about {:.0f} s left", finished, count, left));
         }
     }
     if (failure) std::rethrow_exception(failure);

@@ -8,9 +8,9 @@
 #include <cstring>
 #include <numeric>
 
-#include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::store {
 

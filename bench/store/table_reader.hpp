@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/store/console.hpp"
+#include "bench/store/usage.hpp"
 #include "scenes/document.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/wording.hpp"

@@ -11,10 +11,10 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/trace_hdf5.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::store {
 

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "bench/store/console.hpp"
 #include "bench/store/records.hpp"
 
 namespace jvari::bench::store {

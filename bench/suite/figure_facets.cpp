@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analysis/spectrum.hpp"
-#include "bench/store/console.hpp"
+#include "bench/store/usage.hpp"
 #include "bench/suite/figure_rows.hpp"
 
 namespace jvari::bench::suite {

@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "bench/map/map_file.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/table_reader.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::suite {
 

@@ -57,11 +57,11 @@ public:
             }
     }
 
-    void run(int jobs, const store::Console& console) {
+    void run(int jobs, const store::Listener& listener) {
         std::vector<double> sizes;
         for (const std::size_t i : todo_)
             sizes.push_back(std::max(plan_.cells[i].cell.settings.sample_rate, 44100.0) * plan_.cells[i].point->scene.duration);
-        store::side_by_side(sizes, jobs, console, "cells", [this](std::size_t k, store::Done& done) {
+        store::side_by_side(sizes, jobs, listener, "cells", [this](std::size_t k, store::Done& done) {
             const PlannedCell& planned = plan_.cells[todo_[k]];
             SuiteRecord& record = into_.records[todo_[k]];
             record = cell(planned, done);
@@ -73,7 +73,7 @@ private:
     SuiteRecord cell(const PlannedCell& planned, store::Done& fraction) {
         const double limit = planned.set->time_limit.value_or(HUGE_VAL);
         const PlannedPoint& point = *planned.point;
-        const store::Console silent(false, true);
+        const store::Listener silent;
         Known *model = nullptr, *truth = nullptr;
         if (planned.set->measures(Facet::errors)) {
             model = truth = known_.at(point.reference_key).get();
@@ -133,7 +133,7 @@ private:
 };
 
 // Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.
-void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, SuiteRun& into, const store::Console& console) {
+void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, SuiteRun& into, const store::Listener& listener) {
     for (store::Rows indices : sets_of(plan)) {
         const CellSet& set = *plan.cells[indices.front()].set;
         std::erase_if(indices, [&into](std::size_t i) { return !into.records[i].ran || into.records[i].timed; });
@@ -148,7 +148,7 @@ void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, Su
             const PlannedPoint& p = *plan.cells[indices[k]].point;
             contenders.push_back({&cells[k], &p.scene, p.element == compare::Element::probe});
         }
-        compare::time_cells(contenders, set.repeats, console);
+        compare::time_cells(contenders, set.repeats, listener);
         for (std::size_t k = 0; k < indices.size(); ++k) {
             const PlannedCell& planned = plan.cells[indices[k]];
             SuiteRecord& record = into.records[indices[k]];
@@ -160,7 +160,7 @@ void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, Su
 }
 }  // namespace
 
-SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const store::Console& console) {
+SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const store::Listener& listener) {
     SuiteRun result;
     result.records.resize(plan.cells.size());
     std::vector<std::size_t> missing;
@@ -172,8 +172,8 @@ SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, b
     }
     result.ran = static_cast<int>(missing.size());
     result.read_back = static_cast<int>(plan.cells.size() - missing.size());
-    if (!missing.empty()) Accuracy(plan, std::move(missing), folder, result).run(jobs, console);
-    time_missing(plan, folder, result, console);
+    if (!missing.empty()) Accuracy(plan, std::move(missing), folder, result).run(jobs, listener);
+    time_missing(plan, folder, result, listener);
     return result;
 }
 

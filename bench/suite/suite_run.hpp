@@ -17,6 +17,6 @@ struct SuiteRun {
 };
 
 // `folder`: where cells are kept, "" for nowhere. `resume`: read back what lies there. `jobs` threads (0: as many as there are cores).
-SuiteRun run_suite(const SuitePlan&, const std::filesystem::path& folder, bool resume, int jobs, const store::Console&);
+SuiteRun run_suite(const SuitePlan&, const std::filesystem::path& folder, bool resume, int jobs, const store::Listener&);
 
 }  // namespace jvari::bench::suite

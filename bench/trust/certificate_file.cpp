@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/outcome_name.hpp"
+#include "bench/store/usage.hpp"
 #include "bench/store/whole.hpp"
 #include "scenes/scene_file.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "bench/store/checksum.hpp"
-#include "bench/store/console.hpp"
 #include "bench/store/sound.hpp"
+#include "bench/store/usage.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "fuzz.hpp"
 

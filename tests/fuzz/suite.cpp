@@ -1,5 +1,5 @@
 // Whatever bytes come, a suite is read or refused with SceneFileError or UsageError; what is read can be spread out to its points.
-#include "bench/store/console.hpp"
+#include "bench/store/usage.hpp"
 #include "bench/suite/suite_file.hpp"
 #include "fuzz.hpp"
 #include "scenes/scene_file.hpp"

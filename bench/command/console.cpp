@@ -1,0 +1,100 @@
+#include "bench/command/console.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+
+#include "bench/store/interruption.hpp"
+#include "bench/store/usage.hpp"
+
+namespace jvari::bench::command {
+
+namespace {
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+void clear_line() {
+    std::fputs("\r\033[K", stderr);
+}
+
+void put(const std::string& text) {
+    const std::string line = text + "\n";
+    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
+        throw store::Unwritable(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+}
+
+class OnTerminal : public store::Progress {
+public:
+    explicit OnTerminal(std::string job) : job_(std::move(job)) {}
+    ~OnTerminal() override {
+        if (shown_) clear_line();
+    }
+    void show(double fraction, const std::string& what) override {
+        const auto now = Clock::now();
+        if (now - start_ < 2s || now - last_ < 200ms) return;
+        last_ = now;
+        const store::Undisturbed line;
+        if (!shown_) shown_.emplace(clear_line);
+        std::fputs(fmt::format("\r\033[K{} {:3.0f} % {}", job_, 100 * fraction, what).c_str(), stderr);
+        std::fflush(stderr);
+    }
+
+private:
+    std::string job_;
+    Clock::time_point start_ = Clock::now(), last_ = start_;
+    std::optional<store::WhenInterrupted> shown_;  // the line is cleared at an interruption, too
+};
+
+class OffTerminal : public store::Progress {
+public:
+    explicit OffTerminal(std::string job) : job_(std::move(job)) {}
+    void show(double fraction, const std::string& what) override {
+        const auto now = Clock::now();
+        if (now - last_ < 1min) return;
+        last_ = now;
+        tell(fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what));
+    }
+
+private:
+    std::string job_;
+    Clock::time_point last_ = Clock::now();
+};
+}  // namespace
+
+void hold_standard_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) != stream) _exit(exit_code::run_failed);
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+void tell(const std::string& line) {
+    std::fputs((line + "\n").c_str(), stderr);
+}
+
+void Console::note(const std::string& text) const {
+    if (!quiet_) tell(text);
+}
+
+void Console::print(const std::string& text) const {
+    if (!json_) put(text);
+}
+
+void Console::print_json(const std::string& text) const {
+    if (json_) put(text);
+}
+
+std::unique_ptr<store::Progress> Console::begin(const std::string& job) const {
+    if (quiet_) return Listener::begin(job);
+    if (isatty(STDERR_FILENO) != 0) return std::make_unique<OnTerminal>(job);
+    return std::make_unique<OffTerminal>(job);
+}
+
+}  // namespace jvari::bench::command

@@ -1,0 +1,36 @@
+// What is said, and where: results on standard output, messages and progress on standard error.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bench/store/listener.hpp"
+
+namespace jvari::bench::command {
+
+namespace exit_code {
+constexpr int done = 0, bad_usage = 2, refused = 3, run_failed = 4;
+}
+
+// Before any file is opened: none takes the number of a standard stream that the caller closed; and what cannot be written, to a pipe that
+// nobody reads or past a limit of file size, is an error of writing (Unwritable) where by default it would be a signal and the end.
+void hold_standard_streams();
+// A line to standard error. That it could not be written is nowhere to be told.
+void tell(const std::string& line);
+
+class Console : public store::Listener {
+public:
+    Console(bool json, bool quiet) : json_(json), quiet_(quiet) {}
+    bool json() const { return json_; }
+    void note(const std::string&) const override;  // standard error, unless --quiet
+    void print(const std::string&) const;          // standard output, unless --json: the result as text; throws Unwritable
+    void print_json(const std::string&) const;     // standard output, with --json only: one object; throws Unwritable
+
+    // Once the job has taken 2 s: a line that renews itself on a terminal, elsewhere a line a minute. Nothing with --quiet.
+    std::unique_ptr<store::Progress> begin(const std::string& job) const override;
+
+private:
+    bool json_, quiet_;
+};
+
+}  // namespace jvari::bench::command

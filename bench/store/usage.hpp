@@ -1,0 +1,23 @@
+// What a caller asked for and cannot have.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace jvari::bench::store {
+
+// The caller asked for something that cannot be: the message says what was expected.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// What was to be written could not be: a full disk, a reader that went away.
+struct Unwritable : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// "unknown scheme "modal_two": did you mean modal_two_point?", or what there is.
+std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace jvari::bench::store
