@@ -358,13 +358,14 @@ const std::string small_compare =
 
 TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateTogether) {
     Shelf shelf;
-    const bench::trust::KeptCertificate kept = made(short_scene("free_string", 0.07), {10, 44100, 0, {}, {}});
+    const bench::trust::KeptCertificate kept = made(short_scene("free_string", 0.07), {133, 44100, 0, {}, {}});
     shelf.put(kept, 0.25);
     const std::string out = shelf / "out";
     const Outcome o = jvari(shelf, small_compare + "--out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
-    const double measured = bench::store::read_csv(content(out + "/cells.csv")).number(0, "error_l2_50ms");
-    EXPECT_NE(o.out.find(fmt::format("\u2264{:.2e}", measured + 0.25)), std::string::npos) << o.out;
+    const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
+    const double certain = cells.number(0, "certificate_l2_50ms");  // and to what doubling the modes changed
+    EXPECT_NE(o.out.find(fmt::format("\u2264{:.2e}", cells.number(0, "error_l2_50ms") + certain)), std::string::npos) << o.out;
     EXPECT_NE(o.out.find("within 10 %    not known"), std::string::npos) << o.out;
     EXPECT_NE(o.out.find("certain to the figures of the first line, by exact_contact and by doubling its modes (free_string.json)"),
               std::string::npos)
@@ -375,7 +376,7 @@ TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateToge
         for (std::size_t i = 0; i < 2; ++i) {
             for (const char* column : {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole", "certificate_l2_10ms_nut",
                                        "certificate_l2_whole_y03"})
-                EXPECT_EQ(t.number(i, column), 0.25) << column;
+                EXPECT_NEAR(t.number(i, column), 0.255, 0.005) << column;
             EXPECT_LT(t.number(i, "error_l2_50ms"), 0.25);  // as it was measured
         }
         EXPECT_EQ(t.columns[t.column("certificate_l2_10ms") - 1], "reason");  // what was there before keeps its place
@@ -385,34 +386,31 @@ TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateToge
     const Json certificate = Json::parse(content(out + "/manifest.json"))["reference"]["certificate"];
     EXPECT_EQ(certificate["file"], "free_string.json");
     EXPECT_EQ(certificate["key"], kept.key);
-    EXPECT_EQ(certificate["figures"]["certificate_l2_50ms_y03"], 0.25);
+    EXPECT_NEAR(certificate["figures"]["certificate_l2_50ms_y03"].get<double>(), 0.255, 0.005);
 
     shelf.put(kept, 1e-9);
     const Outcome fine = jvari(shelf, small_compare, shelf.environment);
     EXPECT_EQ(fine.out.find("\u2264"), std::string::npos) << fine.out;
-    EXPECT_NE(fine.out.find("1.00e-09"), std::string::npos) << fine.out;
 }
 
-TEST(ComparedWithACertificate, ItMustBeOfThatSceneTheseModesAndThisTapRate) {
+TEST(ComparedWithACertificate, ItMustBeOfThatSceneAndThisTapRateWhateverTheModesOfTheCells) {
     Shelf shelf;
     const auto missing = [&shelf](const std::string& arguments) {
         const Outcome o = jvari(shelf, arguments + " --json", shelf.environment);
         const Json json = Json::parse(o.out);
-        const bool none = json["cells"][0]["certificate_l2_10ms"].is_null();
+        const bool none = json["manifest"]["reference"]["certificate"].contains("missing");
         EXPECT_EQ(none, o.err.find("no certificate of this scene at these settings") != std::string::npos) << o.err;
-        EXPECT_EQ(none, json["manifest"]["reference"]["certificate"].contains("missing"));
-        if (none) {
-            EXPECT_NE(o.err.find("jvari certify free_string --modes"), std::string::npos) << o.err;
-        }
+        EXPECT_EQ(none, json["cells"][0]["certificate_l2_10ms"].get<double>() < 0.25);
+        EXPECT_EQ(none, o.err.find("jvari certify free_string --") != std::string::npos) << o.err;
         return none;
     };
     EXPECT_TRUE(missing(small_compare));
-    shelf.put(made(short_scene("free_string", 0.07), {10, 44100, 0, {}, {}}), 0.25);
+    shelf.put(made(short_scene("free_string", 0.07), {133, 44100, 0, {}, {}}), 0.25);
     EXPECT_FALSE(missing(small_compare));
     EXPECT_FALSE(missing(small_compare + "--reference exact_contact"));
     EXPECT_TRUE(missing(small_compare + "--set string.0.tension=34"));
     EXPECT_TRUE(missing(small_compare + "--tap-rate 22050"));
-    EXPECT_TRUE(missing("compare free_string --modes 11 --schemes modal_two_point --rates 44100 --duration 0.06 --repeats 1"));
+    EXPECT_FALSE(missing("compare free_string --modes 11 --schemes modal_two_point --rates 44100 --duration 0.06 --repeats 1"));
     fs::resize_file(shelf.path / "free_string.json", 300);
     EXPECT_TRUE(missing(small_compare));
 }

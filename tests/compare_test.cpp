@@ -10,6 +10,9 @@
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
 #include "bench/compare/pareto.hpp"
+#include "bench/compare/truth.hpp"
+#include "reference/agreement.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari {
 namespace {
@@ -328,6 +331,45 @@ TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSa
     EXPECT_TRUE(asked.notes.empty());
     for (const bench::compare::Cell& c : asked.cells) EXPECT_EQ(c.settings.modes, 300);
     EXPECT_EQ(asked.references.front().settings.modes, 300);
+}
+
+// ---- The truth: the modes that the reference is given
+
+bench::compare::Truth truth_of(int modes, const std::function<double(const Trace&)>& enough = {}) {
+    Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.01);
+    bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
+    for (auto& c : plan.references) c.kept = false;
+    return bench::compare::run_truth(plan.references, scene, modes, 1, bench::store::Listener(), HUGE_VAL, enough);
+}
+
+TEST(Truth, ModesAreDoubledUntilADoublingChangesTheHeadlineByLittleEnough) {
+    std::vector<double> seen;
+    const auto truth = truth_of(0, [&](const Trace& so_far) {
+        seen.push_back(so_far.column(0).back());
+        return 1e-2;
+    });
+    const int modes = truth.reference.choice.settings.modes;
+    ASSERT_EQ(seen.size(), modes == 266 ? 1u : modes == 532 ? 2u : 3u);
+    const Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.01);
+    const auto change = [&](int more) {  // by the reference itself
+        const auto& c = truth.reference.choice;
+        Settings many = c.settings, few = c.settings;
+        many.modes = more;
+        few.modes = more / 2;
+        const jvari::Run a = run(*c.scheme, scene, many), b = run(*c.scheme, scene, few);
+        const int nut = bench::compare::headline_of(scene).nut;
+        return relative_difference(b.trace.column(nut), a.trace.column(nut), a.trace.tap_rate, 10e-3);
+    };
+    EXPECT_LT(change(modes), 1e-2);
+    EXPECT_GT(change(modes / 2), 1e-2);
+    // what the last doubling left out is in what the reference is certain to
+    EXPECT_GT(truth.reference.trust.of_scene(bench::compare::headline_of(scene).nut, 0), 0.3 * change(modes));
+    EXPECT_EQ(truth.said.find("budget"), std::string::npos) << truth.said;
+}
+
+TEST(Truth, OneDoublingIsMadeWhereNoErrorIsShownAndAGivenNumberIsTaken) {
+    EXPECT_EQ(truth_of(0, [](const Trace&) { return HUGE_VAL; }).reference.choice.settings.modes, 266);
+    EXPECT_EQ(truth_of(200).reference.choice.settings.modes, 200);
 }
 
 }  // namespace

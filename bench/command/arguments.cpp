@@ -149,8 +149,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->type_name("NAME");
     compare_verb
         ->add_option("--reference-modes", compare.reference_modes,
-                     "modes of the reference; 0: doubled until nothing moves, and the points of a profile with them; absent: those of the "
-                     "schemes, and errors are of a string cut off there")
+                     "modes of the reference; 0: doubled until nothing moves, and the points of a profile with them; absent: until no "
+                     "error that is shown depends on it")
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);
     compare_verb->add_option("--duration", compare.duration, "in place of the scene's")->type_name("S")->check(positive);

@@ -52,8 +52,7 @@ std::string floor_text(const compare::Comparison& c) {
 // What the reference is, and for how long two of its kind stay together: beyond that no waveform error says anything.
 std::string truth_text(const compare::Comparison& c) {
     const auto until = [&c](double t) { return t >= c.scene.duration - 1e-3 ? std::string("to the end") : fmt::format("to {:.4g} s", t); };
-    std::string text =
-        "reference: " + (c.truth.empty() ? fmt::format("{} modes, those of the schemes", c.reference_settings.modes) : c.truth);
+    std::string text = "reference: " + c.truth;
     text +=
         fmt::format("\nits horizon: within 10 % of itself {} when started 1e-12 apart", until(compare::horizon_of(c.floor, c.headline)));
     if (!std::isnan(c.horizon)) text += fmt::format(", {} with half of its modes", until(c.horizon));
@@ -68,7 +67,7 @@ std::string certificate_text(const compare::Comparison& c) {
     return fmt::format("{} is certain to the figures of the first line, by {}{}", c.reference_name, by,
                        t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + ")") +
            (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
-           (c.reference_note.empty() ? "" : "\n" + c.reference_note);
+           (t.missing.empty() ? "" : "; for the rest: " + t.missing) + (c.reference_note.empty() ? "" : "\n" + c.reference_note);
 }
 }  // namespace
 

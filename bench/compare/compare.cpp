@@ -13,6 +13,7 @@
 #include "bench/compare/truth.hpp"
 #include "bench/store/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
+#include "reference/agreement.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::compare {
@@ -69,8 +70,6 @@ void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene, c
 
 std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
     std::string text = "jvari certify " + r.scene;
-    const int modes = c.reference_settings.modes;
-    if (modes > 0 && modes != modes_for(c.scene.strings.at(0), {0, 0, 0, {}})) text += fmt::format(" --modes {}", modes);
     if (r.duration) text += fmt::format(" --duration {:.6g}", *r.duration);
     if (c.reference_settings.tap_rate != 44100) text += fmt::format(" --tap-rate {:.12g}", c.reference_settings.tap_rate);
     for (const std::string& set : r.set) text += " --set " + set;
@@ -113,19 +112,34 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
     throw Refusal("reference: none represents scene " + scene.name + refusals);
 }
 
-Trace measure(Cell& cell, const Scene& scene, const Trace* truth, const Trace* model, const ProgressOf& progress) {
+Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
     RunOptions options;
     options.energy = true;
     options.progress = progress;
     Run result = run(*cell.scheme, scene, cell.settings, options);
     cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
-    if (truth) cell.errors = errors_of(result.trace, *truth);
-    if (model) cell.in_model = model == truth ? cell.errors : errors_of(result.trace, *model);
     if (result.status.outcome != Outcome::ok)
         cell.reason =
             fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
     return std::move(result.trace);
 }
+
+void judge(Cell& cell, const Trace& done, const Trace& truth, const Trace& model) {
+    cell.errors = errors_of(done, truth);
+    cell.in_model = &model == &truth ? cell.errors : errors_of(done, model);
+}
+
+namespace {
+// The least headline error of the cells that reached the end of its window [s]; infinite where none did.
+double least_error(const Comparison& c, const std::vector<Trace>& cells, const Trace& truth, double window) {
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (!c.cells[i].refused && c.cells[i].reason.empty())
+            least =
+                std::min(least, relative_difference(cells[i].column(c.headline.nut), truth.column(c.headline.nut), truth.tap_rate, window));
+    return least;
+}
+}  // namespace
 
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener) {
     Comparison c;
@@ -136,13 +150,33 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     c.cells = plan.cells;
 
     const Reference model = run_reference(plan.references, c.scene, request.jobs, listener);
-    std::optional<Truth> truth;
-    if (request.reference_modes) truth = run_truth(plan.references, c.scene, *request.reference_modes, request.jobs, listener);
-    const Reference& reference = truth ? truth->reference : model;
-    if (truth) {
-        c.truth = truth->said;
-        c.horizon = truth->horizon;
-    }
+
+    std::vector<double> sizes;
+    for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0));
+    const auto each_cell = [&](const char* label, const std::function<void(std::size_t, const ProgressOf&)>& work) {
+        store::side_by_side(sizes, request.jobs, listener, label, [&](std::size_t i, store::Done& done) {
+            if (c.cells[i].refused) return;
+            try {
+                work(i, told_to(done));
+            } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
+                c.cells[i].refused = true;
+                c.cells[i].reason = e.what();
+            }
+        });
+    };
+    // Unless it is given, the size of the truth follows from the errors that there are to show: cells run over the headline's window first.
+    Scene shown = c.scene;
+    shown.duration = std::min(shown.duration, headline_window(shown.duration));
+    std::vector<Trace> early(c.cells.size());
+    if (!request.reference_modes)
+        each_cell("cells", [&](std::size_t i, const ProgressOf& progress) { early[i] = run_cell(c.cells[i], shown, progress); });
+    const Truth truth = run_truth(plan.references, c.scene, request.reference_modes.value_or(0), request.jobs, listener, HUGE_VAL,
+                                  request.reference_modes ? nullptr : std::function([&](const Trace& so_far) {
+                                      return 0.1 * least_error(c, early, so_far, shown.duration);
+                                  }));
+    const Reference& reference = truth.reference;
+    c.truth = truth.said;
+    c.horizon = truth.horizon;
     c.model_trust = model.trust;
     c.reference = reference.choice.scheme;
     c.reference_name = reference.choice.name();
@@ -153,25 +187,20 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     c.floor = errors_of(reference.moved.trace, reference.run.trace);
     c.reference_sound = store::sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
     if (!c.reference_note.empty()) listener.note(c.reference_note);
-    if (!c.trust.any())
-        listener.note(reference.choice.oversampled
-                          ? c.reference_name + " has no estimate of its own error: " + c.trust.missing
-                          : fmt::format("{}: the errors have none. To make one: {}", c.trust.missing, certify_command(request, c)));
+    if (!c.trust.missing.empty())
+        listener.note(reference.choice.oversampled ? c.reference_name + " has no estimate of its own error: " + c.trust.missing
+                                                   : fmt::format("{}: how well {} solves its equations is not known. To make one: {}",
+                                                                 c.trust.missing, c.reference_name, certify_command(request, c)));
     if (reference.run.status.outcome != Outcome::ok)
         listener.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
                                   name_of(reference.run.status.outcome), c.reference_summary.duration));
 
-    std::vector<double> sizes;
-    for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0));
-    store::side_by_side(sizes, request.jobs, listener, "errors", [&](std::size_t i, store::Done& done) {
+    const bool all_shown = !request.reference_modes && shown.duration >= c.scene.duration;
+    each_cell("errors", [&](std::size_t i, const ProgressOf& progress) {
         Cell& cell = c.cells[i];
-        try {
-            const Trace trace = measure(cell, c.scene, &reference.run.trace, &model.run.trace, told_to(done));
-            if (cell.reason.empty()) cell.sound = store::sound_of(trace.column(c.headline.nut), trace.tap_rate);
-        } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
-            cell.refused = true;
-            cell.reason = e.what();
-        }
+        const Trace trace = all_shown ? std::move(early[i]) : run_cell(cell, c.scene, progress);
+        judge(cell, trace, reference.run.trace, model.run.trace);
+        if (cell.reason.empty()) cell.sound = store::sound_of(trace.column(c.headline.nut), trace.tap_rate);
     });
     std::vector<Contender> contenders;
     for (Cell& cell : c.cells) contenders.push_back({&cell, &c.scene});

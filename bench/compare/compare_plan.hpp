@@ -37,9 +37,10 @@ struct Reference {
 // runs computes for longer than `time_limit` [s]: another in its place would make the errors a matter of the machine.
 Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const store::Listener&, double time_limit = HUGE_VAL);
 
-// Runs the cell and fills summary, reason and its errors: from the truth, and from a reference of its own modes. They stay empty where that
-// is null. Throws Refusal. What `progress` throws ends it.
+// Runs the cell and fills summary and reason. Throws Refusal. What `progress` throws ends it.
 using ProgressOf = std::function<void(long done, long rows)>;
-Trace measure(Cell&, const Scene&, const Trace* truth, const Trace* model, const ProgressOf& progress);
+Trace run_cell(Cell&, const Scene&, const ProgressOf& progress);
+// Fills its errors from what it did: from the truth, and from a reference of its own modes.
+void judge(Cell&, const Trace& done, const Trace& truth, const Trace& model);
 
 }  // namespace jvari::bench::compare

@@ -171,6 +171,7 @@ Json certificate_json(const Comparison& c) {
             figures[trust::Trust::columns[w] + ("_" + c.scene.taps[tap].name)] = t.of_scene(tap, w);
     }
     Json j{{"against", t.against}};
+    if (!t.missing.empty()) j["missing"] = t.missing;  // the figures are what doubling tells
     if (!t.doubled.empty()) j["doubled"] = t.doubled;
     if (!t.file.empty()) j["file"] = std::filesystem::path(t.file).filename().string();
     if (!t.key.empty()) j["key"] = t.key;

@@ -84,6 +84,10 @@ Headline headline_of(const Scene& scene) {
     return h;
 }
 
+double headline_window(double duration) {
+    return duration >= 50e-3 ? 50e-3 : duration >= 10e-3 ? 10e-3 : HUGE_VAL;
+}
+
 double horizon_of(const Errors& errors, const Headline& h) {
     std::size_t k = 0;
     while (measures()[k].column != "horizon_s") ++k;

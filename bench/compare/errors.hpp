@@ -29,5 +29,6 @@ struct Headline {
 };
 Headline headline_of(const Scene&);
 double horizon_of(const Errors&, const Headline&);  // [s]
+double headline_window(double duration);            // the end [s] of the headline figure of the nut tap, infinite for a run below 10 ms
 
 }  // namespace jvari::bench::compare

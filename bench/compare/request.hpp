@@ -16,7 +16,7 @@ struct CompareRequest {
     std::vector<std::string> schemes;
     std::vector<double> rates;  // [Hz]
     int modes = 0;
-    std::optional<int> reference_modes;        // 0: found by doubling; absent: those of the cells
+    std::optional<int> reference_modes;        // 0: doubled until nothing moves; absent: until no error that is shown depends on it
     std::optional<double> duration, tap_rate;  // [s], [Hz]
     std::vector<std::string> set;              // overrides of the scene, "key.path=value"
     std::vector<SchemeOption> options;

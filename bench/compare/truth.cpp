@@ -47,15 +47,11 @@ ReferenceChoice sized(ReferenceChoice choice, const Size& s) {
     return choice;
 }
 
-double headline_window(double duration) {  // its end [s], that of headline_error
-    return duration >= 50e-3 ? 50e-3 : duration >= 10e-3 ? 10e-3 : HUGE_VAL;
-}
-
 double change(const Run& more, const Run& fewer, int tap, double until) {
     return relative_difference(fewer.trace.column(tap), more.trace.column(tap), more.trace.tap_rate, until);
 }
 
-// How far the model is solved is what the certificate of its first size says; what it leaves out is what the last doubling changed.
+// How far a model is solved is what the certificate of the modes below 20 kHz says; what it leaves out is what the last doubling changed.
 trust::Trust trust_of(const trust::Trust& solved, const Run& more, const Run& fewer, const Size& of) {
     trust::Trust t = solved;
     if (!t.any()) t.figure.assign(static_cast<std::size_t>(more.trace.taps()), {0, 0, 0});
@@ -74,7 +70,7 @@ trust::Trust trust_of(const trust::Trust& solved, const Run& more, const Run& fe
 }  // namespace
 
 Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes, int jobs, const store::Listener& listener,
-                double time_limit) {
+                double time_limit, const std::function<double(const Trace&)>& enough) {
     const bool find = modes == 0;
     std::vector<ReferenceChoice> first;
     for (const ReferenceChoice& c : choices)
@@ -85,11 +81,14 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         return truth;
     }
     const ReferenceChoice choice = truth.reference.choice;
+    Settings certified = choice.settings;
+    certified.modes = first_size(scene, choice.settings.options).modes;
+    const trust::Trust solved = trust::trust_of(scene, choice.scheme->name, certified, scene.duration);
     const int tap = headline_of(scene).nut;
     const double window = headline_window(scene.duration);
     Size size{choice.settings.modes, find ? first_size(scene, choice.settings.options).points : 0};
-    double moved_by = HUGE_VAL;
-    while (find ? moved_by >= settled && within_budget(scene, size.twice()) : std::isinf(moved_by)) {
+    double moved_by = HUGE_VAL, may_move = settled;
+    while (find ? moved_by >= may_move && within_budget(scene, size.twice()) : std::isinf(moved_by)) {
         Reference fewer = std::move(truth.reference);
         size = find ? size.twice() : Size{modes, 0};
         try {
@@ -100,17 +99,18 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
             break;
         }
         Run &more = truth.reference.run, &less = fewer.run;
-        truth.reference.trust = trust_of(fewer.trust, more, less, size);
+        truth.reference.trust = trust_of(solved, more, less, size);
         moved_by = change(more, less, tap, window);
+        if (enough) may_move = std::max(settled, enough(more.trace));
         truth.horizon = horizon(less.trace.column(tap), more.trace.column(tap), more.trace.tap_rate);
     }
     const std::string figure =
         fmt::format("{} over {}", scene.taps.at(tap).name, std::isinf(window) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * window));
     truth.said = size.text();
     if (!std::isinf(moved_by)) truth.said += fmt::format("; half of them change {} by {:.1e}", figure, moved_by);
-    if (find && moved_by >= settled)
+    if (find && moved_by >= may_move)
         truth.said += fmt::format("; the budget of the reference ended the doubling{}",
-                                  std::isinf(moved_by) ? " before it began" : fmt::format(" above {:.0e}", settled));
+                                  std::isinf(moved_by) ? " before it began" : fmt::format(" above {:.0e}", may_move));
     return truth;
 }
 

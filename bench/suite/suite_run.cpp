@@ -91,8 +91,8 @@ private:
             fraction.store(static_cast<double>(done) / static_cast<double>(rows), std::memory_order_relaxed);
         };
         try {
-            trace = compare::measure(cell, point.scene, known ? truth->trace() : nullptr, known ? model->trace() : nullptr,
-                                     compare::within(limit, told));
+            trace = compare::run_cell(cell, point.scene, compare::within(limit, told));
+            if (known) compare::judge(cell, trace, *truth->trace(), *model->trace());
         } catch (const Refusal& e) {
             status = "refused";
             cell.reason = e.what();
