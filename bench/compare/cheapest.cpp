@@ -112,10 +112,11 @@ std::string cheapest_text(const store::Table& t) {
         if (t.at(i, "status") == "not_known") text += "not known: the reference is not certain enough to tell\n";
         else if (t.at(i, "status") == "none") text += "none\n";
         else
-            text += fmt::format("{}{} at {} Hz, {:.3g} s per s{}{}\n", t.at(i, "scheme"),
-                                t.at(i, "options").empty() ? "" : " " + t.at(i, "options"), t.at(i, "rate"), t.number(i, "cost_s_per_s"),
-                                t.at(i, "ties").empty() ? "" : "; a tie with " + t.at(i, "ties"),
-                                perhaps.empty() ? "" : "; perhaps for less " + perhaps);
+            text +=
+                fmt::format("{}{} {}, {:.3g} s per s{}{}\n", t.at(i, "scheme"), t.at(i, "options").empty() ? "" : " " + t.at(i, "options"),
+                            t.at(i, "rate").empty() ? "with " + t.at(i, "modes") + " modes" : "at " + t.at(i, "rate") + " Hz",
+                            t.number(i, "cost_s_per_s"), t.at(i, "ties").empty() ? "" : "; a tie with " + t.at(i, "ties"),
+                            perhaps.empty() ? "" : "; perhaps for less " + perhaps);
     }
     if (!text.empty()) text.pop_back();
     return text;
