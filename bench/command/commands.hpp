@@ -11,5 +11,6 @@ int compare_command(const CompareCall&);
 int suite_command(const SuiteRequest&);
 int certify_command(const CertifyRequest&);
 int report_command(const ReportRequest&);
+int diff_command(const DiffRequest&);
 
 }  // namespace jvari::bench::command
