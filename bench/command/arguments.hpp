@@ -58,7 +58,12 @@ struct DiffRequest : Common {
     std::string history;        // one folder, in place of the two
 };
 
-using Request = std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest, CertifyRequest, ReportRequest, DiffRequest>;
+struct CheckRequest : Common {
+    std::vector<std::string> schemes;  // none: those of the plugins
+    std::string junit;
+};
+
+using Request = std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest, CertifyRequest, ReportRequest, DiffRequest, CheckRequest>;
 
 // Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);

@@ -1,9 +1,8 @@
-#include "tests/contract_scenes.hpp"
+#include "bench/check/scenes.hpp"
 
 #include "scenes/scene_file.hpp"
-#include "tests/c3.hpp"
 
-namespace jvari {
+namespace jvari::bench::check {
 
 namespace {
 std::vector<Scene> shortened(std::vector<Scene> scenes) {
@@ -16,12 +15,31 @@ Scene named(Scene scene, const char* name) {
     return scene;
 }
 
+Scene lossless(Scene scene) {
+    for (String& s : scene.strings) {
+        s.damping = NoDamping{};
+        if (s.thread) s.thread->damping = 0;
+    }
+    return scene;
+}
+
 Scene least(bool plucked) {  // a string without stiffness and losses
-    Scene scene = named(lossless(c3_free()), "string");
+    Scene scene = named(lossless(string_at_rest()), "string");
     String& s = scene.strings.front();
     s.bending_stiffness = 0;
     if (plucked) s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5, 0.1};
     else s.initial = ModeInitial{1, 1.9e-3};
+    return scene;
+}
+
+Scene released() {  // that string over bridge and thread, let go from its first mode
+    Scene scene = string_at_rest();
+    String& s = scene.strings.front();
+    s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}};
+    s.thread = Thread{5e-3, 1.2e-3, 1.2e5, 1.2, 0};
+    s.initial = ModeInitial{1, 1.9e-3};
+    scene.taps.push_back({"bridge", Quantity::bridge_force, 0, 0});
+    scene.taps.push_back({"thread", Quantity::thread_force, 0, 0});
     return scene;
 }
 
@@ -101,16 +119,31 @@ struct Change {  // of a string: false where there is nothing to change
 };
 }  // namespace
 
+Scene string_at_rest() {
+    Scene scene;
+    scene.name = "string_at_rest";
+    scene.duration = 1;
+    String s;
+    s.length = 1.0;
+    s.linear_density = 4.83e-4;
+    s.tension = 33.1;
+    s.bending_stiffness = 6.03e-5;
+    s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6};
+    scene.strings = {s};
+    scene.taps = {{"nut", Quantity::nut_force, 0, 0}, {"y03", Quantity::displacement, 0, 0.3}};
+    return scene;
+}
+
 std::vector<Scene> contract_scenes() {
     std::vector<Scene> scenes;
     for (const std::string& name : library_scenes()) scenes.push_back(read_scene(name));
-    scenes.push_back(named(c3_free(), "rest"));
-    scenes.push_back(named(lossless(c3_release()), "lossless_release"));
-    scenes.push_back(named(lossless(c3_free()), "lossless_free"));
+    scenes.push_back(named(string_at_rest(), "rest"));
+    scenes.push_back(named(lossless(released()), "lossless_release"));
+    scenes.push_back(named(lossless(string_at_rest()), "lossless_free"));
     scenes.back().strings.front().initial = ModeInitial{2, 1e-3};
-    scenes.push_back(named(c3_pluck(), "pluck_that_starts_and_ends_between_rows"));
-    scenes.back().strings.front().pluck->start = 1.01e-3;
-    scenes.back().strings.front().pluck->duration = 2.003e-3;
+    scenes.push_back(named(released(), "pluck_that_starts_and_ends_between_rows"));
+    scenes.back().strings.front().initial.reset();
+    scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
     return shortened(scenes);
 }
 
@@ -161,4 +194,4 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
     return all;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::check
