@@ -30,7 +30,7 @@ Count count_of(const Checked& c, const Promise& p) {
     return n;
 }
 
-std::string scenes_text(const Promise& p, const Count& n) {
+std::string scenes_text(const Count& n) {
     if (!n.first || n.first->scene.empty()) return "";
     return n.broken > 0 ? fmt::format("{} of {} scenes", n.broken, n.broken + n.kept) : fmt::format("{} scenes", n.kept);
 }
@@ -82,7 +82,7 @@ std::string text_of(const Checked& c) {
         const bool tells = n.first && n.answer() == n.first->verdict.answer && !n.first->verdict.why.empty() &&
                            (n.answer() != Answer::kept || n.first->scene.empty());
         const std::string where = tells && !n.first->scene.empty() && n.broken > 0 ? n.first->scene + ": " : "";
-        const std::string scenes = scenes_text(p, n);
+        const std::string scenes = scenes_text(n);
         text += fmt::format("  {:<9}  {:<48}  {}{}{}\n", n.broken > 0 ? "BROKEN" : name_of(n.answer()), p.name, scenes,
                             tells && !scenes.empty() ? "; " : "", tells ? where + n.first->verdict.why : "");
     }
