@@ -32,15 +32,8 @@ Scene least(bool plucked) {  // a string without stiffness and losses
     return scene;
 }
 
-Scene released() {  // that string over bridge and thread, let go from its first mode
-    Scene scene = string_at_rest();
-    String& s = scene.strings.front();
-    s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}};
-    s.thread = Thread{5e-3, 1.2e-3, 1.2e5, 1.2, 0};
-    s.initial = ModeInitial{1, 1.9e-3};
-    scene.taps.push_back({"bridge", Quantity::bridge_force, 0, 0});
-    scene.taps.push_back({"thread", Quantity::thread_force, 0, 0});
-    return scene;
+Scene released() {  // over bridge and thread, let go from its first mode
+    return read_scene("tanpura_c3_release");
 }
 
 LumpedBarrier bridge_at(const String& s, int node) {  // a point, on a node where the modes have as many nodes between the ends
@@ -120,17 +113,12 @@ struct Change {  // of a string: false where there is nothing to change
 }  // namespace
 
 Scene string_at_rest() {
-    Scene scene;
-    scene.name = "string_at_rest";
-    scene.duration = 1;
-    String s;
-    s.length = 1.0;
-    s.linear_density = 4.83e-4;
-    s.tension = 33.1;
-    s.bending_stiffness = 6.03e-5;
-    s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6};
-    scene.strings = {s};
-    scene.taps = {{"nut", Quantity::nut_force, 0, 0}, {"y03", Quantity::displacement, 0, 0.3}};
+    Scene scene = released();
+    String& s = scene.strings.front();
+    s.barriers.clear();
+    s.thread.reset();
+    s.initial.reset();
+    scene.taps.resize(2);
     return scene;
 }
 

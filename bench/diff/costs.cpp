@@ -77,6 +77,8 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>
         d.notes.push_back(fmt::format("costs are of two machines and are not compared: {} and {}", a.made.machine(), b.made.machine()));
         return;
     }
+    if (a.made.system != b.made.system)
+        d.notes.push_back(fmt::format("costs are of one machine under two systems: {} and {}", a.made.system, b.made.system));
     std::vector<std::pair<std::string, std::vector<Ratio>>> series;
     for (const Ratio& r : ratios) {
         auto it = std::find_if(series.begin(), series.end(), [&r](const auto& s) { return s.first == r.series; });
