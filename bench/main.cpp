@@ -17,6 +17,8 @@ struct Verb {
     int operator()(const jvari::bench::command::SuiteRequest& r) const { return jvari::bench::command::suite_command(r); }
     int operator()(const jvari::bench::command::CertifyRequest& r) const { return jvari::bench::command::certify_command(r); }
     int operator()(const jvari::bench::command::ReportRequest& r) const { return jvari::bench::command::report_command(r); }
+    int operator()(const jvari::bench::command::DiffRequest& r) const { return jvari::bench::command::diff_command(r); }
+    int operator()(const jvari::bench::command::CheckRequest& r) const { return jvari::bench::command::check_command(r); }
 };
 
 int fail(bool json, int code, const char* status, const std::string& message) {

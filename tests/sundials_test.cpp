@@ -6,13 +6,13 @@
 #include <numbers>
 #include <random>
 
+#include "bench/check/allocations.hpp"
 #include "reference/references.hpp"
 #include "reference/string_equations.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
-#include "tests/allocations.hpp"
 #include "tests/c3.hpp"
 #include "tests/run_figures.hpp"
 

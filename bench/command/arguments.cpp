@@ -25,6 +25,8 @@ constexpr const char* examples =
     "  jvari suite paper-deshmukh --out sitar --resume         a declared set of cells, taken up where it was stopped\n"
     "  jvari certify tanpura_c3_release --duration 0.1         how far the references agree there\n"
     "  jvari report report                                     its page and picture once more\n"
+    "  jvari diff results/smoke report                         what got worse, what got better\n"
+    "  jvari check --plugin libmine.so                         does a scheme of one's own keep the contract\n"
     "\n"
     "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed, or "
     "its result could not be written (what was written stays valid).\n"
@@ -220,6 +222,33 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     report_verb->footer("Example: jvari report report");
     add_common(*report_verb, report);
 
+    DiffRequest diff;
+    auto* diff_verb = app.add_subcommand("diff", "two folders of results: what got worse, what got better, what only one has");
+    auto* before = diff_verb->add_option("before", diff.before, "a folder that compare or suite wrote")->type_name("A");
+    auto* after = diff_verb->add_option("after", diff.after, "another, of the same scene or suite")->type_name("B");
+    diff_verb->add_option("--history", diff.history, "one folder in place of two: each commit that changed it against the one before")
+        ->type_name("DIR")
+        ->excludes(before);
+    before->needs(after);
+    diff_verb->footer(
+        "Example: jvari diff results/smoke report\n"
+        "\n"
+        "Exit code 4 where something got worse: an error by more than noise and certificates, a status, an outcome of a map, or the cost "
+        "of\n"
+        "a scheme beyond its quartiles and the drift of all. Costs of two machines are not compared.");
+    add_common(*diff_verb, diff);
+
+    CheckRequest check;
+    auto* check_verb =
+        app.add_subcommand("check", "does a scheme keep what every scheme promises: the contract, and what it claims in numbers");
+    check_verb->add_option("schemes", check.schemes, "schemes or references; absent: those of the plugins")->type_name("SCHEME");
+    check_verb->add_option("--junit", check.junit, "also writes JUnit XML, as continuous integration reads it")->type_name("FILE");
+    check_verb->footer(
+        "Example: jvari check --plugin build/libmy_scheme.so --junit check.xml\n"
+        "\n"
+        "Exit code 4 where a promise is broken.");
+    add_common(*check_verb, check);
+
     if (argc > 1 && argv[1][0] != '-') {
         std::vector<std::string> verbs;
         for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
@@ -250,6 +279,12 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     if (compare_verb->parsed()) return compare;
     if (suite_verb->parsed()) return suite;
     if (certify_verb->parsed()) return certify;
+    if (check_verb->parsed()) return check;
+    if (diff_verb->parsed()) {
+        if (diff.history.empty() && diff.after.empty())
+            throw store::UsageError("diff: expected two folders, or --history DIR (see jvari diff --help)");
+        return diff;
+    }
     return report;
 }
 

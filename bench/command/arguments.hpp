@@ -53,7 +53,17 @@ struct CertifyRequest : Common {
     bool again = false;
 };
 
-using Request = std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest, CertifyRequest, ReportRequest>;
+struct DiffRequest : Common {
+    std::string before, after;  // folders
+    std::string history;        // one folder, in place of the two
+};
+
+struct CheckRequest : Common {
+    std::vector<std::string> schemes;  // none: those of the plugins
+    std::string junit;
+};
+
+using Request = std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest, CertifyRequest, ReportRequest, DiffRequest, CheckRequest>;
 
 // Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);

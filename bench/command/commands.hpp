@@ -11,5 +11,7 @@ int compare_command(const CompareCall&);
 int suite_command(const SuiteRequest&);
 int certify_command(const CertifyRequest&);
 int report_command(const ReportRequest&);
+int diff_command(const DiffRequest&);
+int check_command(const CheckRequest&);
 
 }  // namespace jvari::bench::command

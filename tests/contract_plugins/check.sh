@@ -1,12 +1,11 @@
 #!/bin/sh
-# The contract over one plugin breaks just this promise. usage: check.sh CONTRACT_TEST PLUGIN [PROMISE], without PROMISE: breaks none
-JVARI_CONTRACT_PLUGINS=$2
-export JVARI_CONTRACT_PLUGINS
-said=$("$1" --gtest_brief=1 2>&1)
+# `jvari check` of one plugin breaks just this promise. usage: check.sh JVARI PLUGIN [PROMISE], without PROMISE: it breaks none
+said=$("$1" check --plugin "$2" 2>&1)
 code=$?
-broken=$(echo "$said" | sed -n 's|^\[  FAILED  \] All/\([A-Za-z.]*\)/.*|\1|p' | sort -u | tr '\n' ' ')
-asked=$(echo "$said" | grep -c '^\[=*\] [1-9][0-9]* tests')
-[ "$asked" = 1 ] && [ "$broken" = "${3:+$3 }" ] && { [ -n "$3" ] || [ $code = 0 ]; } && exit 0
+broken=$(echo "$said" | sed -n 's|^  BROKEN  *\([A-Za-z]*\).*|\1|p' | tr '\n' ' ')
+asked=$(echo "$said" | grep -c '^  kept')
+[ -n "$3" ] && expected=4 || expected=0
+[ "$asked" -gt 0 ] && [ "$broken" = "${3:+$3 }" ] && [ $code = $expected ] && exit 0
 echo "$said"
-echo "$2 breaks: ${broken:-nothing}; expected: ${3:-nothing}" >&2
+echo "$2 breaks: ${broken:-nothing}; expected: ${3:-nothing}; exit code $code" >&2
 exit 1

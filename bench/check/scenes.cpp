@@ -1,9 +1,8 @@
-#include "tests/contract_scenes.hpp"
+#include "bench/check/scenes.hpp"
 
 #include "scenes/scene_file.hpp"
-#include "tests/c3.hpp"
 
-namespace jvari {
+namespace jvari::bench::check {
 
 namespace {
 std::vector<Scene> shortened(std::vector<Scene> scenes) {
@@ -16,13 +15,25 @@ Scene named(Scene scene, const char* name) {
     return scene;
 }
 
+Scene lossless(Scene scene) {
+    for (String& s : scene.strings) {
+        s.damping = NoDamping{};
+        if (s.thread) s.thread->damping = 0;
+    }
+    return scene;
+}
+
 Scene least(bool plucked) {  // a string without stiffness and losses
-    Scene scene = named(lossless(c3_free()), "string");
+    Scene scene = named(lossless(string_at_rest()), "string");
     String& s = scene.strings.front();
     s.bending_stiffness = 0;
     if (plucked) s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5, 0.1};
     else s.initial = ModeInitial{1, 1.9e-3};
     return scene;
+}
+
+Scene released() {  // over bridge and thread, let go from its first mode
+    return read_scene("tanpura_c3_release");
 }
 
 LumpedBarrier bridge_at(const String& s, int node) {  // a point, on a node where the modes have as many nodes between the ends
@@ -101,16 +112,26 @@ struct Change {  // of a string: false where there is nothing to change
 };
 }  // namespace
 
+Scene string_at_rest() {
+    Scene scene = released();
+    String& s = scene.strings.front();
+    s.barriers.clear();
+    s.thread.reset();
+    s.initial.reset();
+    scene.taps.resize(2);
+    return scene;
+}
+
 std::vector<Scene> contract_scenes() {
     std::vector<Scene> scenes;
     for (const std::string& name : library_scenes()) scenes.push_back(read_scene(name));
-    scenes.push_back(named(c3_free(), "rest"));
-    scenes.push_back(named(lossless(c3_release()), "lossless_release"));
-    scenes.push_back(named(lossless(c3_free()), "lossless_free"));
+    scenes.push_back(named(string_at_rest(), "rest"));
+    scenes.push_back(named(lossless(released()), "lossless_release"));
+    scenes.push_back(named(lossless(string_at_rest()), "lossless_free"));
     scenes.back().strings.front().initial = ModeInitial{2, 1e-3};
-    scenes.push_back(named(c3_pluck(), "pluck_that_starts_and_ends_between_rows"));
-    scenes.back().strings.front().pluck->start = 1.01e-3;
-    scenes.back().strings.front().pluck->duration = 2.003e-3;
+    scenes.push_back(named(released(), "pluck_that_starts_and_ends_between_rows"));
+    scenes.back().strings.front().initial.reset();
+    scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
     return shortened(scenes);
 }
 
@@ -161,4 +182,4 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
     return all;
 }
 
-}  // namespace jvari
+}  // namespace jvari::bench::check

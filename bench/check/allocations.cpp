@@ -1,19 +1,30 @@
-#include "tests/allocations.hpp"
+#include "bench/check/allocations.hpp"
 
-#include <atomic>
+#include <cerrno>
 #include <cstddef>
-
-static std::atomic<long> allocations{0};
+#include <cstdlib>
 
 #if defined(__SANITIZE_ADDRESS__)
+#define JVARI_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer)
+#define JVARI_SANITIZED
+#endif
+#endif
+
+// Of the executable, so that no allocation goes with its first use.
+static thread_local long allocations = 0;
+
+#if defined(JVARI_SANITIZED)
 // As in sanitizer/allocator_interface.h, which GCC does not install.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));
 static void on_malloc(const volatile void*, std::size_t) {
     ++allocations;
 }
 static void on_free(const volatile void*) {}
-static const int installed = __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);
-#else
+static const bool installed = __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free) != 0;
+#elif defined(__GLIBC__)
+static const bool installed = true;
 // glibc's own allocator under its public alias; operator new and the aligned forms come through here too.
 extern "C" {
 void* __libc_malloc(std::size_t);
@@ -32,12 +43,27 @@ void* realloc(void* p, std::size_t n) {
 void* aligned_alloc(std::size_t a, std::size_t n) {
     return ++allocations, __libc_memalign(a, n);
 }
+void* memalign(std::size_t a, std::size_t n) {
+    return ++allocations, __libc_memalign(a, n);
 }
+int posix_memalign(void** p, std::size_t a, std::size_t n) {
+    if (a % sizeof(void*) != 0 || (a & (a - 1)) != 0 || a == 0) return EINVAL;
+    void* made = (++allocations, __libc_memalign(a, n));
+    if (!made) return ENOMEM;
+    *p = made;
+    return 0;
+}
+}
+#else
+static const bool installed = false;
 #endif
 
-namespace jvari {
+namespace jvari::bench::check {
 Allocations::Allocations() : before_(allocations) {}
 long Allocations::count() const {
     return allocations - before_;
 }
-}  // namespace jvari
+bool Allocations::counted() {
+    return installed;
+}
+}  // namespace jvari::bench::check

@@ -5,7 +5,10 @@
 
 #include "scenes/scene.hpp"
 
-namespace jvari {
+namespace jvari::bench::check {
+
+// The C3 string of van Walstijn, Bridges & Mehes 2016, Table 1: alone and at rest, heard at its nut and at 0.3 m.
+Scene string_at_rest();
 
 constexpr double contract_tap_rate = 44100;  // [Hz]
 constexpr int contract_modes = 40;
@@ -19,4 +22,4 @@ std::vector<Scene> scenes_with(Feature);
 // The same scene with this one feature otherwise: another value of it, or none. A scheme that heeds the feature tells the two apart.
 std::vector<Scene> otherwise(const Scene&, Feature);
 
-}  // namespace jvari
+}  // namespace jvari::bench::check

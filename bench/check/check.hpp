@@ -1,0 +1,31 @@
+// All promises of one scheme, asked: what `jvari check` prints, writes and returns.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/check/promise.hpp"
+#include "bench/store/listener.hpp"
+
+namespace jvari::bench::check {
+
+struct Answered {
+    const Promise* promise;
+    std::string scene;  // "" where it is asked once
+    Verdict verdict;
+    double seconds;  // [s]
+};
+
+struct Checked {
+    std::string scheme, source;
+    std::vector<Answered> answers;  // in the order of promises(), then of the scenes
+    bool broken() const;
+};
+
+Checked check(const Descriptor&, const store::Listener&);
+
+std::string text_of(const Checked&);  // a line a promise
+std::string json_of(const std::vector<Checked>&);
+std::string junit_of(const std::vector<Checked>&);  // a test suite a scheme, a test case a promise and scene
+
+}  // namespace jvari::bench::check

@@ -1,0 +1,47 @@
+// What every scheme owes the program: the one list of promises. `jvari check` asks them of a scheme, the tests ask them of all.
+//
+// A promise is asked on every scene that the scheme represents, on every scene that it does not, or once. Claims in numbers rest on all
+// others, and are asked where these are kept: so what breaks a promise fails by its name. tests/contract_plugins has a scheme for each that
+// breaks it and keeps all others.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "schemes/scheme.hpp"
+
+namespace jvari::bench::check {
+
+struct Verdict {
+    enum class Answer { kept, broken, not_asked } answer = Answer::kept;
+    std::string why;  // what was found, or why it could not be asked
+    bool broken() const { return answer == Answer::broken; }
+};
+Verdict kept(std::string found = "");
+Verdict broken(std::string found);
+Verdict not_asked(std::string why);
+const char* name_of(Verdict::Answer);  // "not asked"
+
+struct Case {  // a scheme, a scene, and settings at which it is asked
+    Descriptor scheme;
+    Scene scene;
+    Settings settings;
+};
+
+enum class Asked { on_represented_scenes, on_other_scenes, once, once_all_others_are_kept };
+
+struct Promise {
+    const char* name;      // "AllocatesNothingWhileStepping"
+    const char* sentence;  // what a scheme does that keeps it: "allocates nothing while stepping"
+    Asked asked;
+    Verdict (*of)(const Case&);  // of a case without a scene where it is asked once
+};
+std::span<const Promise> promises();  // in the order in which they are best read
+
+std::vector<Case> cases_of(const Descriptor&, Asked);
+
+// Never throws: what the scheme throws breaks the promise; a scene that it refuses for a reason of its own is not asked.
+Verdict ask(const Promise&, const Case&);
+
+}  // namespace jvari::bench::check

@@ -1,0 +1,110 @@
+#include "bench/diff/costs.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/statistics.hpp"
+#include "bench/diff/difference.hpp"
+#include "bench/store/cell_rows.hpp"
+
+namespace jvari::bench::diff {
+
+namespace {
+struct Ratio {
+    std::string series, name;
+    std::size_t before, after;  // rows
+    double value;               // after over before
+};
+
+double median_of(const std::vector<Ratio>& ratios) {
+    std::vector<double> values;
+    for (const Ratio& r : ratios) values.push_back(r.value);
+    return spread_of(values).median;
+}
+
+struct Noise {
+    double drift = 1;              // times
+    double beyond = least_change;  // times, relative to the drift: a series that lies further out is disturbed by more than the machine
+};
+Noise noise_of(const std::vector<Ratio>& ratios) {
+    Noise n;
+    n.drift = median_of(ratios);
+    std::vector<double> distances;
+    for (const Ratio& r : ratios) distances.push_back(std::abs(std::log(r.value / n.drift)));
+    n.beyond = std::max(least_change, std::exp(disturbances * 1.4826 * spread_of(distances).median));
+    return n;
+}
+
+struct Range {
+    double lower, upper;
+};
+Range range_of(const store::Table& t, std::size_t i) {
+    return {t.number(i, "cost_lower"), t.number(i, "cost_upper")};
+}
+
+// Of a series: worse, better or same.
+Turn turn_of(const Folder& a, const Folder& b, const std::vector<Ratio>& series, const Noise& noise) {
+    const double change = median_of(series) / noise.drift;
+    if (change < noise.beyond && change > 1 / noise.beyond) return Turn::same;
+    const auto apart = std::count_if(series.begin(), series.end(), [&](const Ratio& r) {
+        const Range was = range_of(a.cells, r.before), is = range_of(b.cells, r.after);
+        return change > 1 ? is.lower / noise.drift > was.upper : is.upper / noise.drift < was.lower;
+    });
+    if (2 * static_cast<std::size_t>(apart) <= series.size()) return Turn::same;
+    return change > 1 ? Turn::worse : Turn::better;
+}
+
+std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<CostPair>& pairs) {
+    std::vector<std::string> names = store::naming_columns(a.cells);
+    std::vector<Ratio> ratios;
+    for (const CostPair& p : pairs) {
+        const double was = a.cells.number(p.before, "cost_s_per_s"), is = b.cells.number(p.after, "cost_s_per_s");
+        if (!(was > 0) || !(is > 0)) continue;
+        std::string series;
+        for (const std::string& name : names) series += a.cells.at(p.before, name) + "\t";
+        ratios.push_back({series, p.name, p.before, p.after, is / was});
+    }
+    return ratios;
+}
+}  // namespace
+
+void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>& pairs, Difference& d) {
+    const std::vector<Ratio> ratios = ratios_of(a, b, pairs);
+    if (ratios.empty()) return;
+    if (!a.made.same_machine(b.made)) {
+        d.notes.push_back(fmt::format("costs are of two machines and are not compared: {} and {}", a.made.machine(), b.made.machine()));
+        return;
+    }
+    if (a.made.system != b.made.system)
+        d.notes.push_back(fmt::format("costs are of one machine under two systems: {} and {}", a.made.system, b.made.system));
+    std::vector<std::pair<std::string, std::vector<Ratio>>> series;
+    for (const Ratio& r : ratios) {
+        auto it = std::find_if(series.begin(), series.end(), [&r](const auto& s) { return s.first == r.series; });
+        if (it == series.end()) it = series.insert(series.end(), {r.series, {}});
+        it->second.push_back(r);
+    }
+    const bool few = series.size() < fewest_series;
+    const Noise noise = few ? Noise{} : noise_of(ratios);
+    if (noise.drift > told || noise.drift < 1 / told)
+        d.notes.push_back(
+            fmt::format("the middle cell took {:.2f} times as long: the machine's doing or the program's, which a clock cannot "
+                        "tell; each is judged relative to that",
+                        noise.drift));
+    if (noise.beyond > least_change)
+        d.notes.push_back(
+            fmt::format("the clock was disturbed: costs that changed by less than {:.2f} times are not told apart", noise.beyond));
+    for (const auto& [name, cells] : series) {
+        d.compared += static_cast<int>(cells.size());
+        const Turn turn = turn_of(a, b, cells, noise);
+        if (turn == Turn::same) continue;
+        const std::string detail = few ? fmt::format("{:.2f} times, the machine's doing or the scheme's", median_of(cells))
+                                       : fmt::format("{:.2f} times beyond a drift of {:.2f}", median_of(cells) / noise.drift, noise.drift);
+        for (const Ratio& r : cells)
+            d.findings.push_back({few ? Turn::moved : turn, r.name, "cost_s_per_s", a.cells.at(r.before, "cost_s_per_s"),
+                                  b.cells.at(r.after, "cost_s_per_s"), detail});
+    }
+}
+
+}  // namespace jvari::bench::diff

@@ -1,0 +1,129 @@
+#include "bench/diff/difference.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/diff/costs.hpp"
+#include "bench/store/usage.hpp"
+
+namespace jvari::bench::diff {
+
+namespace {
+struct Pair {
+    std::string name;
+    std::size_t before, after;
+};
+
+std::vector<Pair> in_both(const Named& before, const Named& after, Only& only) {
+    std::vector<Pair> pairs;
+    for (const auto& [name, row] : before)
+        if (const auto other = after.find(name); other != after.end()) pairs.push_back({name, row, other->second});
+        else only.before.push_back(name);
+    for (const auto& [name, row] : after)
+        if (!before.contains(name)) only.after.push_back(name);
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.before < b.before; });
+    return pairs;
+}
+
+std::vector<std::string> shared_columns(const store::Table& before, const store::Table& after) {
+    std::vector<std::string> names;
+    for (const std::string& name : before.columns)
+        if (after.column(name) >= 0) names.push_back(name);
+    return names;
+}
+
+// A column that a table of one row more would have, empty wherever there is none, is no difference: only those that say something count.
+void columns_alone(const store::Table& a, const store::Table& b, std::vector<std::string>& only) {
+    for (const std::string& name : a.columns) {
+        if (b.column(name) >= 0 || is_cost(name) || is_skipped(name)) continue;
+        const int k = a.column(name);
+        if (std::any_of(a.rows.begin(), a.rows.end(), [k](const auto& row) { return !row[k].empty(); })) only.push_back(name);
+    }
+}
+
+void compare_cells(const Folder& a, const Folder& b, Difference& d) {
+    const bool with_modes = modes_name(a.cells) || modes_name(b.cells);
+    const auto pairs = in_both(named_cells(a.cells, with_modes), named_cells(b.cells, with_modes), d.cells);
+    d.cells_in_both = static_cast<int>(pairs.size());
+    columns_alone(a.cells, b.cells, d.columns.before);
+    columns_alone(b.cells, a.cells, d.columns.after);
+    const auto columns = shared_columns(a.cells, b.cells);
+    int other_truth = 0;
+    for (const Pair& p : pairs) {
+        bool same_truth = true;
+        for (const std::string& column : columns) {
+            if (is_cost(column) || is_skipped(column)) continue;
+            ++d.compared;
+            const Turn turn = turn_of(column, a.cells, p.before, b.cells, p.after);
+            if (turn == Turn::same) continue;
+            d.findings.push_back({turn, p.name, column, a.cells.at(p.before, column), b.cells.at(p.after, column), ""});
+            same_truth = same_truth && !column.starts_with("reference");
+        }
+        other_truth += !same_truth;
+    }
+    if (other_truth > 0)
+        d.notes.push_back(fmt::format("{} cells were judged by another reference: their errors differ by its change too", other_truth));
+    std::vector<CostPair> costs;
+    for (const Pair& p : pairs) costs.push_back({p.name, p.before, p.after});
+    compare_costs(a, b, costs, d);
+}
+
+void compare_dispersion(const store::Table& a, const store::Table& b, Difference& d) {
+    const std::vector<std::string> names{"scene", "scheme", "options", "rate", "mode"};
+    for (const Pair& p : in_both(named_rows(a, names), named_rows(b, names), d.modes))
+        for (const char* column : {"own_cents", "own_decay_per_s", "trace_cents", "trace_decay_per_s"}) {
+            ++d.compared;
+            const Turn turn = dispersion_turn(column, a.number(p.before, column), b.number(p.after, column));
+            if (turn != Turn::same)
+                d.findings.push_back({turn, "mode: " + p.name, column, a.at(p.before, column), b.at(p.after, column), ""});
+        }
+}
+
+void compare_maps(const Folder& a, const Folder& b, Difference& d) {
+    const std::vector<std::string> names{"map", "scene", "scheme", "x_key", "x", "y_key", "y"};
+    for (const Pair& p : in_both(named_rows(a.maps, names), named_rows(b.maps, names), d.points)) {
+        ++d.compared;
+        const std::string &was = a.maps.at(p.before, "outcome"), &is = b.maps.at(p.after, "outcome");
+        const Turn turn = was == is ? Turn::same : was == "sound" ? Turn::worse : is == "sound" ? Turn::better : Turn::moved;
+        if (turn != Turn::same) d.findings.push_back({turn, "map " + p.name, "outcome", was, is, b.maps.at(p.after, "detail")});
+    }
+    const std::vector<std::string> lines{"map", "scheme", "x_key", "y_key", "y", "between"};
+    Only unfound;
+    for (const Pair& p : in_both(named_rows(a.boundaries, lines), named_rows(b.boundaries, lines), unfound)) {
+        ++d.compared;
+        const auto low = [](const store::Table& t, std::size_t i) { return t.number(i, "x_low"); };
+        const auto high = [](const store::Table& t, std::size_t i) { return t.number(i, "x_high"); };
+        if (low(a.boundaries, p.before) <= high(b.boundaries, p.after) && low(b.boundaries, p.after) <= high(a.boundaries, p.before))
+            continue;
+        d.findings.push_back({Turn::moved, "boundary " + p.name, "x_low", a.boundaries.at(p.before, "x_low"),
+                              b.boundaries.at(p.after, "x_low"), "the brackets are apart"});
+    }
+    for (const std::string& name : unfound.before) d.points.before.push_back("boundary " + name);
+    for (const std::string& name : unfound.after) d.points.after.push_back("boundary " + name);
+}
+}  // namespace
+
+int Difference::count(Turn t) const {
+    return static_cast<int>(std::count_if(findings.begin(), findings.end(), [t](const Finding& f) { return f.turn == t; }));
+}
+
+bool Difference::nothing() const {
+    for (const Only* only : {&cells, &columns, &points, &modes})
+        if (!only->before.empty() || !only->after.empty()) return false;
+    return findings.empty();
+}
+
+Difference difference(const Folder& before, const Folder& after) {
+    Difference d;
+    compare_cells(before, after, d);
+    compare_dispersion(before.dispersion, after.dispersion, d);
+    compare_maps(before, after, d);
+    if (d.compared == 0)
+        throw store::UsageError(fmt::format("{} and {} have no cell, mode or map in common: expected two folders of one suite or scene",
+                                            before.name, after.name));
+    return d;
+}
+
+}  // namespace jvari::bench::diff

@@ -1,0 +1,42 @@
+// Two folders of results: what changed from one to the other, number by number (rules.hpp) and by the clock (costs.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/diff/folder.hpp"
+#include "bench/diff/rules.hpp"
+
+namespace jvari::bench::diff {
+
+struct Finding {
+    Turn turn;
+    std::string row;     // what names it: "tanpura_c3_release modal_two_point 44100 Hz"
+    std::string column;  // "error_l2_50ms", "cost_s_per_s", "outcome"
+    std::string before, after;
+    std::string detail;  // what the numbers do not say; of a cost: how many times, and of how many cells
+};
+
+struct Only {  // what one of the folders has alone
+    std::vector<std::string> before, after;
+};
+
+struct Difference {
+    std::vector<Finding> findings;  // of what both have; those of a row stand together, headline columns first
+    Only cells, columns, points, modes;
+    std::vector<std::string> notes;  // what could not be compared, and why
+    int cells_in_both = 0;
+    int compared = 0;  // fields
+
+    int count(Turn) const;
+    bool worse() const { return count(Turn::worse) > 0; }
+    bool nothing() const;  // no finding, and nothing that one has alone
+};
+
+// Throws UsageError where no row is in both.
+Difference difference(const Folder& before, const Folder& after);
+
+std::string text_of(const Difference&, const Folder& before, const Folder& after, std::size_t most_lines = 20);  // of each kind
+std::string json_of(const Difference&, const Folder& before, const Folder& after);
+
+}  // namespace jvari::bench::diff

@@ -1,0 +1,46 @@
+// What lies in a folder of compare or suite, as far as two such folders can be compared: a row for each cell, the modes' own pitches, maps.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/store/records.hpp"
+
+namespace jvari::bench::diff {
+
+struct Made {                                 // by what, as manifest.json has it
+    std::string commit, date;                 // commit: "unknown" outside git
+    std::string compiler, flags, build;       // the program
+    std::string cpu, cores, vectors, system;  // the machine
+    std::string machine() const;              // "AMD EPYC, 2 cores, AVX3_DL, Linux 6.1"
+    bool same_machine(const Made& o) const { return cpu == o.cpu && cores == o.cores && vectors == o.vectors; }  // whatever its system
+};
+
+struct Folder {
+    std::string name;  // a path, or a commit of one
+    Made made;
+    store::Table cells;                         // errors and costs of a cell in one row
+    store::Table dispersion, maps, boundaries;  // empty where the file is absent
+};
+
+// The content of a file of the folder; nothing where there is none.
+using Contents = std::function<std::optional<std::string>(const std::string& file)>;
+
+// From cells.csv, else from errors.csv and cost.csv. Throws UsageError where there is no manifest.json, no cells, errors or maps, or a file
+// cannot be read.
+Folder read_folder(const std::string& name, const Contents&);
+Folder read_folder(const std::filesystem::path&);
+
+// Rows by the text that names them: scene, swept keys, scheme, options and rate; the modes too where a table has several at one rate.
+using Named = std::map<std::string, std::size_t>;
+Named named_cells(const store::Table& cells, bool with_modes);
+bool modes_name(const store::Table& cells);  // two rows differ in their modes alone
+
+// Rows by the values of these columns, "x=1 y=2"; where several have the same, the second is "... #2".
+Named named_rows(const store::Table&, const std::vector<std::string>& columns);
+
+}  // namespace jvari::bench::diff
