@@ -377,7 +377,7 @@ TEST(Integrated, AllocatesNothingAndRepeatsItselfByAnyMethod) {
                              Options{{"method", "bdf"}, {"linear_solver", "dense"}}, Options{{"flight", "integrate"}}}) {
         const auto scheme = make_scheme(sundials, scene, {0, 44100, 10, o});
         std::vector<double> first(128 * taps), again(first), energy(3 * 128);
-        const Allocations allocations;
+        const bench::check::Allocations allocations;
         EXPECT_EQ(scheme->advance({128, taps, 128, first.data(), nullptr}).outcome, Outcome::ok);
         scheme->reset();
         scheme->advance({64, taps, 128, again.data(), energy.data()});
