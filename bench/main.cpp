@@ -11,6 +11,7 @@
 
 namespace {
 struct Verb {
+    int operator()(const jvari::bench::command::NewRequest& r) const { return jvari::bench::command::new_command(r); }
     int operator()(const jvari::bench::command::ListRequest& r) const { return jvari::bench::command::list_command(r); }
     int operator()(const jvari::bench::command::RunRequest& r) const { return jvari::bench::command::run_command(r); }
     int operator()(const jvari::bench::command::CompareCall& r) const { return jvari::bench::command::compare_command(r); }

@@ -48,6 +48,15 @@ std::vector<std::string> library_scenes() {
     return names;
 }
 
+std::string library_text(const std::string& name) {
+    const std::string path = (library() / (name + ".toml")).string();
+    try {
+        return text_of_file(path, largest_scene);
+    } catch (const std::exception& e) {
+        throw SceneFileError(found_text(path) + " " + e.what());
+    }
+}
+
 Scene parse_scene(std::string_view text, const std::string& file_name, const std::vector<std::string>& overrides) {
     if (text.size() > largest_scene)
         throw SceneFileError(file_name + ":1: found " + std::to_string(text.size()) + " bytes, expected at most " +

@@ -35,4 +35,7 @@ std::string scene_hash(const Scene&);
 // Names of the scenes in the library, sorted. The library is the directory $JVARI_SCENES, else that of the sources, else the installed one.
 std::vector<std::string> library_scenes();
 
+// The file of a scene of the library as text, comments and all. Throws SceneFileError.
+std::string library_text(const std::string& name);
+
 }  // namespace jvari

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 
+#include "schemes/controls.hpp"
+
 namespace jvari {
 
 #define JVARI_SCHEME(name) extern const Descriptor name;
+#define JVARI_CONTROL(name) JVARI_SCHEME(name)
 #include "schemes/schemes.def"
 #undef JVARI_SCHEME
 
@@ -16,7 +19,21 @@ std::span<const Descriptor> schemes() {
 #include "schemes/schemes.def"
     };
 #undef JVARI_SCHEME
+#undef JVARI_CONTROL
     return table;
+}
+
+bool is_control(const Descriptor& d) {
+#define JVARI_SCHEME(name) false,
+#define JVARI_CONTROL(name) true,
+    static constexpr bool controls[] = {
+#include "schemes/schemes.def"
+    };
+#undef JVARI_SCHEME
+#undef JVARI_CONTROL
+    const auto place =
+        std::find_if(schemes().begin(), schemes().end(), [&d](const Descriptor& one) { return &one == &d; }) - schemes().begin();
+    return place < static_cast<std::ptrdiff_t>(std::size(controls)) && controls[place];
 }
 
 namespace {

@@ -174,10 +174,27 @@ TEST(CertifyCommand, MakesABrokenOrForeignFileAgainAndSaysSo) {
         EXPECT_NE(verb.last.err.find("another scene, version or setting"), std::string::npos) << verb.last.err;
         EXPECT_EQ(verb.run(other)["cached"], true) << other;
     }
-    verb.duration = "0.01";
+    fs::remove(verb.file);
     EXPECT_EQ(verb.run("--oversampled-rate 705600")["cached"], false);
     fs::remove(bench::trust::cost_path(verb.file));
     EXPECT_TRUE(verb.run("--oversampled-rate 705600")["wall_seconds"][0].is_null());  // read, without its costs
+}
+
+TEST(CertifyCommand, KeepsACertificateThatCoversMore) {
+    Verb verb;
+    verb.run("--oversampled-rate 705600");
+    const std::string kept = content(verb.file);
+    const auto refused = [&](const std::string& more) {
+        verb.run(more, 2);
+        EXPECT_NE(verb.last.err.find("covers more of this scene"), std::string::npos) << verb.last.err;
+        EXPECT_EQ(content(verb.file), kept) << more;
+    };
+    refused("");         // fewer runs of the same length
+    refused("--again");  // nor where it is asked for once more
+    verb.duration = "0.01";
+    refused("--oversampled-rate 705600");  // shorter
+    verb.duration = "0.03";
+    EXPECT_EQ(verb.run()["cached"], false);  // longer: says something that the other does not
 }
 
 TEST(CertifyCommand, WritesToTheFolderOfCertificatesAndLeavesTheScenesOwnToItWhereSetChangesIt) {

@@ -3,13 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bench/compare/pareto.hpp"
+#include "bench/report/identity.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/page_text.hpp"
 #include "bench/report/vega.hpp"
+#include "schemes/controls.hpp"
+#include "schemes/registry.hpp"
 
 namespace jvari {
 namespace {
@@ -37,11 +43,19 @@ TEST(Charts, TheSpecificationHoldsEveryCellThatRan) {
     EXPECT_EQ(cells[1].at("scheme"), "a");
     EXPECT_EQ(cells[1].at("rate"), 88200);
     EXPECT_EQ(cells[1].at("error_l2_50ms"), 1e-3);
-    EXPECT_EQ(cells[1].at("label"), "\u00d72");
+    EXPECT_EQ(cells[1].at("label"), "88.2 kHz");
+    EXPECT_NEAR(cells[1].at("quartile_lower").get<double>(), 0.95, 1e-6);
+    EXPECT_NEAR(cells[1].at("quartile_upper").get<double>(), 1.05, 1e-6);
     EXPECT_TRUE(cells[3].at("error_l2_50ms").is_null());
-    EXPECT_EQ(spec.at("params")[0].at("value"), "error_l2_50ms");
-    EXPECT_EQ(spec.at("params")[2].at("value").at("|error_l2_50ms").at("floor"), 1e-12);
-    EXPECT_EQ(spec.at("params")[2].at("value").at("|error_l2_50ms").at("certificate"), 1e-9);
+    const auto value_of = [&spec](const char* name) {
+        for (const auto& p : spec.at("params"))
+            if (p.at("name") == name) return p.at("value");
+        return nlohmann::json();
+    };
+    EXPECT_EQ(value_of("measure_field"), "error_l2_50ms");
+    EXPECT_EQ(value_of("tap_field"), "");
+    EXPECT_EQ(value_of("bands").at("|error_l2_50ms").at("floor"), 1e-12);
+    EXPECT_EQ(value_of("bands").at("|error_l2_50ms").at("certificate"), 1e-9);
 }
 
 TEST(Charts, TheFrontIsOfSoundCellsAndOfEachChoice) {
@@ -81,6 +95,111 @@ TEST(Charts, AnErrorStandsAtErrorAndCertificateTogetherAndWhatIsFlaggedIsHollow)
     EXPECT_TRUE(hollow);
 }
 
+// ---- Identity
+
+using Rgb = std::array<double, 3>;
+
+Rgb linear(const std::string& hex) {  // sRGB, IEC 61966-2-1
+    Rgb c;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double x = std::stoi(hex.substr(1 + 2 * k, 2), nullptr, 16) / 255.0;
+        c[k] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    }
+    return c;
+}
+
+Rgb times(const std::array<Rgb, 3>& m, const Rgb& v) {
+    Rgb r{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) r[i] += m[i][k] * v[k];
+    return r;
+}
+constexpr std::array<Rgb, 3> to_xyz{
+    {{0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}}};
+
+Rgb lab(Rgb rgb) {  // CIELAB under D65
+    for (double& x : rgb) x = std::clamp(x, 0.0, 1.0);
+    Rgb f = times(to_xyz, rgb);
+    constexpr Rgb white{0.95047, 1, 1.08883};
+    for (std::size_t k = 0; k < 3; ++k)
+        f[k] = f[k] / white[k] > 0.008856 ? std::cbrt(f[k] / white[k]) : 7.787 * f[k] / white[k] + 16.0 / 116;
+    return {116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])};
+}
+
+// Sight without the cones for long, middle and short waves: Machado, Oliveira & Fernandes 2009, severity 1.
+constexpr std::array<std::array<Rgb, 3>, 4> sights{
+    {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+     {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
+     {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},
+     {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}}};
+
+double contrast(const std::string& a, const std::string& b) {  // WCAG 2
+    const double p = times(to_xyz, linear(a))[1] + 0.05, q = times(to_xyz, linear(b))[1] + 0.05;
+    return std::max(p, q) / std::min(p, q);
+}
+
+std::string css_colour(const std::string& name, bool dark) {
+    const std::string css = bench::report::page_text("page.css");
+    const auto at = css.find("--" + name + ": #", dark ? css.find("prefers-color-scheme: dark") : 0);
+    std::string hex = css.substr(css.find('#', at), 7);
+    if (hex[4] == ';') hex = {'#', hex[1], hex[1], hex[2], hex[2], hex[3], hex[3]};
+    return hex;
+}
+
+TEST(Identity, FamiliesAreToldApartByEveryKindOfSightAndSeenOnTheirPage) {
+    for (const bool dark : {false, true}) {
+        const auto families = bench::report::families();
+        for (std::size_t i = 0; i < families.size(); ++i) {
+            const std::string one = dark ? families[i].dark : families[i].light;
+            EXPECT_GE(contrast(one, css_colour("paper", dark)), 3) << one;
+            for (std::size_t k = 0; k < i; ++k)
+                for (std::size_t sight = 0; sight < sights.size(); ++sight) {
+                    const std::string other = dark ? families[k].dark : families[k].light;
+                    const Rgb p = lab(times(sights[sight], linear(one))), q = lab(times(sights[sight], linear(other)));
+                    EXPECT_GE(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]), 15)
+                        << families[i].name << " and " << families[k].name << (dark ? ", dark" : ", light") << ", sight " << sight;
+                }
+        }
+    }
+}
+
+TEST(Identity, TextOfThePageHasAContrastOfFourAndAHalf) {
+    for (const bool dark : {false, true})
+        for (const char* ink : {"ink", "soft", "bad", "key"})
+            for (const char* ground : {"paper", "raised"})
+                EXPECT_GE(contrast(css_colour(ink, dark), css_colour(ground, dark)), 4.5) << ink << ground << dark;
+}
+
+TEST(Identity, ASchemeLooksTheSameInAnyCompanyAndLikeNoOther) {
+    std::vector<std::string> names;
+    for (const Descriptor& d : schemes()) names.emplace_back(d.name);
+    const auto all = bench::report::identities_of(names);
+    std::set<std::pair<std::string, std::string>> seen;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        EXPECT_TRUE(seen.emplace(all[i].colour, all[i].shape).second) << names[i];
+        const auto alone = bench::report::identities_of({"a plugin", names[i] + " compliance=matched"})[1];
+        EXPECT_EQ(std::pair(alone.colour, alone.shape), std::pair(all[i].colour, all[i].shape)) << names[i];
+        EXPECT_NE(alone.dash, all[i].dash) << names[i];
+        EXPECT_EQ(all[i].control, is_control(schemes()[i])) << names[i];
+        if (all[i].control) EXPECT_EQ(all[i].colour, bench::report::families()[bench::report::families().size() - 2].light);
+    }
+    const auto ordered = bench::report::in_order({"modal_explicit_penalty", "a plugin", "finite_difference_theta", "modal_two_point"});
+    EXPECT_EQ(ordered, (std::vector<std::string>{"modal_two_point", "finite_difference_theta", "a plugin", "modal_explicit_penalty"}));
+}
+
+TEST(Charts, WhatEndedWellIsNeverDrawnAsFailed) {
+    const auto spec = nlohmann::json::parse(bench::report::work_precision_spec(sample()));
+    int crosses = 0;
+    for (const auto& layer : spec.at("layer"))
+        if (layer.at("mark").is_object() && layer.at("mark").value("text", nlohmann::json()) == "\u2715")
+            for (const auto& step : layer.at("transform"))
+                if (step.contains("filter") && step["filter"].get<std::string>().find("status") != std::string::npos) {
+                    ++crosses;
+                    EXPECT_EQ(step["filter"], "datum.x > 0 && datum.status != 'ok'");
+                }
+    EXPECT_EQ(crosses, 1);
+}
+
 TEST(Charts, AxesAreOfferedOnlyWhereThereIsAFiniteValueAndTheHeadlineComesFirst) {
     const bench::report::WorkPrecision w = sample();
     ASSERT_EQ(w.errors.size(), 2u);
@@ -112,7 +231,7 @@ TEST(Charts, TheSpecificationIsDrawnWhereThePackagesAreInstalled) {
     std::string why;
     const auto svg = bench::report::svg_of(vega, bench::report::work_precision_spec(sample()), why);
     ASSERT_TRUE(svg) << why;
-    for (const char* word : {"a scene", "relative L2 error", "computing time", "\u00d72", "\u2715"})
+    for (const char* word : {"a scene", "relative L2 error", "computing time", "a, 88.2 kHz", "\u2715"})
         EXPECT_NE(svg->find(word), std::string::npos) << word;
 }
 

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "bench/report/vega.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/records.hpp"
+#include "scenes/schema.hpp"
 
 namespace jvari::test {
 namespace {
@@ -383,6 +386,133 @@ TEST(CommandLine, WithoutNodePackagesTheTablesStillComeAndALineSaysWhatIsMissing
     EXPECT_TRUE(std::filesystem::exists(out + "/report.html"));
     EXPECT_FALSE(std::filesystem::exists(out + "/work_precision.svg"));
     EXPECT_NE(content(out + "/report.html").find("npm ci"), std::string::npos);
+}
+
+// ---- A scene of one's own
+
+TEST(NewScene, EachInstrumentsSceneIsExplainedAndRunsAsItStands) {
+    const Scratch scratch;
+    for (const std::string instrument : {"guitar", "tanpura", "sitar", "bass", "piano"}) {
+        const Outcome o = shell(scratch, "$J new " + instrument + " my_" + instrument + " && $J run my_" + instrument +
+                                             ".toml --scheme finite_difference_theta --duration 0.002 --json");
+        ASSERT_EQ(o.code, 0) << instrument << o.err;
+        EXPECT_EQ(o.err, "") << instrument;  // no string is silent
+        const std::string text = content(scratch / ("my_" + instrument + ".toml"));
+        EXPECT_NE(text.find("\nname = \"my_" + instrument + "\"\n"), std::string::npos) << instrument;
+        EXPECT_NE(text.find("x = 0  o--"), std::string::npos) << instrument << " has no sketch";
+        for (const char* law : damping_names) EXPECT_NE(text.find("law = \"" + std::string(law) + "\""), std::string::npos) << law;
+        for (const char* quantity : quantity_names) EXPECT_NE(text.find('"' + std::string(quantity) + '"'), std::string::npos) << quantity;
+        for (const char* curve : curve_names) EXPECT_NE(text.find('"' + std::string(curve) + '"'), std::string::npos) << curve;
+    }
+}
+
+TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {
+    const Scratch scratch;
+    std::ofstream(scratch / "mine.toml") << "mine";
+    const Outcome there = shell(scratch, "$J new guitar mine");
+    EXPECT_EQ(there.code, 2);
+    EXPECT_NE(there.err.find("mine.toml is there already"), std::string::npos) << there.err;
+    EXPECT_EQ(content(scratch / "mine.toml"), "mine");
+    for (const char* name : {"a/b", "../a", "''", "'a b'"}) EXPECT_EQ(shell(scratch, std::string("$J new guitar ") + name).code, 2) << name;
+    EXPECT_NE(shell(scratch, "$J new gitar a").err.find("did you mean \"guitar\""), std::string::npos);
+    EXPECT_EQ(scratch.files(), 1);
+}
+
+TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
+    const Scratch scratch;
+    std::ofstream(scratch / "silent.toml")
+        << "name = \"silent\"\nduration = 0.01\n[[string]]\nlength = 1\nlinear_density = 1e-3\ntension = 40\n"
+           "[[tap]]\nname = \"nut\"\nquantity = \"nut_force\"\n";
+    const Outcome silent = jvari(scratch, "run " + (scratch / "silent.toml") + " --scheme modal_two_point");
+    EXPECT_NE(silent.err.find("string 0 of silent stays silent"), std::string::npos) << silent.err;
+    const Outcome late = jvari(scratch, "run tanpura_drone --scheme finite_difference_explicit --duration 0.01");
+    EXPECT_NE(late.err.find("string 1 of tanpura_drone stays silent: its pluck begins at 1.2 s"), std::string::npos) << late.err;
+    EXPECT_EQ(late.err.find("string 0"), std::string::npos);
+    EXPECT_EQ(jvari(scratch, "run tanpura_c3 --scheme modal_two_point --duration 0.01").err, "");
+}
+
+TEST(Quiet, SaysNothingButErrors) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "run free_string --scheme modal_two_point --duration 0.01 --quiet");
+    EXPECT_EQ(o.code, 0);
+    EXPECT_EQ(o.out + o.err, "");
+    EXPECT_NE(jvari(scratch, "run free_string --scheme none --quiet").err, "");
+}
+
+TEST(Controls, TakePartWhereTheyAreAskedFor) {
+    const Scratch scratch;
+    const std::string compare = "compare tanpura_c3_release --rates 44100 --modes 5 --duration 0.002 --repeats 1 --json";
+    const auto schemes = [&](const std::string& more) {
+        std::set<std::string> names;
+        for (const auto& cell : nlohmann::json::parse(jvari(scratch, compare + more).out).at("cells")) names.insert(cell.at("scheme"));
+        return names;
+    };
+    const auto without = schemes(""), with = schemes(" --controls");
+    for (const char* name : {"modal_two_point_trapezoidal", "modal_quadratised_two_point_raw", "modal_quadratised_three_point_raw",
+                             "modal_quadratised_two_point_constrained", "modal_quadratised_three_point_constrained",
+                             "modal_explicit_penalty", "modal_impulse_invariant"}) {
+        EXPECT_FALSE(without.contains(name)) << name;
+        EXPECT_TRUE(with.contains(name)) << name;
+    }
+    EXPECT_EQ(with.size(), without.size() + 7);
+    EXPECT_EQ(schemes(" --schemes modal_two_point_trapezoidal").size(), 1u);
+}
+
+TEST(Plot, DrawsTheRunOnOnePicture) {
+    const Scratch scratch;
+    const std::string run = "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --plot ";
+    const Outcome wrong = jvari(scratch, run + (scratch / "a.png"));
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_NE(wrong.err.find(".svg or .html"), std::string::npos) << wrong.err;
+    EXPECT_EQ(jvari(scratch, run + (scratch / "a.svg"), "JVARI_NODE_MODULES=/nowhere").code, 2);  // said before the run
+    EXPECT_EQ(scratch.files(), 0);
+    if (!bench::report::find_vega().missing.empty()) GTEST_SKIP() << bench::report::find_vega().missing;
+    for (const char* file : {"a.svg", "a.html"}) {
+        const Outcome o = jvari(scratch, run + (scratch / file));
+        ASSERT_EQ(o.code, 0) << o.err;
+        const std::string text = content(scratch / file);
+        for (const char* panel :
+             {"nut (nut_force)", "bridge (bridge_force)", "spectrum of nut", "spectrogram of nut", "energy ledger", "contact: "})
+            EXPECT_NE(text.find(panel), std::string::npos) << file << ": " << panel;
+    }
+    EXPECT_EQ(scratch.files(), 2);
+}
+
+TEST(ResultsFolder, OfAnotherSceneIsRefusedAndWhatIsForeignIsNamed) {
+    const Scratch scratch;
+    const std::string more = " --schemes modal_two_point --rates 44100 --modes 5 --duration 0.002 --repeats 1 --out r";
+    ASSERT_EQ(shell(scratch, "$J compare free_string" + more).code, 0);
+    const Outcome again = shell(scratch, "touch r/notes.txt && $J compare free_string" + more);
+    EXPECT_EQ(again.code, 0);
+    EXPECT_NE(again.err.find("r holds what is not of a comparison: notes.txt"), std::string::npos) << again.err;
+    const Outcome other = shell(scratch, "$J compare tanpura_c3_release" + more);
+    EXPECT_EQ(other.code, 2);
+    EXPECT_NE(other.err.find("holds the comparison of free_string"), std::string::npos) << other.err;
+    std::ofstream(scratch / "s.toml") << "name = \"s\"\n[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nmodes = 5\n"
+                                         "rates = [44100]\nduration = 0.002\n";
+    EXPECT_EQ(shell(scratch, "$J suite s.toml --out r").code, 2);
+    EXPECT_EQ(nlohmann::json::parse(content(scratch / "r/manifest.json")).at("scene").at("name"), "free_string");
+}
+
+TEST(SuiteFiles, ScenesAreLookedForBesideTheSuite) {
+    const Scratch scratch;
+    const Outcome o = shell(scratch,
+                            "mkdir study && cd study && $J new guitar mine && cd .. && "
+                            "printf '[[cells]]\\nscenes = [\"mine.toml\"]\\nschemes = [\"modal_two_point\"]\\nmodes = 5\\n"
+                            "rates = [44100]\\nduration = 0.002\\n' >study/s.toml && $J suite study/s.toml --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(nlohmann::json::parse(o.out).at("cells").at(0).at("scene"), "mine");
+}
+
+TEST(Colour, IsForTerminalsThatWantIt) {
+    const Scratch scratch;
+    const auto on_terminal = [&](const std::string& environment) {
+        return shell(scratch, "script -qec '" + environment + " $J run free_string --scheme none' /dev/null").out;
+    };
+    if (shell(scratch, "command -v script").code != 0) GTEST_SKIP() << "script (util-linux) is missing";
+    EXPECT_NE(on_terminal("TERM=xterm").find("\033[31m"), std::string::npos);
+    EXPECT_EQ(on_terminal("TERM=xterm NO_COLOR=1").find("\033["), std::string::npos);
+    EXPECT_EQ(jvari(scratch, "run free_string --scheme none", "TERM=xterm").err.find("\033["), std::string::npos);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/compare/spread.hpp"
 #include "bench/report/chart_data.hpp"
 #include "bench/report/page_sections.hpp"
 #include "bench/store/sound.hpp"
@@ -170,6 +171,32 @@ TEST(Report, TheCheapestThatReachesAnAccuracyIsNamedWhereSomeReachItAndSomeDoNot
     EXPECT_EQ(of_problem["b, string.0.tension = 30"], (std::vector<std::string>{"10 %: one at 88.2 kHz", "1 %: one at 176.4 kHz"}));
     // there the reference is certain to 4e-3: 0.1 at 44.1 kHz is not known to be within 10 %, 6.25e-3 at 176.4 kHz not within 1 %
     EXPECT_EQ(of_problem["a, string.0.tension = 30"], (std::vector<std::string>{"10 %: one at 88.2 kHz", "1 %: one at 352.8 kHz"}));
+}
+
+TEST(Report, TheVerdictNamesSchemeRateErrorCostAndCertaintyOfEachScene) {
+    const MadeUp folder(every_file);
+    const auto verdicts = verdicts_of(bench::report::read_results(folder.path));
+    ASSERT_EQ(verdicts.size(), 4u);
+    EXPECT_EQ(verdicts[0].scene, "a, string.0.tension = 30");
+    const std::vector<std::string> first = verdicts[0].table.rows.at(0);  // e = 2.5e-2 and c = 4e-3 at 88.2 kHz
+    EXPECT_EQ(first[0], "waveform within 10 %, first 50 ms");
+    EXPECT_EQ(std::vector<std::string>(first.begin() + 1, first.begin() + 5),
+              (std::vector<std::string>{"one", "88.2 kHz", "\u2264 2.9\u00a0%", "20 ms"}));
+    EXPECT_EQ(first[5].substr(0, 12), "at most that");
+    EXPECT_EQ(verdicts[2].table.rows.at(1)[2], "176.4 kHz");  // no certificate there: as measured
+    EXPECT_EQ(verdicts[2].table.rows.at(1)[5].substr(0, 8), "measured");
+    EXPECT_NE(verdicts[0].sentences.at(0).find("Truth: truth"), std::string::npos) << verdicts[0].sentences.at(0);
+}
+
+TEST(Report, ABusyMachineIsSaid) {
+    bench::store::Table cells{{"cost_s_per_s", "cost_lower", "cost_upper"},
+                              {{"1", "0.9", "1.1"}, {"1", "0.5", "1.1"}, {"1", "0.75", "1.25"}, {"", "", ""}}};
+    EXPECT_DOUBLE_EQ(bench::compare::median_spread(cells), 0.25);
+    EXPECT_NE(bench::compare::busy_text(cells).find("25 %"), std::string::npos);
+    cells.rows.resize(1);
+    EXPECT_EQ(bench::compare::busy_text(cells), "");
+    cells.rows.clear();
+    EXPECT_EQ(bench::compare::busy_text(cells), "");
 }
 
 TEST(Report, OrdersAreThoseOfTheFileWhereItHasThemElseOfTheCells) {

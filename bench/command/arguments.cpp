@@ -18,6 +18,7 @@ namespace {
 constexpr const char* about = "jvari: numerical schemes for strings against obstacles, compared by speed and accuracy on the same scenes.";
 constexpr const char* examples =
     "Examples\n"
+    "  jvari new guitar my_guitar                              a commented scene to begin with\n"
     "  jvari list                                              what there is, and which scheme represents which scene\n"
     "  jvari run tanpura_c3 --scheme modal_two_point --out c3.wav\n"
     "  jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --energy --set string.0.tension=40 --out c3.csv\n"
@@ -46,7 +47,7 @@ const CLI::Validator counting([](const std::string& text) { return a_number(text
 void add_common(CLI::App& verb, Common& c) {
     verb.add_flag("--json", c.json, "one JSON object on standard output, nothing else there");
     verb.add_option("--plugin", c.plugins, "shared object with further schemes (repeatable)")->type_name("LIB.so")->allow_extra_args(false);
-    verb.add_flag("--quiet", c.quiet, "no messages and no progress, errors only");
+    verb.add_flag("--quiet", c.quiet, "errors only: no messages, no progress, no result as text (`list` still lists)");
 }
 
 void add_scene(CLI::App& verb, std::string& scene, std::vector<std::string>& set, int& modes) {
@@ -103,6 +104,13 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     app.set_version_flag("--version", fmt::format("jvari {} ({})", store::machine().version, store::machine().commit));
     app.get_formatter()->column_width(34);
 
+    NewRequest fresh;
+    auto* new_verb = app.add_subcommand("new", "a commented scene to begin with: writes NAME.toml here");
+    new_verb->add_option("instrument", fresh.instrument, "guitar, tanpura, sitar, bass or piano")->required()->type_name("INSTRUMENT");
+    new_verb->add_option("name", fresh.name, "of the scene and, with .toml, of its file")->required()->type_name("NAME");
+    new_verb->footer("Example: jvari new guitar my_guitar");
+    add_common(*new_verb, fresh);
+
     ListRequest list;
     auto* list_verb = app.add_subcommand("list", "what exists, and which scheme represents which scene");
     list_verb->add_option("what", list.what, "schemes, scenes, references, options, facts, taps or suites; absent: all, and the matrix")
@@ -127,6 +135,10 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->check(positive);
     run_verb->add_flag("--energy", run.energy, "probe the energy: three more columns, and the residuals of the balance");
     run_verb->add_option("--out", run.out, "writes the trace: .csv, .wav (one channel per tap) or .h5")->type_name("FILE");
+    run_verb
+        ->add_option("--plot", run.plot,
+                     "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)")
+        ->type_name("FILE");
     run_verb->add_option("--wav-format", run.wav_format, "float64 (default), float32, or pcm24, pcm16 (each channel brought to full scale)")
         ->check(CLI::IsMember({"float64", "float32", "pcm24", "pcm16"}))
         ->type_name("FORMAT")
@@ -139,9 +151,10 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     auto* compare_verb = app.add_subcommand("compare", "schemes at several rates against a reference: error and cost of each");
     add_scene(*compare_verb, compare.scene, compare.set, compare.modes);
     add_options(*compare_verb, compare_options);
-    compare_verb->add_option("--schemes", compare.schemes, "absent: every scheme that represents the scene")
+    compare_verb->add_option("--schemes", compare.schemes, "absent: every scheme that represents the scene, but for controls")
         ->delimiter(',')
         ->type_name("A,B,...");
+    compare_verb->add_flag("--controls", compare.controls, "with no --schemes: also those that are known to be wrong somewhere");
     compare_verb->add_option("--rates", compare.rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")
         ->delimiter(',')
         ->type_name("HZ,...")
@@ -274,6 +287,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts")
         throw store::UsageError("--markdown goes with `jvari list schemes`, `jvari list options` or `jvari list facts`");
 
+    if (new_verb->parsed()) return fresh;
     if (list_verb->parsed()) return list;
     if (run_verb->parsed()) return run;
     if (compare_verb->parsed()) return compare;

@@ -16,6 +16,10 @@ struct Common {
     std::vector<std::string> plugins;
 };
 
+struct NewRequest : Common {
+    std::string instrument, name;
+};
+
 struct ListRequest : Common {
     std::string what;  // "": everything
     bool markdown = false;
@@ -30,7 +34,7 @@ struct RunRequest : Common {
     bool energy = false;
     std::vector<std::string> set;
     std::vector<compare::SchemeOption> options;
-    std::string out, wav_format;
+    std::string out, wav_format, plot;
 };
 
 struct CompareCall : Common, compare::CompareRequest {};
@@ -63,7 +67,8 @@ struct CheckRequest : Common {
     std::string junit;
 };
 
-using Request = std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest, CertifyRequest, ReportRequest, DiffRequest, CheckRequest>;
+using Request =
+    std::variant<NewRequest, ListRequest, RunRequest, CompareCall, SuiteRequest, CertifyRequest, ReportRequest, DiffRequest, CheckRequest>;
 
 // Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);

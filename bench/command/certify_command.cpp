@@ -108,6 +108,19 @@ std::string text_of(const Certificate& c) {
            "\nnoise floor: the first against itself, started a relative 1e-12 apart";
 }
 
+// What lies there says more of the same scene than the one that is asked for would: it lasts longer, or it has entries that this one lacks.
+bool covers_more(const trust::KeptCertificate& there, const trust::KeptCertificate& asked) {
+    const Certificate &old = there.certificate, &fresh = asked.certificate;
+    if (there.scene_hash != asked.scene_hash || old.modes != fresh.modes || old.tap_rate != fresh.tap_rate) return false;
+    if (old.duration < fresh.duration * (1 - 1e-9)) return false;
+    const auto missing = [&fresh](const Certificate::Entry& e) {
+        return std::none_of(fresh.entries.begin(), fresh.entries.end(), [&e](const Certificate::Entry& f) {
+            return e.reference == f.reference && e.options == f.options && e.sample_rate == f.sample_rate && e.doubled == f.doubled;
+        });
+    };
+    return old.duration > fresh.duration * (1 + 1e-9) || std::any_of(old.entries.begin(), old.entries.end(), missing);
+}
+
 Certificate made(const Scene& scene, CertifySettings settings, const Console& console) {
     const auto progress = console.begin("certify");
     double from = 0, part = 1;
@@ -139,12 +152,18 @@ int certify_command(const CertifyRequest& r) {
 
     bool cached = false;
     std::error_code error;
-    if (!r.again && fs::exists(path, error)) {
+    if (fs::exists(path, error)) {
         std::string why;
         if (auto found = trust::read_certificate(path, why)) {
-            cached = found->key == kept.key;
+            if (covers_more(*found, kept))
+                throw store::UsageError(fmt::format(
+                    "{} covers more of this scene than is asked for: {:g} s and {} runs, against {:g} s and {}; it is kept. --out FILE "
+                    "writes elsewhere",
+                    path.string(), found->certificate.duration, found->certificate.entries.size(), kept.certificate.duration,
+                    kept.certificate.entries.size()));
+            cached = !r.again && found->key == kept.key;
             if (cached) kept = std::move(*found);
-            else console.note(path.string() + " is of another scene, version or setting; it is made again");
+            else if (found->key != kept.key) console.note(path.string() + " is of another scene, version or setting; it is made again");
         } else {
             console.note(path.string() + " cannot be used (" + why + "); it is made again");
         }

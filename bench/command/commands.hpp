@@ -5,6 +5,7 @@
 
 namespace jvari::bench::command {
 
+int new_command(const NewRequest&);
 int list_command(const ListRequest&);
 int run_command(const RunRequest&);
 int compare_command(const CompareCall&);

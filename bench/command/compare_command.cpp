@@ -9,10 +9,12 @@
 #include "bench/command/commands.hpp"
 #include "bench/command/compare_text.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/results_folder.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
+#include "bench/compare/spread.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
@@ -75,7 +77,10 @@ int compare_command(const CompareCall& r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
-    if (!r.out.empty()) make_folder(r.out);
+    if (!r.out.empty()) {
+        must_be_ours(r.out, "comparison of " + compare::load_scene(r.scene, r.set, r.duration).name, console);
+        make_folder(r.out);
+    }
     const compare::Comparison c = compare::compare(r, catalogue, console);
     const store::Table cells = compare::cells_of(c);
     const std::string manifest = compare::manifest_of(c, r);
@@ -104,6 +109,7 @@ int compare_command(const CompareCall& r) {
                               c.scene.taps.at(c.headline.bridge).name));
     console.print(headline_text(cells) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
+    if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = code_of(c);
     console.print_json(store::indented({{"scene", c.scene.name},

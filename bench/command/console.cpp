@@ -5,11 +5,14 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <string_view>
 
 #include "bench/store/interruption.hpp"
 #include "bench/store/usage.hpp"
@@ -24,8 +27,34 @@ void clear_line() {
     std::fputs("\r\033[K", stderr);
 }
 
+// On a terminal that wants colours (https://no-color.org): what stands out by its mark stands out by its colour as well.
+bool in_colour(int stream) {
+    const char *no = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
+    return isatty(stream) != 0 && !(no && *no) && !(terminal && std::strcmp(terminal, "dumb") == 0);
+}
+
+const char* colour_of(std::string_view line) {
+    if (line.starts_with("* ")) return "\033[32m";                                                                      // on the front
+    if (line.starts_with("! ") || line.starts_with("warning")) return "\033[33m";                                       // not to be trusted
+    if (line.starts_with("jvari: ")) return "\033[31m";                                                                 // an error
+    if (line.starts_with("the cheapest") || (line.starts_with("  ") && line.find(" within ") == 18)) return "\033[1m";  // the answer
+    return "";
+}
+
+std::string coloured(const std::string& text, int stream) {
+    if (!in_colour(stream)) return text;
+    std::string all;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', from), text.size());
+        const std::string line = text.substr(from, end - from), colour = colour_of(line);
+        all += colour + line + (colour.empty() ? "" : "\033[0m") + (end < text.size() ? "\n" : "");
+        from = end + 1;
+    }
+    return all;
+}
+
 void put(const std::string& text) {
-    const std::string line = text + "\n";
+    const std::string line = coloured(text, STDOUT_FILENO) + "\n";
     if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
         throw store::Unwritable(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
@@ -76,7 +105,7 @@ void hold_standard_streams() {
 }
 
 void tell(const std::string& line) {
-    std::fputs((line + "\n").c_str(), stderr);
+    std::fputs((coloured(line, STDERR_FILENO) + "\n").c_str(), stderr);
 }
 
 void Console::note(const std::string& text) const {
@@ -84,7 +113,7 @@ void Console::note(const std::string& text) const {
 }
 
 void Console::print(const std::string& text) const {
-    if (!json_) put(text);
+    if (!json_ && !quiet_) put(text);
 }
 
 void Console::print_json(const std::string& text) const {

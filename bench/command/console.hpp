@@ -23,7 +23,7 @@ public:
     Console(bool json, bool quiet) : json_(json), quiet_(quiet) {}
     bool json() const { return json_; }
     void note(const std::string&) const override;  // standard error, unless --quiet
-    void print(const std::string&) const;          // standard output, unless --json: the result as text; throws Unwritable
+    void print(const std::string&) const;          // standard output, unless --json or --quiet: the result as text; throws Unwritable
     void print_json(const std::string&) const;     // standard output, with --json only: one object; throws Unwritable
 
     // Once the job has taken 2 s: a line that renews itself on a terminal, elsewhere a line a minute. Nothing with --quiet.

@@ -126,7 +126,7 @@ std::string suites_text() {
 }  // namespace
 
 int list_command(const ListRequest& r) {
-    const Console console(r.json, r.quiet);
+    const Console console(r.json, false);  // --quiet: the list is all that was asked for
     Shelf shelf{compare::Catalogue(r.plugins), {}, {}};
     const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
     if (asked("scenes"))

@@ -2,12 +2,18 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/compare/catalogue.hpp"
+#include "bench/compare/silence.hpp"
 #include "bench/compare/summary.hpp"
+#include "bench/report/run_chart.hpp"
+#include "bench/report/vega.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
@@ -100,6 +106,26 @@ store::TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene&
              {"program", "jvari " + store::machine().version},
              {"commit", store::machine().commit}}};
 }
+// Before a long run: that its picture can be drawn.
+std::optional<report::Vega> vega_for(const RunRequest& r) {
+    if (r.plot.empty()) return std::nullopt;
+    const std::string extension = std::filesystem::path(r.plot).extension();
+    if (extension != ".svg" && extension != ".html")
+        throw store::UsageError("--plot " + r.plot + ": expected a name that ends in .svg or .html");
+    store::must_be_writable(r.plot);
+    report::Vega vega = report::find_vega();
+    if (!vega.missing.empty()) throw store::UsageError("--plot " + r.plot + ": " + vega.missing);
+    return vega;
+}
+
+void draw(const std::string& file, const report::DrawnRun& run, const report::Vega& vega) {
+    std::string why;
+    const bool page = file.ends_with(".html");
+    const auto text = page ? std::optional(report::run_page(run, report::vega_scripts(vega).value_or("")))
+                           : report::svg_of(vega, report::run_spec(run, report::Medium::print), why);
+    if (!text) throw store::Unwritable(file + ": " + why);
+    store::write_fresh(file, *text);
+}
 }  // namespace
 
 int run_command(const RunRequest& r) {
@@ -108,10 +134,12 @@ int run_command(const RunRequest& r) {
     compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
     const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
+    compare::note_silent_strings(scene, console);
     const Settings settings = settings_for(r, d);
     const store::TraceFile file = file_for(r, d, scene, settings);
+    const std::optional<report::Vega> vega = vega_for(r);
     if (!r.out.empty()) store::check(file, scene, settings.tap_rate);
-    if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * r.energy) > 2e9)
+    if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
 
@@ -119,7 +147,7 @@ int run_command(const RunRequest& r) {
     {
         const auto progress = console.begin(fmt::format("{} on {}", d.name, scene.name));
         RunOptions options;
-        options.energy = r.energy;
+        options.energy = r.energy || vega;
         options.progress = [&progress](long done, long rows) { progress->show(static_cast<double>(done) / static_cast<double>(rows)); };
         options.slow = [&](long done, long rows, const std::vector<Fact>& facts) {
             console.note(fmt::format("{} on {}: {} of {} rows in {} s{}", d.name, scene.name, done, rows, long_run, dearest(facts)));
@@ -134,6 +162,12 @@ int run_command(const RunRequest& r) {
         json["out"] = r.out;
         if (!said.empty()) json["wav_scaling"] = said;
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
+    }
+    if (vega) {
+        const std::string rate = std::isnan(summary.rate) ? "continuous time" : fmt::format("{:g} kHz", summary.rate / 1000);
+        draw(r.plot, {fmt::format("{} on {}", d.name, scene.name), fmt::format("{}, {}", rate, scene.source), scene, result.trace}, *vega);
+        json["plot"] = r.plot;
+        text += fmt::format("\n  {:<28}{}", "drawn", r.plot);
     }
     console.print(text);
     console.print_json(store::indented(json));

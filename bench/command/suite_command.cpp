@@ -10,11 +10,13 @@
 
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/results_folder.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
 #include "bench/compare/scaling_table.hpp"
+#include "bench/compare/spread.hpp"
 #include "bench/map/map_report.hpp"
 #include "bench/report/figure_chart.hpp"
 #include "bench/report/report.hpp"
@@ -117,6 +119,7 @@ int suite_command(const SuiteRequest& r) {
     const fs::path folder = r.out;
     std::optional<store::WhenInterrupted> last_word;
     if (!r.out.empty()) {
+        must_be_ours(folder, "suite " + suite.name, console);
         make_folder(folder);
         last_word.emplace([&] { console.note(kept_text(plan, suite, folder)); });
     }
@@ -151,6 +154,7 @@ int suite_command(const SuiteRequest& r) {
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
+    if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + folder.string());
     const int code = code_of(run.records);
     const char* status = code == exit_code::done ? "ok" : code == exit_code::refused ? "refused" : "failed";

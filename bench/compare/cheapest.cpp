@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "bench/compare/bound.hpp"
 #include "bench/store/cell_rows.hpp"
@@ -24,15 +25,24 @@ struct Goal {
     bool undecided(const store::Table& cells, std::size_t i) const { return !met(cells, i) && bound_of(cells, i, measure).least() <= most; }
 };
 
-// Names of the other schemes of those rows, each once.
+// The other schemes of those rows, each once, in the order of the rows, by the row of least cost of each.
 template <class Which>
-std::string other_schemes(const store::Table& cells, const store::Rows& rows, const std::string& best, Which which) {
-    std::string names;
-    for (const std::size_t i : rows)
-        if (const std::string& name = cells.at(i, "scheme");
-            name != best && which(i) && (" " + names + " ").find(" " + name + " ") == std::string::npos)
-            names += (names.empty() ? "" : " ") + name;
-    return names;
+store::Rows other_schemes(const store::Table& cells, const store::Rows& rows, const std::string& best, Which which) {
+    store::Rows others;
+    for (const std::size_t i : rows) {
+        if (cells.at(i, "scheme") == best || !which(i)) continue;
+        const auto known =
+            std::find_if(others.begin(), others.end(), [&](std::size_t k) { return cells.at(k, "scheme") == cells.at(i, "scheme"); });
+        if (known == others.end()) others.push_back(i);
+        else if (cells.number(i, "cost_s_per_s") < cells.number(*known, "cost_s_per_s")) *known = i;
+    }
+    return others;
+}
+
+std::string joined(const store::Table& cells, const store::Rows& rows, const char* column) {
+    std::string text;
+    for (const std::size_t i : rows) text += (text.empty() ? "" : " ") + cells.at(i, column);
+    return text;
 }
 
 // From `status` on.
@@ -43,10 +53,26 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
     const auto undecided = [&](std::size_t i) { return goal.undecided(cells, i); };
     if (!best) {
         const bool open = std::any_of(rows.begin(), rows.end(), undecided);
-        return {open ? "not_known" : "none", "", "", "", "", "", "", "", "", open ? other_schemes(cells, rows, "", undecided) : ""};
+        return {open ? "not_known" : "none",
+                "",
+                "",
+                "",
+                "",
+                "",
+                "",
+                "",
+                "",
+                "",
+                open ? joined(cells, other_schemes(cells, rows, "", undecided), "scheme") : ""};
     }
     const std::string& scheme = cells.at(*best, "scheme");
     const Bound b = bound_of(cells, *best, goal.measure);
+    const store::Rows ties = other_schemes(cells, rows, scheme, [&](std::size_t i) {
+        return goal.met(cells, i) && cells.number(i, "cost_lower") <= cells.number(*best, "cost_upper");
+    });
+    const store::Rows perhaps = other_schemes(cells, rows, scheme, [&](std::size_t i) {
+        return undecided(i) && cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s");
+    });
     return {"found",
             scheme,
             cells.at(*best, "options"),
@@ -55,12 +81,9 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
             store::text_of(b.error),
             std::isnan(b.certificate) ? "" : store::text_of(b.most()),
             cells.at(*best, "cost_s_per_s"),
-            other_schemes(
-                cells, rows, scheme,
-                [&](std::size_t i) { return goal.met(cells, i) && cells.number(i, "cost_lower") <= cells.number(*best, "cost_upper"); }),
-            other_schemes(cells, rows, scheme, [&](std::size_t i) {
-                return undecided(i) && cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s");
-            })};
+            joined(cells, ties, "scheme"),
+            joined(cells, ties, "rate"),
+            joined(cells, perhaps, "scheme")};
 }
 }  // namespace
 
@@ -69,8 +92,8 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene) {
     store::Table t;
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
-    for (const char* name :
-         {"measure", "target", "status", "scheme", "options", "rate", "modes", "error", "bound", "cost_s_per_s", "ties", "perhaps"})
+    for (const char* name : {"measure", "target", "status", "scheme", "options", "rate", "modes", "error", "bound", "cost_s_per_s", "ties",
+                             "tie_rates", "perhaps"})
         t.columns.push_back(name);
     std::vector<std::string> naming = swept;
     naming.insert(naming.begin(), "scene");
@@ -99,6 +122,17 @@ std::string goal_name(const store::Table& t, std::size_t row) {
     return t.at(row, "measure") == "third_octave_db" ? fmt::format("{:g} dB", most) : fmt::format("{:g} %", 100 * most);
 }
 
+std::string ties_text(const store::Table& t, std::size_t row) {
+    std::istringstream names(t.at(row, "ties")), rates(t.at(row, "tie_rates"));
+    std::string text;
+    for (std::string name, rate; names >> name;) {
+        rates >> rate;
+        const double hz = store::number_of(rate);
+        text += (text.empty() ? "" : ", ") + name + (std::isnan(hz) ? "" : fmt::format(" at {:.5g} kHz", hz / 1000));
+    }
+    return text;
+}
+
 std::string cheapest_text(const store::Table& t) {
     std::string text, last;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
@@ -111,12 +145,14 @@ std::string cheapest_text(const store::Table& t) {
         const std::string& perhaps = t.at(i, "perhaps");
         if (t.at(i, "status") == "not_known") text += "not known: the reference is not certain enough to tell\n";
         else if (t.at(i, "status") == "none") text += "none\n";
-        else
+        else {
+            const std::string tied = ties_text(t, i);
             text +=
                 fmt::format("{}{} {}, {:.3g} s per s{}{}\n", t.at(i, "scheme"), t.at(i, "options").empty() ? "" : " " + t.at(i, "options"),
                             t.at(i, "rate").empty() ? "with " + t.at(i, "modes") + " modes" : "at " + t.at(i, "rate") + " Hz",
-                            t.number(i, "cost_s_per_s"), t.at(i, "ties").empty() ? "" : "; a tie with " + t.at(i, "ties"),
+                            t.number(i, "cost_s_per_s"), tied.empty() ? "" : "; a tie with " + tied,
                             perhaps.empty() ? "" : "; perhaps for less " + perhaps);
+        }
     }
     if (!text.empty()) text.pop_back();
     return text;

@@ -1,4 +1,5 @@
 #include "bench/compare/compare.hpp"
+#include "bench/compare/silence.hpp"
 
 #include <fmt/core.h>
 
@@ -144,6 +145,7 @@ double least_error(const Comparison& c, const std::vector<Trace>& cells, const T
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener) {
     Comparison c;
     c.scene = load_scene(request.scene, request.set, request.duration);
+    note_silent_strings(c.scene, listener);
     c.headline = headline_of(c.scene);
     const Plan plan = plan_of(request, catalogue, c.scene);
     for (const std::string& note : plan.notes) listener.note(note);

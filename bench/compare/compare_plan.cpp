@@ -12,6 +12,7 @@
 #include "bench/store/rates.hpp"
 #include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/controls.hpp"
 
 namespace jvari::bench::compare {
 
@@ -98,7 +99,7 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     }
     if (!r.schemes.empty()) return chosen;
     for (const Descriptor* d : catalogue.schemes)
-        if ((needed_by(scene) - d->represents).empty()) chosen.push_back(d);
+        if ((needed_by(scene) - d->represents).empty() && (r.controls || !is_control(*d))) chosen.push_back(d);
     if (chosen.empty()) throw Refusal("no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
     return chosen;
 }

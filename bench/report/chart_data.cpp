@@ -10,27 +10,15 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/errors.hpp"
 #include "bench/compare/pareto.hpp"
-#include "bench/store/rates.hpp"
+#include "bench/report/identity.hpp"
 
 namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
 
-// "x4" where all rates are multiples of the lowest, else "96k".
-std::string rate_label(double rate, double lowest, bool multiples) {
-    if (std::isnan(rate)) return "";
-    if (multiples) return fmt::format("\u00d7{}", std::lround(rate / lowest));
-    return fmt::format("{:.4g}k", rate / 1000);
-}
-
-std::map<std::string, double> lowest_rates(const store::Table& t) {  // of each problem
-    std::map<std::string, double> lowest;
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        double& rate = lowest.emplace(problem_of(t, i), HUGE_VAL).first->second;
-        rate = std::fmin(rate, t.number(i, "rate"));
-    }
-    return lowest;
+std::string rate_label(double rate) {
+    return std::isnan(rate) ? "" : fmt::format("{:.4g} kHz", rate / 1000);
 }
 }  // namespace
 
@@ -51,13 +39,10 @@ std::vector<std::string> drawn_series(const store::Table& cells) {
 
 std::string chart_cells(const WorkPrecision& w) {
     const store::Table& t = w.cells;
-    const auto lowest = lowest_rates(t);
-    std::map<std::string, bool> multiples;
-    for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (const double rate = t.number(i, "rate"); !std::isnan(rate)) {
-            bool& all = multiples.emplace(problem_of(t, i), true).first->second;
-            all = all && store::whole_multiple(rate, lowest.at(problem_of(t, i)));
-        }
+    const auto names = drawn_series(t);
+    const auto identities = identities_of(names);
+    std::map<std::string, bool> control;
+    for (std::size_t k = 0; k < names.size(); ++k) control[names[k]] = identities[k].control;
     Json rows = Json::array();
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         if (t.at(i, "status") == "refused") continue;  // it has neither cost nor error: the table says why
@@ -70,7 +55,8 @@ std::string chart_cells(const WorkPrecision& w) {
                {"modes", t.number(i, "modes")},
                {"status", t.at(i, "status")},
                {"reason", t.at(i, "reason")},
-               {"label", rate_label(rate, lowest.at(problem), multiples[problem])},
+               {"label", rate_label(rate)},
+               {"control", control[series_of(t, i)]},
                {"flags", t.at(i, "flags")},
                {"below", t.at(i, "below_floor")}};
         const auto add = [&j](const std::string& column, double x) {  // not finite: null; seven digits are enough for a point
@@ -84,6 +70,9 @@ std::string chart_cells(const WorkPrecision& w) {
                 at_most += (at_most.empty() ? "" : " ") + a.column;
         }
         for (const Axis& a : w.costs) add(a.column, t.number(i, a.column));
+        if (!w.costs.empty() && t.number(i, "cost_s_per_s") > 0)  // quartiles, as parts of the median
+            for (const char* side : {"lower", "upper"})
+                add(std::string("quartile_") + side, t.number(i, std::string("cost_") + side) / t.number(i, "cost_s_per_s"));
         j["at_most"] = at_most;
         rows.push_back(std::move(j));
     }
@@ -97,6 +86,12 @@ std::string chart_fronts(const WorkPrecision& w) {
         for (const Axis& error : w.errors)
             for (const Axis& cost : w.costs) {
                 const auto front = compare::pareto_front(t, problem, error.column, cost.column);
+                std::map<std::string, std::size_t> dearest;  // of each series, which is named there
+                for (std::size_t k = 0; k < front.size(); ++k)
+                    if (front[k])
+                        if (const auto [at, first] = dearest.emplace(series_of(t, problem[k]), problem[k]);
+                            !first && t.number(problem[k], cost.column) > t.number(at->second, cost.column))
+                            at->second = problem[k];
                 for (std::size_t k = 0; k < front.size(); ++k) {
                     if (!front[k]) continue;
                     const std::size_t i = problem[k];
@@ -108,7 +103,8 @@ std::string chart_fronts(const WorkPrecision& w) {
                                     {"cost", cost.column},
                                     {"x", t.number(i, cost.column)},
                                     {"y", compare::bound_of(t, i, error.column).shown()},
-                                    {"key", key}});
+                                    {"key", key},
+                                    {"name", dearest.at(series_of(t, i)) == i ? series_of(t, i) : ""}});
                 }
             }
     return rows.dump();
@@ -118,7 +114,7 @@ std::vector<Axis> error_axes(const store::Table& cells, const std::vector<std::s
     std::vector<Axis> axes;
     for (const std::string& tap : taps)
         for (const compare::Measure& m : compare::measures()) {
-            const Axis axis{m.column + (tap.empty() ? "" : "_" + tap), m.title + (tap.empty() ? "" : ", tap " + tap)};
+            const Axis axis{m.column + (tap.empty() ? "" : "_" + tap), m.title + (tap.empty() ? "" : ", tap " + tap), m.column, tap};
             bool finite = false;
             for (std::size_t i = 0; i < cells.rows.size(); ++i) finite = finite || std::isfinite(cells.number(i, axis.column));
             if (m.less_is_better && finite) axes.insert(axis.column == first ? axes.begin() : axes.end(), axis);
@@ -130,7 +126,7 @@ std::vector<Axis> cost_axes() {
     return {{"cost_s_per_s", "computing time per second of sound [s/s]"},
             {"ns_per_step", "time per step [ns]"},
             {"worst_block_of_deadline", "worst block of 64 samples, as a fraction of its deadline"},
-            {"rate", "sample rate [Hz]"},
+            {"rate", "sample rate [kHz]"},
             {"dofs", "state carried [doubles]"}};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/report/identity.hpp"
 #include "bench/report/page_text.hpp"
 
 namespace jvari::bench::report {
@@ -10,15 +11,11 @@ namespace jvari::bench::report {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// Okabe & Ito's palette without its yellow and black, which vanish on a light or a dark page; with six shapes 42 series stay apart.
-constexpr const char* palette[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c8c8c"};
-constexpr const char* shapes[] = {"circle", "square", "triangle-up", "diamond", "triangle-down", "cross"};
-constexpr int dashes[][2] = {{1, 0}, {6, 3}, {2, 2}};  // the next each time round the palette
-
 template <class Style>
-std::string encoding(const std::vector<std::string>& names, const std::string& field, Style style) {
+std::string encoding(const std::vector<std::string>& unordered, const std::string& field, Style style) {
+    const std::vector<std::string> names = in_order(unordered);
     Json range = Json::array();
-    for (std::size_t i = 0; i < names.size(); ++i) range.push_back(style(i));
+    for (const Identity& i : identities_of(names)) range.push_back(style(i));
     return Json{{"field", field},
                 {"type", "nominal"},
                 {"scale", {{"domain", names}, {"range", range}}},
@@ -44,16 +41,13 @@ Json filled(const Json& part, const Filling& f) {
 }  // namespace
 
 std::string colour_of_series(const std::vector<std::string>& names, const std::string& field) {
-    return encoding(names, field, [](std::size_t i) { return Json(palette[i % std::size(palette)]); });
+    return encoding(names, field, [](const Identity& i) { return i.colour; });
 }
 std::string shape_of_series(const std::vector<std::string>& names, const std::string& field) {
-    return encoding(names, field, [](std::size_t i) { return Json(shapes[i % std::size(shapes)]); });
+    return encoding(names, field, [](const Identity& i) { return i.shape; });
 }
 std::string dash_of_series(const std::vector<std::string>& names, const std::string& field) {
-    return encoding(names, field, [](std::size_t i) {
-        const auto& dash = dashes[i / std::size(palette) % std::size(dashes)];
-        return Json{dash[0], dash[1]};
-    });
+    return encoding(names, field, [](const Identity& i) { return i.dash; });
 }
 
 std::string config_of(Medium medium, bool has_legend) {

@@ -13,7 +13,7 @@ namespace jvari::bench::report {
 namespace {
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t direct_labels = 4;  // up to so many series every point says its rate, beyond only the front's
+constexpr double least_span = 3.1622776601683795;  // of the axis of errors: half a decade, so that no noise is blown up
 
 struct Encodings {
     Json x, y, colour, shape, dash, faint;
@@ -47,23 +47,28 @@ Encodings encodings_of(const WorkPrecision& w) {
             Json::parse(colour_of_series(series)),
             Json::parse(shape_of_series(series)),
             Json::parse(dash_of_series(series)),
-            {{"condition", {{"test", {{"and", {{{"param", "pick"}}, "brought_out == '' || brought_out == datum.series"}}}}, {"value", 1}}},
-             {"value", 0.12}},
-            Json::array({column("series", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
-                         column("error_text", "error"), column("x", "cost", ",.3~r"), column("below", "below floor"),
+            {{"condition", {{"param", "pick"}, {"value", 1}}}, {"value", 0.1}},
+            Json::array({column("series", "scheme"), column("label", "rate"), column("modes", "modes"), column("error_text", "error"),
+                         column("x", "cost", ",.3~r"), column("spread", "its quartiles"), column("below", "below floor"),
                          column("flags", "not to be trusted")}),
-            Json::array({column("series", "scheme"), column("rate", "rate [Hz]", ",~f"), column("modes", "modes"),
-                         column("x", "cost", ",.3~r"), column("reason", "reason")}),
+            Json::array({column("series", "scheme"), column("label", "rate"), column("modes", "modes"), column("x", "cost", ",.3~r"),
+                         column("reason", "reason")}),
             series.size()};
 }
 
 Json chosen(const char* condition) {  // x and y of the columns that are chosen, then the rows that satisfy the condition
-    return Json::array({{{"filter", "datum.problem == problem_field"}},
-                        {{"calculate", "datum[cost_field]"}, {"as", "x"}},
-                        {{"calculate", "datum[error_field]"}, {"as", "y"}},
-                        {{"calculate", "(indexof(split(datum.at_most, ' '), error_field) < 0 ? '' : '\u2264 ') + format(datum.y, '.3e')"},
-                         {"as", "error_text"}},
-                        {{"filter", condition}}});
+    return Json::array(
+        {{{"filter", "datum.problem == problem_field"}},
+         {{"calculate", "datum[cost_field] * (cost_field == 'rate' ? 1e-3 : 1)"}, {"as", "x"}},
+         {{"calculate", "cost_field == 'cost_s_per_s' || cost_field == 'ns_per_step'"}, {"as", "timed"}},
+         {{"calculate", "datum.timed ? datum.x * datum.quartile_lower : null"}, {"as", "from"}},
+         {{"calculate", "datum.timed ? datum.x * datum.quartile_upper : null"}, {"as", "to"}},
+         {{"calculate", "datum.timed && isValid(datum.from) ? format(datum.from, ',.3~r') + ' to ' + format(datum.to, ',.3~r') : ''"},
+          {"as", "spread"}},
+         {{"calculate", "datum[error_field]"}, {"as", "y"}},
+         {{"calculate", "(indexof(split(datum.at_most, ' '), error_field) < 0 ? '' : '\u2264 ') + format(datum.y, '.3e')"},
+          {"as", "error_text"}},
+         {{"filter", condition}}});
 }
 constexpr const char* sound = "isValid(datum.x) && isValid(datum.y) && datum.x > 0 && datum.y > 0 && datum.status == 'ok'";
 
@@ -99,45 +104,100 @@ void add_front(Json& layers, const Encodings& e) {
         {{"data", {{"name", "fronts"}}},
          {"transform",
           Json::array(
-              {{{"filter", "datum.problem == problem_field && datum.error == error_field && datum.cost == cost_field && datum.y > 0"}}})},
+              {{{"filter", "datum.problem == problem_field && datum.error == error_field && datum.cost == cost_field && datum.y > 0"}},
+               {{"calculate", "datum.x * (cost_field == 'rate' ? 1e-3 : 1)"}, {"as", "x"}}})},
          {"mark",
           {{"type", "line"}, {"strokeWidth", 9}, {"opacity", 0.28}, {"color", "#888"}, {"strokeCap", "round"}, {"strokeJoin", "round"}}},
          {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}}}});
 }
 
-void add_schemes(Json& layers, const Encodings& e) {
-    layers.push_back(
-        {{"transform", chosen(sound)},
-         {"mark", {{"type", "line"}, {"strokeWidth", 1.6}}},
-         {"encoding",
-          {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"strokeDash", e.dash}, {"order", {{"field", "rate"}}}, {"opacity", e.faint}}}});
-    layers.push_back(
-        {{"transform", chosen(sound)},
-         {"mark", {{"type", "point"}, {"filled", true}, {"size", 75}}},
-         {"params",
-          Json::array({{{"name", "pick"}, {"select", {{"type", "point"}, {"fields", Json::array({"series"})}}}, {"bind", "legend"}}})},
-         {"encoding", {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"shape", e.shape}, {"opacity", e.faint}, {"tooltip", e.of_point}}}});
-    layers.push_back({{"transform", chosen(fmt::format("{} && datum.flags != ''", sound).c_str())},  // hollow: not to be trusted
-                      {"mark", {{"type", "point"}, {"filled", true}, {"size", 28}, {"color", "white"}, {"opacity", 1}}},
-                      {"encoding", {{"x", e.x}, {"y", e.y}, {"tooltip", e.of_point}}}});
-    Json labelled = chosen(sound);
-    if (e.series > direct_labels) {
-        labelled.push_back(
-            {{"calculate", "problem_field + '|' + error_field + '|' + cost_field + '|' + datum.series + '|' + datum.rate"}, {"as", "key"}});
-        labelled.push_back({{"lookup", "key"},
-                            {"from", {{"data", {{"name", "fronts"}}}, {"key", "key"}, {"fields", Json::array({"key"})}}},
-                            {"as", Json::array({"front"})}});
-        labelled.push_back({{"filter", "isValid(datum.front)"}});
-    }
-    layers.push_back({{"transform", labelled},
-                      {"mark", {{"type", "text"}, {"align", "left"}, {"dx", 8}, {"dy", -7}, {"fontSize", 10}}},
-                      {"encoding", {{"x", e.x}, {"y", e.y}, {"text", {{"field", "label"}}}, {"color", e.colour}, {"opacity", e.faint}}}});
+Json line_of(const Encodings& e, const char* condition, double width) {
+    return {{"transform", chosen(fmt::format("{} && {}", sound, condition).c_str())},
+            {"mark", {{"type", "line"}, {"strokeWidth", width}}},
+            {"encoding",
+             {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"strokeDash", e.dash}, {"order", {{"field", "rate"}}}, {"opacity", e.faint}}}};
 }
 
-void add_failures(Json& layers, const Encodings& e) {  // at the upper edge over their cost, also those whose error is not finite
-    layers.push_back({{"transform", chosen("datum.x > 0 && (datum.status != 'ok' || !isValid(datum.y))")},
+void add_schemes(Json& layers, const Encodings& e) {
+    Json from = e.x;
+    from["field"] = "from";
+    layers.push_back({{"transform", chosen(fmt::format("{} && datum.from > 0 && datum.to > 0", sound).c_str())},
+                      {"mark", {{"type", "rule"}, {"strokeWidth", 1}}},
+                      {"encoding", {{"x", from}, {"x2", {{"field", "to"}}}, {"y", e.y}, {"color", e.colour}, {"opacity", e.faint}}}});
+    layers.push_back(line_of(e, "datum.control", 0.8));
+    layers.push_back(line_of(e, "!datum.control", 1.8));
+    const auto points = [&e](const char* condition, Json mark) {
+        mark["type"] = "point";
+        return Json{{"transform", chosen(fmt::format("{} && {}", sound, condition).c_str())},
+                    {"mark", mark},
+                    {"encoding",
+                     {{"x", e.x},
+                      {"y", e.y},
+                      {"color", e.colour},
+                      {"shape", e.shape},
+                      {"size", {{"condition", {{"test", "datum.control"}, {"value", 30}}}, {"value", 75}}},
+                      {"opacity", e.faint},
+                      {"tooltip", e.of_point}}}};
+    };
+    Json trusted = points("datum.flags == ''", {{"filled", true}});
+    trusted["params"] = Json::array(
+        {{{"name", "pick"}, {"select", {{"type", "point"}, {"fields", Json::array({"series"})}, {"toggle", "true"}}}, {"bind", "legend"}}});
+    layers.push_back(std::move(trusted));
+    layers.push_back(points("datum.flags != ''", {{"filled", false}, {"strokeWidth", 1.6}}));  // hollow: not to be trusted
+    Json labelled = chosen(sound);
+    labelled.push_back(
+        {{"calculate", "problem_field + '|' + error_field + '|' + cost_field + '|' + datum.series + '|' + datum.rate"}, {"as", "key"}});
+    labelled.push_back({{"lookup", "key"},
+                        {"from", {{"data", {{"name", "fronts"}}}, {"key", "key"}, {"fields", Json::array({"key", "name"})}}},
+                        {"as", Json::array({"front", "name"})}});
+    labelled.push_back({{"filter", "isValid(datum.front)"}});
+    labelled.push_back({{"calculate", "(datum.name && width > 500 ? datum.name + ', ' : '') + datum.label"}, {"as", "text"}});
+    layers.push_back({{"transform", labelled},
+                      {"mark", {{"type", "text"}, {"align", "left"}, {"dx", 8}, {"dy", -7}, {"fontSize", 10}}},
+                      {"encoding", {{"x", e.x}, {"y", e.y}, {"text", {{"field", "text"}}}, {"opacity", e.faint}}}});
+}
+
+void add_failures(Json& layers, const Encodings& e) {  // at the upper edge over their cost; what ended well is none, whatever it lacks
+    layers.push_back({{"transform", chosen("datum.x > 0 && datum.status != 'ok'")},
                       {"mark", {{"type", "text"}, {"text", "\u2715"}, {"fontSize", 14}, {"fontWeight", "bold"}, {"y", 8}}},
                       {"encoding", {{"x", e.x}, {"color", e.colour}, {"opacity", e.faint}, {"tooltip", e.of_failure}}}});
+}
+
+// What the axis of errors cannot say: it spans half a decade at least, and where all errors lie below the noise floor there is nothing to
+// read off.
+void add_span_and_silence(Json& layers, const Encodings& e) {
+    Json span = chosen(sound);
+    span.push_back({{"aggregate", Json::array({{{"op", "min"}, {"field", "y"}, {"as", "least"}},
+                                               {{"op", "max"}, {"field", "y"}, {"as", "most"}},
+                                               {{"op", "min"}, {"field", "x"}, {"as", "x"}},
+                                               {{"op", "count"}, {"as", "count"}}})}});
+    for (const bool upper : {false, true}) {
+        Json side = span;
+        const std::string middle = "sqrt(datum.least * datum.most)";
+        side.push_back({{"calculate", upper ? fmt::format("max(datum.most, {} * sqrt({}))", middle, least_span)
+                                            : fmt::format("min(datum.least, {} / sqrt({}))", middle, least_span)},
+                        {"as", "y"}});
+        side.push_back({{"filter", "datum.count > 0"}});
+        layers.push_back({{"transform", side},
+                          {"mark", {{"type", "point"}, {"opacity", 0}, {"tooltip", nullptr}}},
+                          {"encoding", {{"x", e.x}, {"y", e.y}}}});
+    }
+    const auto say = [&layers](Json rows, const char* filter, const char* text, int dy) {
+        rows.push_back({{"filter", filter}});
+        layers.push_back({{"transform", rows},
+                          {"mark",
+                           {{"type", "text"},
+                            {"x", {{"expr", "width / 2"}}},
+                            {"y", {{"expr", fmt::format("height / 2 + {}", dy)}}},
+                            {"fontSize", 13},
+                            {"fontWeight", "bold"},
+                            {"text", {{"expr", text}}}}}});
+    };
+    say(span, "datum.count > 0 && bands[problem_field + '|' + error_field] && datum.most <= bands[problem_field + '|' + error_field].floor",
+        "'All errors lie within the noise floor: no scheme is better than another by this measure.'", 0);
+    Json without = chosen("datum.status == 'ok'");
+    without.push_back({{"aggregate", Json::array({{{"op", "count"}, {"as", "all"}}, {{"op", "valid"}, {"field", "y"}, {"as", "with"}}})}});
+    say(without, "datum.with == 0", "'These runs ended well and have no such error: choose another measure.'", 0);
 }
 
 void add_goals(Json& layers, const Encodings& e) {  // of computing time, which they are the cheapest by
@@ -148,8 +208,13 @@ void add_goals(Json& layers, const Encodings& e) {  // of computing time, which 
                      {"encoding", {{"y", e.y}}}};
     Json rule = goals, text = goals;
     rule["mark"] = {{"type", "rule"}, {"strokeDash", {2, 4}}, {"color", "#888"}};
-    text["mark"] = {{"type", "text"}, {"x", {{"expr", "width - 6"}}},     {"dy", -6}, {"align", "right"},
-                    {"fontSize", 10}, {"limit", {{"expr", "width - 12"}}}};
+    text["mark"] = {{"type", "text"},
+                    {"x", {{"expr", "width - 6"}}},
+                    {"dy", -6},
+                    {"align", "right"},
+                    {"fontSize", 10},
+                    {"limit", {{"expr", "width - 12"}}},
+                    {"opacity", {{"expr", "width < 500 ? 0 : 1"}}}};
     text["encoding"]["text"] = {{"field", "text"}};
     layers.push_back(std::move(rule));
     layers.push_back(std::move(text));
@@ -197,6 +262,7 @@ std::string work_precision_spec(const WorkPrecision& w) {
     add_front(layers, e);
     add_schemes(layers, e);
     add_failures(layers, e);
+    add_span_and_silence(layers, e);
     add_axis_names(layers);
 
     const bool print = w.medium == Medium::print;
@@ -205,11 +271,12 @@ std::string work_precision_spec(const WorkPrecision& w) {
     if (print) spec["title"] = {{"text", w.title}, {"subtitle", w.subtitle}, {"anchor", "start"}, {"offset", 26}, {"subtitlePadding", 5}};
     spec.update({{"width", print ? Json(760) : Json("container")}, {"height", 470}, {"padding", 12}});
     if (print) spec["background"] = "white";
-    spec["params"] = {parameter("error_field", w.errors.empty() ? "" : w.errors.front().column),
+    spec["params"] = {parameter("measure_field", w.errors.empty() ? "" : w.errors.front().measure),
+                      parameter("tap_field", w.errors.empty() ? "" : w.errors.front().tap),
+                      {{"name", "error_field"}, {"expr", "measure_field + (tap_field == '' ? '' : '_' + tap_field)"}},
                       parameter("cost_field", w.costs.empty() ? "" : w.costs.front().column),
                       parameter("bands", bands),
                       parameter("problem_field", shown),
-                      parameter("brought_out", ""),
                       parameter("error_titles", titles_json(w.errors)),
                       parameter("cost_titles", titles_json(w.costs))};
     spec["datasets"] = {{"cells", Json::parse(chart_cells(w))}, {"fronts", Json::parse(chart_fronts(w))}, {"goals", Json::array()}};

@@ -12,6 +12,7 @@ namespace jvari::bench::report {
 
 struct Axis {
     std::string column, title;
+    std::string measure{}, tap{};  // of an error: what the column's name is made of
 };
 
 struct Band {  // what is not known better of an error: a tie below the noise floor, no finding below the reference's own certificate
@@ -35,8 +36,9 @@ struct WorkPrecision {
     Medium medium = Medium::print;
 };
 
-// Cost across, error up, both logarithmic: a line per series through its rates, the Pareto front behind, noise floor and certificate as
-// bands, the goals across, failures at the upper edge. The signals `error_field`, `cost_field`, `problem_field` and `brought_out` choose.
+// Cost across, error up, both logarithmic: a line per series through its rates with its quartiles of cost, the Pareto front behind, noise
+// floor and certificate as bands, the goals across, at the upper edge the runs that failed. The signals `measure_field`, `tap_field`,
+// `cost_field` and `problem_field` choose.
 std::string work_precision_spec(const WorkPrecision&);
 
 std::vector<Axis> error_axes(const store::Table& cells, const std::vector<std::string>& taps,

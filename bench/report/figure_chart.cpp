@@ -1,4 +1,5 @@
-// Colours follow Okabe & Ito's palette; names come in the order in which the rows bring them up.
+// Where a line is a scheme it has the identity that it has everywhere; else names take the families' colours in the order in which the rows
+// bring them up.
 #include "bench/report/figure_chart.hpp"
 
 #include <fmt/core.h>
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/report/identity.hpp"
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/suite/row_facet.hpp"
@@ -15,7 +17,6 @@ namespace jvari::bench::report {
 
 namespace {
 using Json = nlohmann::ordered_json;
-constexpr const char* palette[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c8c8c"};
 constexpr int most_rectangles = 2800;  // of a spectrogram: a file below 300 kB
 
 bool same(const std::string& field, const std::string& wanted) {
@@ -113,7 +114,7 @@ std::string figure_spec(const suite::Figure& f, const store::Table& t) {
     for (const auto& [column, values] : f.where) must_have(t, f, column);
 
     Json values = Json::array();
-    std::vector<std::string> colours, panels;
+    std::vector<std::string> colours, panels, first_texts;  // of the first column that names each colour
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         if (!chosen(f, t, i)) continue;
         const double x = t.number(i, f.x.column) * f.x.factor, y = t.number(i, f.y.column) * f.y.factor;
@@ -123,7 +124,10 @@ std::string figure_spec(const suite::Figure& f, const store::Table& t) {
         if (f.x.domain && (x < (*f.x.domain)[0] || x > (*f.x.domain)[1])) continue;
         Json row{{"x", drawn_number(x)}, {"y", drawn_number(y)}};
         if (!f.y.to.empty()) row["z"] = drawn_number(to);
-        if (!f.colour.empty()) add_once(colours, row["c"] = name_in(f, t, i, f.colour));
+        if (!f.colour.empty()) {
+            add_once(colours, row["c"] = name_in(f, t, i, f.colour));
+            if (first_texts.size() < colours.size()) first_texts.push_back(t.at(i, f.colour.front()));
+        }
         if (!f.panels.empty()) add_once(panels, row["p"] = name_in(f, t, i, f.panels));
         values.push_back(std::move(row));
     }
@@ -133,18 +137,21 @@ std::string figure_spec(const suite::Figure& f, const store::Table& t) {
     if (f.kind == suite::FigureKind::band) mark["opacity"] = colours.size() > 1 ? 0.6 : 0.9;
     else mark["strokeWidth"] = 1.4;
     if (f.kind == suite::FigureKind::points) mark["point"] = {{"size", 45}};
-    if (f.kind == suite::FigureKind::points && f.colour.empty()) mark["point"]["color"] = palette[0];
+    if (f.kind == suite::FigureKind::points && f.colour.empty()) mark["point"]["color"] = families()[0].light;
     Json encoding{{"x", axis(f.x, "x", f.free)}, {"y", axis(f.y, "y", f.free)}};
     if (f.kind == suite::FigureKind::band) encoding["y2"] = {{"field", "z"}};
     else encoding["order"] = {{"field", "x"}};
     if (!f.colour.empty()) {
         Json range = Json::array();
-        for (std::size_t k = 0; k < colours.size(); ++k) range.push_back(palette[k % std::size(palette)]);
+        const bool schemes = f.colour.front() == "scheme" && f.colour.size() == 1;
+        const auto identities = identities_of(schemes ? first_texts : colours);
+        for (std::size_t k = 0; k < colours.size(); ++k)
+            range.push_back(schemes ? identities[k].colour : families()[k % (families().size() - 1)].light);
         Json legend;
         if (colours.size() > 1) legend = {{"title", nullptr}, {"orient", "bottom"}, {"direction", "horizontal"}, {"columns", 3}};
         encoding["color"] = {{"field", "c"}, {"type", "nominal"}, {"scale", {{"domain", colours}, {"range", range}}}, {"legend", legend}};
     } else {
-        mark["color"] = palette[0];
+        mark["color"] = families()[0].light;
     }
     Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
               {"title", title_of(f, f.width * (f.panels.empty() ? 1 : std::min<int>(f.across, static_cast<int>(panels.size()))) + 60)},

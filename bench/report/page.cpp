@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/report/identity.hpp"
 #include "bench/report/page_text.hpp"
 #include "bench/store/base64.hpp"
 
@@ -65,9 +66,11 @@ Json json_of(const Section& s, bool drawn) {
         for (const Menu& m : c.menus) {
             Json choices = Json::array();
             for (const auto& [value, text] : m.choices) choices.push_back({Json::parse(value), text});
-            menus.push_back({{"label", m.label}, {"signal", m.signal}, {"choices", choices}});
+            menus.push_back({{"label", m.label}, {"signal", m.signal}, {"choices", choices}, {"scenes", m.scenes}});
         }
-        charts.push_back({{"name", c.name}, {"spec", Json::parse(c.spec)}, {"scrolls", c.scrolls}, {"menus", menus}});
+        Json offers = Json::object();
+        for (const auto& [scene, errors] : c.offers) offers[scene] = errors;
+        charts.push_back({{"name", c.name}, {"spec", Json::parse(c.spec)}, {"scrolls", c.scrolls}, {"menus", menus}, {"offers", offers}});
     }
     for (const Picture& p : s.pictures)
         pictures.push_back({{"name", p.name}, {"data", "data:image/svg+xml;base64," + store::base64(p.svg)}});
@@ -91,13 +94,20 @@ std::string page_of(const Page& page) {
     for (const Section& s : page.sections)
         if ((drawn && !s.charts.empty()) || !s.pictures.empty() || !s.sounds.empty() || !s.left_out.empty() || !s.table.rows.empty())
             sections.push_back(json_of(s, drawn));
+    Json verdicts = Json::array(), dark = Json::object();
+    for (const Verdict& v : page.verdicts)
+        verdicts.push_back({{"scene", v.scene}, {"columns", v.table.columns}, {"rows", v.table.rows}, {"sentences", v.sentences}});
+    for (const Family& f : families()) dark[f.light] = f.dark;
     const Json data{{"title", page.title},
                     {"about", page.about},
+                    {"command", page.command},
+                    {"verdicts", verdicts},
+                    {"dark", dark},
                     {"missing", page.missing},
                     {"sections", sections},
                     {"manifest", Json::parse(page.manifest, nullptr, false)}};
     std::string program;
-    for (const char* file : {"table.js", "chart.js", "page.js"}) program += page_text(file);
+    for (const char* file : {"table.js", "view.js", "chart.js", "page.js"}) program += page_text(file);
     const std::pair<const char*, std::string> parts[] = {{"@TITLE@", escaped(page.title)},
                                                          {"@STYLE@", page_text("page.css")},
                                                          {"@SCRIPTS@", page.scripts},

@@ -1,5 +1,5 @@
-// The report's page: one file, no network. Sections of charts with menus, pictures, sounds and tables; what it was measured with at the
-// foot.
+// The report's page: one file, no network. The verdict on the scene that is chosen, then sections of charts with menus, pictures, sounds
+// and tables; what it was measured with at the foot.
 //
 // A section is made by one page_*.cpp of the files that lie in a folder; the page is put together here and shown by bench/report/page/*.js.
 #pragma once
@@ -15,6 +15,7 @@ namespace jvari::bench::report {
 struct Menu {  // a <select>: sets a signal of the chart
     std::string label, signal;
     std::vector<std::pair<std::string, std::string>> choices;  // value as JSON, what stands in the menu; the first is shown
+    std::vector<std::string> scenes{};                         // of each choice, where a choice is of one
 };
 
 struct Twin {  // a picture for papers, beside the page
@@ -27,6 +28,7 @@ struct Chart {
     bool scrolls = false;  // has a width of its own
     std::vector<Menu> menus{};
     std::vector<Twin> twins{};
+    std::vector<std::pair<std::string, std::vector<std::string>>> offers{};  // of each scene the errors that it has, its default first
 };
 
 struct Picture {  // an SVG that others made
@@ -55,20 +57,27 @@ struct Section {
     std::vector<Shown> shown{};
 };
 
+struct Verdict {  // on one scene
+    std::string scene;
+    store::Table table;
+    std::vector<std::string> sentences;
+};
+
 struct Page {
-    std::string title, about;
-    std::string scripts;  // the chart libraries as <script> elements; "": no chart
-    std::string missing;  // why there is no chart
+    std::string title, about, command;  // command: that made it, "" where it is not known
+    std::vector<Verdict> verdicts;      // the first is shown first
+    std::string scripts;                // the chart libraries as <script> elements; "": no chart
+    std::string missing;                // why there is no chart
     std::vector<Section> sections;
     std::string manifest;  // JSON
 };
 std::string page_of(const Page&);
-// The page in less than 15 MB: pictures, then sounds are left out from the last on, and the page says so.
-std::string fitting_page_of(Page, std::size_t limit = 14'900'000);
+// The page in less than 5 MB: pictures, then sounds are left out from the last on, and the page says so.
+std::string fitting_page_of(Page, std::size_t limit = 4'900'000);
 
 // What parts of a page may weigh [bytes].
-constexpr std::size_t sounds_limit = 7'500'000;    // as the WAV data stands in the page
-constexpr std::size_t pictures_limit = 4'000'000;  // as files
-constexpr std::size_t table_limit = 1'500'000;     // one table; beyond, its first columns alone, then fewer rows
+constexpr std::size_t sounds_limit = 2'000'000;    // as the WAV data stands in the page
+constexpr std::size_t pictures_limit = 1'500'000;  // as files
+constexpr std::size_t table_limit = 600'000;       // one table; beyond, its first columns alone, then fewer rows
 
 }  // namespace jvari::bench::report

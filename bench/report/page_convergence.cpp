@@ -87,7 +87,8 @@ Filling filling_of(const WorkPrecision& w, const Json& orders, const std::string
             {},
             {{"cells", chart_cells(w)}},
             {{"problem_field", json_text(problem)},
-             {"error_field", json_text(w.errors.front().column)},
+             {"measure_field", json_text(w.errors.front().measure)},
+             {"tap_field", json_text(w.errors.front().tap)},
              {"titles", titles.dump()},
              {"orders", orders.dump()}}};
 }
@@ -108,12 +109,13 @@ Section convergence_section(const Results& r) {
             false,
             problem_menu(problems),
             {}};
-    Menu by_error{"error", "error_field", {}};
-    for (const Axis& a : w.errors) by_error.choices.emplace_back(json_text(a.column), a.title);
-    c.menus.push_back(std::move(by_error));
+    for (Menu& m : error_menus(w.errors)) c.menus.push_back(std::move(m));
+    c.offers = offers_of(w, problems);
     for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k) {
         WorkPrecision own = w;
         own.cells = rows_where(w.cells, "problem", problems[k]);
+        if (auto errors = error_axes(own.cells, {""}, compare::headline_error(own.cells, store::all_rows(own.cells))); !errors.empty())
+            own.errors = std::move(errors);  // the default is one that the scene has
         c.twins.push_back({twin_file("convergence", problems[k], problems),
                            chart_of("convergence.json", filling_of(own, orders, problems[k]), Medium::print)});
     }

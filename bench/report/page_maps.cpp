@@ -11,6 +11,31 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::pair<std::string, std::string>>;
 
+// "barrier 0 stiffness [N/m^exponent]" of "string.0.barrier.0.stiffness"
+std::string with_unit(const std::string& key) {
+    constexpr std::pair<const char*, const char*> units[] = {{"rate", "Hz"},
+                                                             {"stiffness", "N/m^exponent"},
+                                                             {"stiffness_density", "N/m^(exponent+1)"},
+                                                             {"tension", "N"},
+                                                             {"amplitude", "m"},
+                                                             {"linear_density", "kg/m"},
+                                                             {"bending_stiffness", "N m^2"},
+                                                             {"length", "m"},
+                                                             {"position", "m"},
+                                                             {"height", "m"},
+                                                             {"width", "m"},
+                                                             {"damping", "kg/s"},
+                                                             {"duration", "s"},
+                                                             {"contact_loss", "s/m"},
+                                                             {"sigma0", "1/s"}};
+    const std::string last = key.substr(key.rfind('.') + 1);
+    std::string text = key.starts_with("string.0.") ? key.substr(9) : key;
+    std::replace(text.begin(), text.end(), '.', ' ');
+    for (const auto& [name, unit] : units)
+        if (last == name) text += std::string(" [") + unit + "]";
+    return text;
+}
+
 // A logarithmic axis where all values are positive and span more than five to one; names where they are no numbers.
 void add_axis(Words& words, const store::Table& t, const std::string& which) {
     double least = HUGE_VAL, most = -HUGE_VAL;
@@ -24,7 +49,7 @@ void add_axis(Words& words, const store::Table& t, const std::string& which) {
     words.emplace_back("@type_" + which, numbers ? "quantitative" : "ordinal");
     words.emplace_back("@scale_" + which, !numbers ? "point" : least > 0 && most > 5 * least ? "log" : "linear");
     words.emplace_back("@format_" + which, most >= 1e6 || (least > 0 && least < 1e-3) ? "~e" : "~r");
-    words.emplace_back("@title_" + which, t.at(0, which + "_key"));
+    words.emplace_back("@title_" + which, with_unit(t.at(0, which + "_key")));
 }
 
 struct Axes {
@@ -66,7 +91,9 @@ Json on_frame(const std::string& spec) {  // a linear axis need not begin at zer
     return chart;
 }
 
-Json panels_of(Json chart) {  // for papers: every scheme side by side
+Json panels_of(Json chart) {         // for papers: every scheme side by side
+    for (Json& p : chart["params"])  // a panel's own size is none of the picture's signals
+        if (p.at("name") == "tile") p["expr"] = "max(6, min(26, 0.8 * min(200 / across, 150 / down)))";
     Json inner{{"width", 200}, {"height", 150}, {"encoding", chart.at("encoding")}, {"layer", chart.at("layer")}};
     for (const char* key : {"width", "height", "encoding", "layer", "transform"}) chart.erase(key);
     chart["facet"] = {{"field", "series"}, {"type", "nominal"}, {"title", nullptr}};
@@ -77,7 +104,14 @@ Json panels_of(Json chart) {  // for papers: every scheme side by side
 
 Chart map_chart(const std::string& name, const std::vector<std::string>& names, const store::Table& cells, const store::Table& boundaries) {
     const auto series = distinct(cells, "series");
-    Filling f{name, cells.at(0, "scene"), {}, {}, {}, {{"series_field", json_text(series.front())}}};
+    Filling f{name,
+              cells.at(0, "scene"),
+              {},
+              {},
+              {},
+              {{"series_field", json_text(series.front())},
+               {"across", std::to_string(distinct(cells, "x").size())},
+               {"down", std::to_string(distinct(cells, "y").size())}}};
     add_axis(f.words, cells, "x");
     add_axis(f.words, cells, "y");
     const auto of_numbers = [&f](const char* type) {

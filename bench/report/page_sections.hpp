@@ -8,6 +8,10 @@
 
 namespace jvari::bench::report {
 
+// What the folder says of each of its scenes: the cheapest scheme for each accuracy and how certain that is, what the truth is, how the
+// machine was.
+std::vector<Verdict> verdicts_of(const Results&);
+
 Section work_precision_section(const Results&);
 Section dispersion_section(const Results&);
 Section convergence_section(const Results&);
@@ -18,8 +22,11 @@ Section waveform_section(const Results&);
 Section picture_section(const Results&, const std::vector<std::string>& own);  // SVGs in the folder that are none of `own`
 Section cell_section(const Results&);
 
-// The menu of problems (signal problem_field), none where there is one alone; and how many pictures are made of one chart at most.
+// The problems of a chart (signal problem_field), which the page's one menu of scenes chooses from, and the menus of its errors: measure
+// and tap. How many pictures are made of one chart at most.
 std::vector<Menu> problem_menu(const std::vector<std::string>& problems);
+std::vector<Menu> error_menus(const std::vector<Axis>&);
+std::vector<std::pair<std::string, std::vector<std::string>>> offers_of(const WorkPrecision&, const std::vector<std::string>& problems);
 constexpr std::size_t most_twins = 12;
 // "dispersion.svg", with the problem in the name where there are several.
 std::string twin_file(const std::string& chart, const std::string& problem, const std::vector<std::string>& problems);

@@ -3,11 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bench/report/page_sections.hpp"
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/sound.hpp"
 
 namespace jvari::bench::report {
 
@@ -34,28 +37,79 @@ Kept levels_in(const fs::path& file) {
         return {};
     }
 }
+// Of each problem whose reference was heard: the truth that the panels beside it are to be seen against.
+std::map<std::string, suite::Levels> references_in(const Results& r) {
+    std::map<std::string, suite::Levels> references;
+    const store::Table& t = r.sounds;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        const std::filesystem::path file = t.at(i, "file");
+        if (t.at(i, "scheme") != "reference" || file.is_absolute() || std::find(file.begin(), file.end(), "..") != file.end()) continue;
+        const store::Sound sound = store::read_wav(r.folder / file, t.number(i, "peak"));
+        std::vector<double> signal;
+        for (const int x : sound.samples) signal.push_back(x * sound.peak / 32767);
+        references[t.at(i, "problem")] = suite::levels_of(signal, sound.rate);
+    }
+    return references;
+}
+
+constexpr std::size_t across = 4;
+
+// Four panels across, each with its name above it in lines that fit, axes at the left and below.
+Json wrapped(const std::string& spec) {
+    Json chart = Json::parse(spec);
+    for (const char* key : {"background", "title"}) chart.erase(key);
+    chart["columns"] = across;
+    Json& panels = chart["concat"];
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        std::string name = panels[k]["title"]["text"];
+        Json lines = Json::array();
+        for (auto at = name.find(" | "); at != std::string::npos; at = name.find(" | ")) {
+            lines.push_back(name.substr(0, at));
+            name.erase(0, at + 3);
+        }
+        lines.push_back(name);
+        panels[k]["title"] = {{"text", lines}, {"fontSize", 10}, {"anchor", "start"}};
+        if (!panels[k].contains("encoding")) continue;
+        const auto axis = [&panels, k](const char* which, bool shown, const char* title) {
+            panels[k]["encoding"][which]["axis"].update({{"labels", shown}, {"title", shown ? Json(title) : Json()}});
+        };
+        axis("x", k + across >= panels.size(), "time [s]");
+        axis("y", k % across == 0, "frequency [kHz]");
+    }
+    return chart;
+}
 }  // namespace
 
 Section spectrogram_section(const Results& r) {
     Section s{"spectrograms", "Spectrograms"};
     const store::Table& t = r.cells;
-    std::vector<Panel> panels;
-    std::vector<std::size_t> rows;
+    const auto references = references_in(r);
+    const bool several_rates = distinct(t, "rate").size() > 1;
+    std::vector<Panel> panels, on_page;
+    std::set<std::string> problems;
+    bool without = false;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         if (t.at(i, "cell").empty()) continue;
         Kept k = levels_in(r.folder / "cells" / (t.at(i, "cell") + ".json"));
         if (!k.asked) continue;
-        rows.push_back(i);
-        panels.push_back({t.at(i, "problem"), t.at(i, "series"), t.at(i, "status"), std::move(k.levels)});
+        const std::string &problem = t.at(i, "problem"),
+                          rate = several_rates ? fmt::format(" at {:g} kHz", t.number(i, "rate") / 1000) : "";
+        if (problems.insert(problem).second) {
+            if (const auto truth = references.find(problem); truth != references.end())
+                on_page.push_back({problem + " | reference", "", "", truth->second});
+            else without = true;
+        }
+        on_page.push_back({problem + " | " + t.at(i, "series") + (rate.empty() ? "" : " |" + rate), "", t.at(i, "status"), k.levels});
+        panels.push_back({problem, t.at(i, "series") + rate, t.at(i, "status"), std::move(k.levels)});
     }
     if (panels.empty()) return s;
-    if (distinct(t, "rate").size() > 1)
-        for (std::size_t k = 0; k < panels.size(); ++k) panels[k].down += fmt::format(" at {} Hz", t.at(rows[k], "rate"));
-    const std::string spec = spectrogram_spec(r.name, "spectrograms; " + r.source, panels);
-    Json on_page = Json::parse(spec);
-    for (const char* key : {"background", "title"}) on_page.erase(key);
-    s.charts.push_back({"spectrograms side by side", on_page.dump(), true, {}, {{"spectrograms.svg", spec}}});
-    s.notes = {"Columns are scenes, rows schemes; decibels below the maximum of all panels."};
+    s.charts.push_back({"spectrograms side by side, the reference first",
+                        wrapped(spectrogram_spec(r.name, "", on_page)).dump(),
+                        true,
+                        {},
+                        {{"spectrograms.svg", spectrogram_spec(r.name, "spectrograms; " + r.source, panels)}}});
+    s.notes = {"Decibels below the maximum of all panels; the reference comes first."};
+    if (without) s.notes.emplace_back("Where a scene has no reference here, the suite kept no sound of it.");
     return s;
 }
 

@@ -1,9 +1,10 @@
-// Traces to look at and to listen to (sounds.csv, sounds/*.wav): the first 50 ms sample by sample, the whole as its least and greatest
-// value in each of 800 stretches; the sounds level-matched, as many as the page may hold.
+// Traces to look at and to listen to (sounds.csv, sounds/*.wav): 50 ms sample by sample from where the reference is liveliest, with the
+// difference; the whole as its least and greatest value in each of 800 stretches; the sounds level-matched, as many as the page may hold.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/report/page_sections.hpp"
@@ -16,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr double beginning = 0.05;      // [s]
 constexpr std::size_t stretches = 800;  // of the whole
-constexpr std::size_t most_drawn = 90;  // waveforms: some 25 kB each
+constexpr std::size_t most_drawn = 40;  // waveforms: some 25 kB each
 constexpr double longest_heard = 4;     // [s]
 constexpr std::size_t most_heard = 120;
 
@@ -73,9 +74,27 @@ std::vector<Track> tracks_of(const Results& r, bool several_problems) {
     return tracks;
 }
 
-Json beginning_of(const store::Sound& s) {
-    const auto count = std::min(s.samples.size(), static_cast<std::size_t>(beginning * s.rate) + 1);
-    return std::vector<int>(s.samples.begin(), s.samples.begin() + static_cast<long>(count));
+// Where something happens [s]: the first stretch of 10 ms in which the sound changes from sample to sample at least half as much as in its
+// liveliest. The slow pull of a finger is left out by it.
+double lively_from(const store::Sound& s) {
+    const auto length = static_cast<std::size_t>(0.01 * s.rate);
+    std::vector<double> changes;
+    for (std::size_t from = 0; length > 0 && from + length < s.samples.size(); from += length) {
+        double sum = 0;
+        for (std::size_t n = from; n < from + length; ++n) sum += std::pow(s.samples[n + 1] - s.samples[n], 2);
+        changes.push_back(sum);
+    }
+    if (changes.empty()) return 0;
+    const double half = 0.5 * *std::max_element(changes.begin(), changes.end());
+    const auto first = std::find_if(changes.begin(), changes.end(), [half](double x) { return x >= half; });
+    return 0.01 * static_cast<double>(first - changes.begin());
+}
+
+Json stretch_of(const store::Sound& s, double from) {
+    const auto begin = std::min(s.samples.size(), static_cast<std::size_t>(std::lround(from * s.rate)));
+    const auto count = std::min(s.samples.size() - begin, static_cast<std::size_t>(beginning * s.rate) + 1);
+    const auto at = s.samples.begin() + static_cast<long>(begin);
+    return std::vector<int>(at, at + static_cast<long>(count));
 }
 
 void add_outline(Json& row, const store::Sound& s) {
@@ -106,14 +125,19 @@ Waveforms waveforms_of(const store::Table& t, std::vector<Track> tracks, std::si
     Waveforms w;
     if (tracks.size() > most) tracks.erase(tracks.begin() + static_cast<long>(most), tracks.end());
     std::sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) { return a.row < b.row; });
+    std::map<std::string, double> from;  // of each problem, by its reference
+    for (const Track& track : tracks)
+        if (is_reference(t, track.row)) from.emplace(track.problem, lively_from(track.sound));
     for (const Track& track : tracks) {
+        const double start = from.emplace(track.problem, 0.0).first->second;
         const bool reference = is_reference(t, track.row);
         Json row{{"sound", track.file},
                  {"who", reference ? "reference" : "scheme"},
                  {"rate", track.sound.rate},
                  {"scale", track.sound.peak / 32767}};
         Json whole = row;
-        row["values"] = beginning_of(track.sound);
+        row["from"] = start;
+        row["values"] = stretch_of(track.sound, start);
         add_outline(whole, track.sound);
         w.beginnings.push_back(std::move(row));
         w.outlines.push_back(std::move(whole));
@@ -122,13 +146,14 @@ Waveforms waveforms_of(const store::Table& t, std::vector<Track> tracks, std::si
         w.reference_of[track.file] = track.reference_file;
         w.units[track.file] = fmt::format("{} [{}]", t.at(track.row, "tap"), unit_of(t.at(track.row, "quantity")));
         w.sounds.choices.emplace_back(json_text(track.file), track.name + (track.detail.empty() ? "" : ", " + track.detail));
+        w.sounds.scenes.push_back(track.problem);
     }
     return w;
 }
 
 Filling filling_of(const Waveforms& w, const std::string& title, const std::string& shown) {
     return {title,
-            "the first 50 ms",
+            "50 ms, with the difference",
             {},
             {},
             {{"beginnings", w.beginnings.dump()}, {"outlines", w.outlines.dump()}},
@@ -171,7 +196,7 @@ Section waveform_section(const Results& r) {
     if (!w.sounds.choices.empty()) {
         const std::string first = w.sounds.choices.front().first;
         Chart c{"a scheme's trace over its reference's", chart_of("waveforms.json", filling_of(w, r.name, first), Medium::page)};
-        c.menus = {w.sounds, {"show", "until_field", {{"0.05", "first 50 ms"}, {"0.02", "first 20 ms"}, {"0.005", "first 5 ms"}}}};
+        c.menus = {w.sounds, {"show", "until_field", {{"0.05", "50 ms"}, {"0.02", "20 ms"}, {"0.005", "5 ms"}}}};
         if (w.longest > beginning) c.menus[1].choices.emplace_back(store::text_of(w.longest), fmt::format("whole, {:.3g} s", w.longest));
         const auto shown = std::find_if(tracks.begin(), tracks.end(), [&](const Track& t) { return json_text(t.file) == first; });
         std::vector<Track> pair{*shown};

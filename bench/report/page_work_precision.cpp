@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
@@ -47,9 +46,8 @@ std::string goal_text(const store::Table& cheapest, std::size_t row) {
     std::string text = compare::goal_name(cheapest, row) + ": " + cheapest.at(row, "scheme");
     if (!cheapest.at(row, "options").empty()) text += " " + cheapest.at(row, "options");
     text += fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
-    std::istringstream ties(cheapest.at(row, "ties"));
-    for (std::string name; ties >> name;) text += " or " + name;
-    return text;
+    const std::string ties = compare::ties_text(cheapest, row);
+    return text + (ties.empty() ? "" : " or " + ties);
 }
 
 // The goals that some cells of the problem reach and some do not, so that they lie among the points.
@@ -106,13 +104,9 @@ Section work_precision_section(const Results& r) {
     w.goals = goals_of(r);
     const auto problems = distinct(r.cells, "problem");
     Chart c{"error against cost of each scheme at each rate", "", false, problem_menu(problems), {}};
-    c.menus.push_back(axis_menu("error", "error_field", w.errors));
+    for (Menu& m : error_menus(w.errors)) c.menus.push_back(std::move(m));
     c.menus.push_back(axis_menu("cost", "cost_field", w.costs));
-    if (const auto series = drawn_series(r.cells); series.size() > 1) {
-        Menu m{"bring out", "brought_out", {{"\"\"", "every scheme"}}};
-        for (const std::string& name : series) m.choices.emplace_back(json_text(name), name);
-        c.menus.push_back(std::move(m));
-    }
+    c.offers = offers_of(w, problems);
     w.medium = Medium::page;
     c.spec = work_precision_spec(w);
     w.medium = Medium::print;
@@ -126,8 +120,12 @@ Section work_precision_section(const Results& r) {
     s.charts.push_back(std::move(c));
     const int flags = r.cells.column("flags");
     s.notes = {
-        "Down is more accurate, left is cheaper. The grey track is the Pareto front; crosses at the upper edge are runs that failed. "
-        "Numbers at the points are rates: \u00d71 is the lowest. Dotted lines are accuracies, with the cheapest that gets there."};
+        "Down is more accurate, left is cheaper. The grey track is the Pareto front; its points say their rates. Bars are quartiles of the "
+        "cost. "
+        "Crosses at the upper edge are runs that failed. Dotted lines are accuracies, with the cheapest that gets there.",
+        "A hue is a family of schemes, a marker a scheme, a dash its options; thin grey lines are controls, known to be wrong somewhere. "
+        "Click a name in the "
+        "legend to bring it out, more names with it, or the empty chart for all."};
     if (std::any_of(r.cells.rows.begin(), r.cells.rows.end(), [&](const auto& row) { return flags >= 0 && !row[flags].empty(); }))
         s.notes.emplace_back("Hollow points are not to be trusted: the run's own figures speak against it. They are on no front.");
     if (!w.bands.empty())

@@ -1,7 +1,10 @@
 #include "bench/report/report.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "bench/compare/bound.hpp"
 #include "bench/report/page_sections.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -11,10 +14,40 @@ namespace jvari::bench::report {
 namespace fs = std::filesystem;
 
 std::vector<Menu> problem_menu(const std::vector<std::string>& problems) {
-    if (problems.size() < 2) return {};
+    if (problems.empty()) return {};
     Menu m{"scene", "problem_field", {}};
     for (const std::string& p : problems) m.choices.emplace_back(json_text(p), p);
     return {m};
+}
+
+std::vector<Menu> error_menus(const std::vector<Axis>& axes) {
+    Menu measures{"error", "measure_field", {}}, taps{"tap", "tap_field", {}};
+    const auto add = [](Menu& m, const std::string& value, const std::string& text) {
+        const std::pair choice{json_text(value), text};
+        if (std::find(m.choices.begin(), m.choices.end(), choice) == m.choices.end()) m.choices.push_back(choice);
+    };
+    for (const Axis& a : axes) {
+        add(measures, a.measure, a.tap.empty() ? a.title : a.title.substr(0, a.title.rfind(", tap ")));
+        add(taps, a.tap, a.tap.empty() ? "headline" : a.tap);
+    }
+    return {measures, taps};
+}
+
+std::vector<std::pair<std::string, std::vector<std::string>>> offers_of(const WorkPrecision& w, const std::vector<std::string>& problems) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> offers;
+    for (const std::string& problem : problems) {
+        const store::Table own = rows_where(w.cells, "problem", problem);
+        std::vector<std::string> columns;
+        const std::string headline = compare::headline_error(own, store::all_rows(own));
+        for (const Axis& a : w.errors)
+            for (std::size_t i = 0; i < own.rows.size(); ++i)
+                if (std::isfinite(own.number(i, a.column))) {
+                    columns.insert(a.column == headline ? columns.begin() : columns.end(), a.column);
+                    break;
+                }
+        offers.emplace_back(problem, columns);
+    }
+    return offers;
 }
 
 std::string twin_file(const std::string& chart, const std::string& problem, const std::vector<std::string>& problems) {
@@ -39,6 +72,8 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     page.title = results.name;
     page.about = results.source + (results.source.empty() ? "" : " \u2014 ") + results.about;
     page.manifest = results.manifest;
+    page.command = results.command;
+    page.verdicts = verdicts_of(results);
     page.sections = {work_precision_section(results), dispersion_section(results), convergence_section(results),
                      cost_section(results),           map_section(results),        spectrogram_section(results),
                      waveform_section(results)};
@@ -48,17 +83,23 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     page.missing = vega.missing;
     if (vega.missing.empty()) page.scripts = vega_scripts(vega).value_or("");
     else listener.note(vega.missing);
+    std::vector<std::string> specs;
     for (const Section& s : page.sections)
         for (const Chart& c : s.charts)
             for (const Twin& t : c.twins) {
                 own.push_back(t.file);
-                if (!vega.missing.empty()) continue;
-                std::string why;
-                const auto svg = svg_of(vega, t.spec, why);
-                if (svg) store::write_fresh(folder / t.file, *svg);
-                else listener.note(t.file + ": " + why);
-                if (svg) written.push_back(t.file);
+                specs.push_back(t.spec);
             }
+    if (vega.missing.empty()) {
+        std::string why;
+        const auto svgs = svgs_of(vega, specs, why);
+        for (std::size_t k = 0; k < svgs.size(); ++k) {
+            if (!svgs[k]) continue;
+            store::write_fresh(folder / own[k], *svgs[k]);
+            written.push_back(own[k]);
+        }
+        if (!why.empty()) listener.note(why);
+    }
     page.sections.push_back(picture_section(results, own));
     page.sections.push_back(cell_section(results));
     store::write_fresh(folder / "report.html", fitting_page_of(std::move(page)));

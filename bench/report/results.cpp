@@ -73,6 +73,7 @@ void read_manifest(Results& r) {
         store::refuse_deep(r.manifest);
         const Json m = Json::parse(r.manifest);
         r.about = m.value("date", "");
+        r.command = m.value("command", "");
         if (!m.contains("scene")) {  // of a suite
             r.name = m.value("suite", "");
             r.source = m.value("source", "");

@@ -12,8 +12,8 @@ namespace jvari::bench::report {
 
 struct Results {
     std::filesystem::path folder;
-    std::string manifest;  // JSON
-    std::string name, source, about;
+    std::string manifest;                                // JSON
+    std::string name, source, about, command;            // command: that made the results
     std::vector<std::string> taps;                       // of compare's scene
     std::vector<std::pair<std::string, double>> floors;  // noise floor of an error column, where the manifest holds them
     // Empty where the file is absent. Each row has the columns `problem` and `series` in front (below).

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/report/page_text.hpp"
 #include "bench/store/interruption.hpp"
 
 extern char** environ;
@@ -119,19 +120,36 @@ std::string inside_script(std::string text) {
     return text;
 }
 
-std::optional<std::string> svg_of(const Vega& v, const std::string& spec, std::string& why) {
+std::vector<std::optional<std::string>> svgs_of(const Vega& v, const std::vector<std::string>& specs, std::string& why) {
+    std::vector<std::optional<std::string>> svgs(specs.size());
+    if (specs.empty()) return svgs;
     const Scratch scratch;
-    const fs::path in = scratch.path / "spec.vl.json", out = scratch.path / "out.svg", said = scratch.path / "said";
-    if (scratch.path.empty() || !(std::ofstream(in, std::ios::binary) << spec)) {
+    const auto file = [&scratch](const std::string& name) { return scratch.path / name; };
+    bool written = !scratch.path.empty() && (std::ofstream(file("draw.js"), std::ios::binary) << page_text("draw.js"));
+    for (std::size_t k = 0; written && k < specs.size(); ++k)
+        written = static_cast<bool>(std::ofstream(file("spec." + std::to_string(k) + ".json"), std::ios::binary) << specs[k]);
+    if (!written) {
         why = "no picture: cannot write to " + temporary().string();
-        return std::nullopt;
+        return svgs;
     }
-    const int code = spawn({"node", (fs::path(v.folder) / ".bin/vl2svg").string(), in.string(), out.string()}, said);
-    const auto svg = whole(out);
-    if (code == 0 && svg && svg->rfind("<svg", 0) == 0) return svg;
-    if (code == -ENOENT) why = "no picture: node is missing (Debian: apt-get install nodejs npm)";
-    else why = "no picture: vl2svg failed: " + whole(said).value_or("").substr(0, 400);
-    return std::nullopt;
+    std::error_code error;
+    const fs::path modules = fs::absolute(v.folder, error);
+    const int code =
+        spawn({"env", "--chdir=" + scratch.path.string(), "NODE_PATH=" + modules.string(), "node", "draw.js", std::to_string(specs.size())},
+              file("said"));
+    for (std::size_t k = 0; k < specs.size(); ++k) {
+        const auto svg = whole(file(std::to_string(k) + ".svg"));
+        if (svg && svg->rfind("<svg", 0) == 0) svgs[k] = svg;
+        else if (why.empty() && code == 127) why = "no picture: node is missing (Debian: apt-get install nodejs npm)";
+        else if (why.empty())
+            why = "no picture: vega failed: " +
+                  whole(file(std::to_string(k) + ".said")).value_or(whole(file("said")).value_or("")).substr(0, 400);
+    }
+    return svgs;
+}
+
+std::optional<std::string> svg_of(const Vega& v, const std::string& spec, std::string& why) {
+    return svgs_of(v, {spec}, why).front();
 }
 
 }  // namespace jvari::bench::report

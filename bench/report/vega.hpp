@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace jvari::bench::report {
 
@@ -16,7 +17,9 @@ Vega find_vega();
 // The three minified libraries, fit to stand inside <script>; nothing where one is missing.
 std::optional<std::string> vega_scripts(const Vega&);
 
-// A Vega-Lite specification as SVG; nothing where node is missing or fails, `why` says what.
+// Vega-Lite specifications as SVG, all by one process; nothing for one that cannot be drawn, or where node is missing. `why` says what was
+// the first.
+std::vector<std::optional<std::string>> svgs_of(const Vega&, const std::vector<std::string>& specs, std::string& why);
 std::optional<std::string> svg_of(const Vega&, const std::string& spec, std::string& why);
 
 // Text that stands inside <script> without ending it: within a string or a regular expression "<\/script" says the same as "</script".

@@ -2,6 +2,8 @@
 
 #include <sys/utsname.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -62,11 +64,26 @@ std::string program_identity(const std::vector<std::string>& plugins, const Mach
     return program.dump();
 }
 
+namespace {
+std::string command() {  // as typed, by the kernel's account; a word with blanks in quotes
+    std::ifstream words("/proc/self/cmdline", std::ios::binary);
+    std::string text, word;
+    for (bool first = true; std::getline(words, word, '\0'); first = false) {
+        if (first) word = word.substr(word.rfind('/') + 1);
+        const bool plain = !word.empty() && word.find_first_of(" \t\n'\"") == std::string::npos;
+        text += (first ? "" : " ") + (plain ? word : "'" + word + "'");
+    }
+    return text;
+}
+}  // namespace
+
 std::string made_by() {
     const Machine& m = machine();
     nlohmann::ordered_json made{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit},        {"compiler", m.compiler},
                                 {"flags", m.flags},   {"build", m.build},     {"sources", m.cell_sources}, {"vectors", m.vectors},
                                 {"cpu", m.cpu},       {"cores", m.cores},     {"system", m.system},        {"date", now_utc()}};
+    made["command"] = command();
+    if (double load[3]; getloadavg(load, 3) > 0) made["load"] = std::round(100 * load[0]) / 100;  // of the last minute
     for (const LoadedPlugin& l : loaded_plugins())
         made["plugins"].push_back(
             {{"file", l.path}, {"hash", hash_of(read_whole(l.path))}, {"compiler", l.plugin->compiler}, {"flags", l.plugin->flags}});

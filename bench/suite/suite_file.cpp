@@ -137,7 +137,17 @@ Suite read_suite(const std::string& name) {
     if (!file && (name.find('/') != std::string::npos || !fs::is_regular_file(shelved, error)))
         throw store::UsageError(store::unknown("suite", name, library_suites()) + " (neither a file nor a suite of the library)");
     const std::string path = file ? name : shelved.string();
-    return parse_suite(store::read_whole(path), path);
+    Suite suite = parse_suite(store::read_whole(path), path);
+    // a scene's file is looked for beside the suite's, then where the program runs; a name of the library is neither
+    const auto find = [&](std::string& scene) {
+        if (const fs::path beside = fs::path(path).parent_path() / scene;
+            fs::path(scene).is_relative() && fs::is_regular_file(beside, error))
+            scene = beside.string();
+    };
+    for (CellSet& set : suite.sets)
+        for (std::string& scene : set.scenes) find(scene);
+    for (map::Map& m : suite.maps) find(m.scene);
+    return suite;
 }
 
 std::vector<std::string> library_suites() {
@@ -157,6 +167,7 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
                 compare::CompareRequest base;
                 base.scene = scene;
                 base.schemes = set.schemes;
+                base.controls = true;
                 base.rates = set.rates;
                 base.modes = modes;
                 base.duration = set.duration;

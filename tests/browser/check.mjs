@@ -1,13 +1,15 @@
-// check.mjs PROGRAM RESULTS: makes a comparison, a suite and a page of made-up numbers with the built program, opens them in Chromium, and asks what
-// a reader would: is everything drawn, do the menus act, does it sound, does it fit a phone, is the console clean.
+// check.mjs PROGRAM RESULTS NODE_MODULES: makes a comparison, a suite and a page of made-up numbers with the built program, opens them in Chromium, and
+// asks what a reader would: is the verdict the first thing, is everything drawn for every scene, has a scheme one look, do the menus act, does it
+// sound, does it fit a phone, is it accessible (axe-core), is the console clean.
 import {spawnSync} from "node:child_process";
-import {cpSync, mkdtempSync, rmSync, statSync, writeFileSync} from "node:fs";
+import {cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
-import {join} from "node:path";
+import {dirname, join} from "node:path";
 import {pathToFileURL} from "node:url";
 import {open} from "./chromium.mjs";
 
-const [program, results] = process.argv.slice(2);
+const [program, results, modules] = process.argv.slice(2);
+const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8");
 const scratch = mkdtempSync(join(tmpdir(), "jvari-browser-"));
 let failures = 0;
 const expect = (holds, what) => {
@@ -30,6 +32,15 @@ modes = 10
 duration = 0.06
 repeats = 1
 measure = ["errors", "cost", "spectrogram", "sound"]
+
+[[cells]]
+scenes = ["two_point_bridge"]
+schemes = ["modal_two_point", "modal_explicit_penalty"]
+rates = [44100, 88200]
+modes = 10
+duration = 0.02
+repeats = 1
+measure = ["errors", "cost"]
 `;
 
 function make_folders() {
@@ -63,7 +74,7 @@ const in_page = {
         const dead = [];
         for (const select of document.querySelectorAll(".menus select")) {
             const chart = select.closest(".menus").nextElementSibling, before = picture(chart);
-            select.selectedIndex = select.options.length - 1;
+            select.selectedIndex = [...select.options].findLastIndex(option => !option.disabled);
             select.dispatchEvent(new Event("change"));
             await settled();
             if (picture(chart) === before || !marks(chart)) dead.push(select.closest("label").textContent.slice(0, 30) + " of " + chart.getAttribute("aria-label"));
@@ -89,8 +100,61 @@ const in_page = {
         const column = () => { const k = [...table.querySelectorAll("th")].indexOf(heading("rate")); return [...table.querySelectorAll("tbody tr")].map(tr => Number(tr.cells[k].textContent)); };
         return {button: document.activeElement === heading("rate").querySelector("button"), sort: heading("rate").getAttribute("aria-sort"), column: column()};
     })()`,
-    width: "document.documentElement.scrollWidth"
+    width: "document.documentElement.scrollWidth",
+    // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that failed, and whether the error is one that the scene has.
+    scenes: `(async () => {${helpers}
+        const select = document.getElementById("scene"), told = [];
+        for (const name of select ? [...select.options].map(o => o.value) : [null]) {
+            if (name !== null) {
+                select.value = name;
+                await select.onchange();
+                await settled();
+            }
+            const section = page.sections.find(s => s.id === "work-precision");
+            if (name !== null && section && !section.charts[0].offers[name]) continue;  // it has other charts alone
+            const chart = document.querySelector("#work-precision .chart");
+            if (!chart) continue;
+            const data = section.charts[0], rows = data.spec.datasets.cells.filter(row => name === null || row.problem === name);
+            const [measure, tap] = ["measure_field", "tap_field"].map(signal => {
+                const menus = data.menus.filter(menu => menu.signal !== "problem_field" && menu.choices.length > 1), k = menus.findIndex(menu => menu.signal === signal);
+                return k < 0 ? data.menus.find(menu => menu.signal === signal).choices[0][0] : menus[k].choices[document.querySelectorAll("#work-precision .menus select")[k].selectedIndex][0];
+            });
+            const error = measure + (tap === "" ? "" : "_" + tap), offers = data.offers[name ?? Object.keys(data.offers)[0]] ?? [];
+            told.push({name, offered: offers.includes(error),
+                       empty: [...document.querySelectorAll(".chart")].filter(c => !marks(c)).map(c => c.getAttribute("aria-label")),
+                       crosses: [...chart.querySelectorAll("svg.marks text")].filter(t => t.textContent === "\u2715").length,
+                       failed: rows.filter(row => row.status !== "ok" && row.cost_s_per_s > 0).length,
+                       points: chart.querySelectorAll(".mark-symbol.role-mark path[opacity='1']").length,
+                       drawable: rows.filter(row => row.status === "ok" && row[error] > 0 && row.cost_s_per_s > 0).length,
+                       verdict: document.querySelectorAll("#verdict tbody tr").length});
+        }
+        if (select) { select.selectedIndex = 0; await select.onchange(); }
+        return told;
+    })()`,
+    fold: `(() => { scrollTo(0, 0); const v = document.getElementById("verdict"), t = v.querySelector("table"); return {top: v.getBoundingClientRect().top, bottom: t.hidden ? v.querySelector("p").getBoundingClientRect().bottom : t.getBoundingClientRect().bottom, first: (v.querySelector("tbody tr") ?? v).getBoundingClientRect().top}; })()`,
+    axe: `axe.run(document, {resultTypes: ["violations"]}).then(r => r.violations.filter(v => v.impact === "serious" || v.impact === "critical").map(v => v.id + ": " + v.nodes.slice(0, 3).map(n => n.target.join(" ") + " " + n.failureSummary.slice(0, 160)).join(" | ")))`,
+    // The look of each name in the legends of the page's charts, then of the pictures beside it.
+    looks: files => `(() => {
+        const look = (where, root) => [...root.querySelectorAll(".role-legend-entry")].flatMap(entry => {
+            const symbols = [...entry.querySelectorAll(".role-legend-symbol path")], labels = [...entry.querySelectorAll(".role-legend-label text")];
+            return labels.map((label, k) => ({where, name: label.textContent, look: [symbols[k]?.getAttribute("d"), symbols[k]?.getAttribute("fill"), symbols[k]?.getAttribute("stroke")].join(" ")}));
+        });
+        const pictures = ${JSON.stringify(files)};
+        return [...[...document.querySelectorAll(".chart svg.marks")].flatMap(svg => look("the page, " + svg.closest(".chart").getAttribute("aria-label"), svg)),
+                ...pictures.flatMap(([name, text]) => look(name, new DOMParser().parseFromString(text, "image/svg+xml")))];
+    })()`
 };
+const known = /^(modal|finite_difference|sitar)_/;
+
+function one_look(looks) {  // of each scheme: the same marker and colour wherever it is
+    const first = new Map(), other = [];
+    for (const l of looks.filter(l => known.test(l.name))) {
+        const scheme = l.name.split(/[ ,:]/)[0];
+        if (!first.has(scheme)) first.set(scheme, l);
+        else if (first.get(scheme).look !== l.look) other.push(`${scheme} in ${l.where} is not as in ${first.get(scheme).where}`);
+    }
+    return {schemes: first.size, other};
+}
 
 async function ready(browser) {
     for (let k = 0; k < 600; ++k) {
@@ -105,13 +169,28 @@ const sorted = numbers => numbers.every((x, k) => k === 0 || Number.isNaN(x) || 
 
 async function check(browser, name, file, charts) {
     console.log(name);
-    expect(statSync(file).size < 15e6, `the page is below 15 MB: ${statSync(file).size}`);
-    await browser.page("Emulation.setDeviceMetricsOverride", {width: 1280, height: 900, deviceScaleFactor: 1, mobile: false});
+    expect(statSync(file).size < 5e6, `the page is below 5 MB: ${statSync(file).size}`);
+    await browser.page("Emulation.setDeviceMetricsOverride", {width: 1400, height: 900, deviceScaleFactor: 1, mobile: false});
     await browser.page("Page.navigate", {url: pathToFileURL(file).href});
     await ready(browser);
     const drawn = await browser.evaluate(in_page.drawn);
     expect(drawn.length === charts, `${charts} charts stand there: ${drawn.length}`);
     for (const chart of drawn) expect(chart.marks > 0, `${chart.name} is drawn`);
+    const fold = await browser.evaluate(in_page.fold);
+    expect(fold.bottom <= 900, `the verdict stands above the fold: its table ends at ${fold.bottom}`);
+    const pictures = readdirSync(dirname(file)).filter(f => f.endsWith(".svg")).map(f => [f, readFileSync(join(dirname(file), f), "utf8")]);
+    const {schemes, other} = one_look(await browser.evaluate(in_page.looks(pictures)));
+    expect(other.length === 0 && (name === "made-up" || schemes >= 2), `each of ${schemes} schemes looks the same everywhere: ${other.join("; ")}`);
+    for (const told of await browser.evaluate(in_page.scenes)) {
+        expect(told.offered, `${told.name}: the error that is chosen is one of the scene's`);
+        expect(told.empty.length === 0, `${told.name}: every chart is drawn: ${told.empty.join("; ")}`);
+        expect(told.crosses === told.failed, `${told.name}: ${told.crosses} crosses, ${told.failed} runs failed`);
+        expect(told.points >= told.drawable && told.drawable > 0, `${told.name}: ${told.points} points for ${told.drawable} runs that have the error`);
+        expect(told.verdict > 0, `${told.name}: there is a verdict`);
+    }
+    await browser.evaluate(axe + ";0");
+    const serious = await browser.evaluate(in_page.axe);
+    expect(serious.length === 0, `axe finds nothing serious: ${serious.join("\n    ")}`);
     const menus = await browser.evaluate(in_page.menus);
     expect(menus.menus > 0 && menus.dead.length === 0, `each of ${menus.menus} menus redraws its chart: ${menus.dead.join("; ")}`);
     expect(await browser.evaluate("[...document.querySelectorAll('select, input')].every(e => e.closest('label'))"), "each menu has a label");
@@ -125,16 +204,28 @@ async function check(browser, name, file, charts) {
     const after = await browser.evaluate(in_page.table);
     expect(before.button && before.sort === "none" && after.button && after.sort === "ascending", "a heading sorts by keyboard and keeps the focus");
     expect(!sorted(before.column) && sorted(after.column), "the rows are sorted then");
+    await browser.evaluate("[...document.querySelectorAll('#cells button')].find(b => b.textContent === 'all rows' && !b.hidden)?.click()");
     if (name === "made-up")
         expect(await browser.evaluate("[...document.querySelectorAll('#cells td')].some(td => td.textContent === '\\u22645.56e-03')"), "an error is no more than it and its certificate together");
-    await browser.page("Emulation.setDeviceMetricsOverride", {width: 360, height: 740, deviceScaleFactor: 2, mobile: true});
+    await browser.page("Emulation.setDeviceMetricsOverride", {width: 390, height: 844, deviceScaleFactor: 2, mobile: true});
     await browser.page("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: "dark"}]});
     await pause(200);
     await ready(browser);
     const width = await browser.evaluate(in_page.width);
-    expect(width <= 360, `nothing overflows at 360 pixels: ${width}`);
+    expect(width <= 390, `nothing overflows at 390 pixels: ${width}`);
+    const phone = await browser.evaluate(in_page.fold);
+    expect(phone.first < 844, `the verdict begins above the fold of a phone: ${phone.first}`);
+    const in_the_dark = await browser.evaluate(in_page.axe);
+    expect(in_the_dark.length === 0, `axe finds nothing serious on a phone in the dark: ${in_the_dark.join("\n    ")}`);
     for (const chart of await browser.evaluate(in_page.drawn)) expect(chart.marks > 0, `${chart.name} is drawn on a phone in the dark`);
     await browser.page("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: "light"}]});
+    if (name !== "suite") return;
+    await browser.evaluate("(async () => { const s = document.getElementById('scene'); s.selectedIndex = 1; await s.onchange(); })()");
+    const address = await browser.evaluate("location.href");
+    await browser.page("Page.navigate", {url: "about:blank"});
+    await browser.page("Page.navigate", {url: address});
+    await ready(browser);
+    expect(await browser.evaluate("document.getElementById('scene').selectedIndex === 1"), `a view can be linked to: ${address}`);
 }
 
 let browser;

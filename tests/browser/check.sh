@@ -4,4 +4,5 @@ for program in node chromium; do
     command -v $program >/dev/null || { echo "skipped: $program is missing (apt-packages.txt; .ci/setup installs it)"; exit 77; }
 done
 [ -f "$3/vega/build/vega.min.js" ] || { echo "skipped: $3 holds no vega (npm ci at the root of the sources)"; exit 77; }
-exec node "$(dirname "$0")/check.mjs" "$1" "$2"
+[ -f "$3/axe-core/axe.min.js" ] || { echo "skipped: $3 holds no axe-core (npm ci at the root of the sources)"; exit 77; }
+exec node "$(dirname "$0")/check.mjs" "$1" "$2" "$3"

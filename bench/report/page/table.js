@@ -1,5 +1,5 @@
 "use strict";
-// Tables that sort: {columns, rows, first}; a button in each heading, its state in aria-sort.
+// Tables that sort and can be filtered: {columns, rows, first}; a button in each heading, its state in aria-sort. On a phone a row is a card.
 const element = (name, properties = {}, ...children) => {
   const e = Object.assign(document.createElement(name), properties);
   e.append(...children);
@@ -12,7 +12,10 @@ function table_of(table, caption) {
   const texts = new Set(table.columns.filter(name => table.rows.some(row => row[at[name]] !== "" && Number.isNaN(number(row[at[name]])))));
   const all = element("input", {type: "checkbox"});
   const head = element("thead"), body = element("tbody");
-  let sorted = null, downward = false;
+  const filter = element("input", {type: "search", size: 24, placeholder: "words of a row"}), save = element("button", {type: "button"}, "CSV");
+  const count = element("span"), more = element("button", {type: "button"}, "all rows");
+  const at_first = 25;
+  let sorted = null, downward = false, whole = false;
 
   const place = new Map(table.rows.map((row, k) => [row, k]));
   const shown = (row, name) => table.shown?.[name]?.[place.get(row)];  // a bound, in place of what was measured
@@ -42,12 +45,18 @@ function table_of(table, caption) {
       if (name === focused) queueMicrotask(() => button.focus());
       return th;
     })));
-    const rows = sorted ? [...table.rows].sort(compare) : table.rows;
+    const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const found = table.rows.filter(row => { const text = row.join(" ").toLowerCase(); return words.every(word => text.includes(word)); });
+    const rows = (sorted ? found.sort(compare) : found).slice(0, whole ? Infinity : at_first);
+    count.textContent = rows.length < found.length ? ` ${rows.length} of ${found.length} rows ` : ` ${found.length} rows `;
+    more.hidden = rows.length === found.length;
     body.replaceChildren(...rows.map(row => {
       const status = row[at.status];
       const tr = element("tr", {className: row[at.pareto] === "1" ? "front" : (status === undefined || status === "ok") && !row[at.flags] ? "" : "bad"});
       for (const name of names) {
         const td = element("td", {className: (texts.has(name) ? "text " : "") + name}, written(row, name));
+        td.dataset.name = name.replaceAll("_", " ");
+        if (td.textContent === "") td.classList.add("empty");
         if (!texts.has(name)) td.title = (shown(row, name) ? "measured: " : "") + row[at[name]];
         tr.append(td);
       }
@@ -55,11 +64,20 @@ function table_of(table, caption) {
     }));
   }
   all.onchange = () => fill();
+  filter.oninput = () => fill();
+  more.onclick = () => { whole = true; fill(); };
+  save.onclick = () => {
+    const field = text => /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+    const text = [table.columns, ...table.rows].map(row => row.map(field).join(",")).join("\n") + "\n";
+    const link = element("a", {href: URL.createObjectURL(new Blob([text], {type: "text/csv"})), download: caption.toLowerCase().replaceAll(/[^a-z]+/g, "-") + ".csv"});
+    link.click();
+    URL.revokeObjectURL(link.href);
+  };
   fill();
-  const frame = element("div", {className: "scroll", tabIndex: 0}, element("table", {}, head, body));
+  const frame = element("div", {className: "scroll cards", tabIndex: 0}, element("table", {}, head, body));
   frame.setAttribute("role", "region");
   frame.setAttribute("aria-label", caption + ", a table");
-  const hint = element("p", {className: "soft"}, "The headings sort. ");
+  const hint = element("div", {className: "menus"}, element("label", {}, "filter ", filter), save);
   if (table.first.length && table.first.length < table.columns.length) hint.append(element("label", {}, all, " every column"));
-  return [hint, frame];
+  return [hint, frame, element("p", {className: "soft"}, "The headings sort.", count, more)];
 }

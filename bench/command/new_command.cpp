@@ -1,0 +1,102 @@
+// jvari new: a scene of one's own, from one of the library that is explained for it; below it what else a scene can say. Writes no file
+// over another.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "bench/command/commands.hpp"
+#include "bench/command/console.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/indented.hpp"
+#include "bench/store/usage.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/wording.hpp"
+
+namespace jvari::bench::command {
+
+namespace {
+namespace fs = std::filesystem;
+
+struct Template {
+    const char *instrument, *scene;
+};
+constexpr Template templates[] = {{"guitar", "guitar_over_fret"},
+                                  {"tanpura", "tanpura_c3_release"},
+                                  {"sitar", "sitar_parabola"},
+                                  {"bass", "slap_bass"},
+                                  {"piano", "prepared_piano"}};
+
+constexpr const char* what_else = R"(
+# ---- What a scene can say
+#
+# SI units throughout. x runs along the string from 0 to `length`; its displacement y is positive away from the barrier, so what pushes or plucks it
+# towards the barrier is negative. A barrier below the string at rest has a negative `height`. A string with neither `initial` nor `pluck` is silent.
+#
+# The barrier pushes with stiffness * penetration^exponent. A lumped one acts at one place (over `width`), a profile along `from` to `to`:
+#   shape = "profile", curve = "flat" (height 0), "line" (coefficient x), "parabola" (-coefficient x^2) or "table" (a file)
+#
+# Losses: the amplitude of a mode falls as exp(-sigma t). Its wavenumber is b, its frequency f [Hz].
+#   law = "none"            sigma = 0
+#   law = "polynomial"      sigma = sigma0 + sigma1 b + sigma3 b^3
+#   law = "quality_factor"  sigma = pi f / Q, 1/Q = the sum of the losses by air, viscoelasticity and heat
+#   law = "per_period"      sigma = -f1 ln(factor), f1 the frequency of the first mode: the same for all modes
+#   law = "table"           sigma and f of each mode from a file
+#
+# Taps: what is recorded and compared. `string` counts from 0; a force without it is the sum over strings.
+#   quantity = "displacement", "velocity"   of the string at `position`
+#   quantity = "nut_force"      of the string on its end at x = length, whatever that is on your instrument: errors are of the first such tap
+#   quantity = "bridge_force"   of the barriers on the string, the mean over the time between two rows
+#   quantity = "thread_force"   of the thread on the string, the same
+#   quantity = "driving_force"  -(bridge_force + thread_force)
+#
+# Start: [string.initial] is a shape at rest that is let go, [string.pluck] the force of a finger or hammer.
+#   shape = "mode" (number, amplitude) or "triangle" (position, amplitude, smoothing: 0 is a sharp corner)
+#
+# Try it:   jvari run @FILE@ --scheme modal_two_point --wav-format pcm16 --out @NAME@.wav
+# Compare:  jvari compare @FILE@ --duration 0.1 --out @NAME@-report
+)";
+
+std::vector<std::string> instruments() {
+    std::vector<std::string> names;
+    for (const Template& t : templates) names.emplace_back(t.instrument);
+    return names;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) text.replace(at, what.size(), by);
+    return text;
+}
+
+// The library's text under another name.
+std::string renamed(std::string text, const std::string& name) {
+    const auto key = text.find("\nname = ");
+    return text.replace(key + 1, text.find('\n', key + 1) - key - 1, fmt::format("name = \"{}\"", name));
+}
+}  // namespace
+
+int new_command(const NewRequest& r) {
+    const Console console(r.json, r.quiet);
+    const Template* chosen =
+        std::find_if(std::begin(templates), std::end(templates), [&r](const Template& t) { return r.instrument == t.instrument; });
+    if (chosen == std::end(templates)) throw store::UsageError(store::unknown("instrument", r.instrument, instruments()));
+    const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+    if (r.name.empty() || !std::all_of(r.name.begin(), r.name.end(), plain))
+        throw store::UsageError(
+            fmt::format("new: found the name {}, expected letters, digits, _ and -: it becomes NAME.toml here", found_text(r.name)));
+    const fs::path file = r.name + ".toml";
+    std::error_code error;
+    if (fs::exists(file, error)) throw store::UsageError(fmt::format("{} is there already; choose another name", file.string()));
+    store::must_be_writable(file);
+    const std::string end = replaced(replaced(what_else, "@FILE@", file.string()), "@NAME@", r.name);
+    const std::string text = renamed(library_text(chosen->scene), r.name) + end;
+    parse_scene(text, file.string());
+    store::write_fresh(file, text);
+    console.print(
+        fmt::format("written: {}, after the library's {}; it says what each key means, and what to try", file.string(), chosen->scene));
+    console.print_json(store::indented({{"status", "ok"}, {"file", file.string()}, {"after", chosen->scene}}));
+    return exit_code::done;
+}
+
+}  // namespace jvari::bench::command

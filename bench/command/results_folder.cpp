@@ -1,0 +1,53 @@
+#include "bench/command/results_folder.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/usage.hpp"
+
+namespace jvari::bench::command {
+
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", "shards"};
+constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".part"};
+
+std::string what_is_in(const fs::path& manifest) {  // "" where that cannot be told
+    try {
+        const auto m = nlohmann::json::parse(store::read_whole(manifest));
+        if (m.contains("suite")) return "suite " + m.at("suite").get<std::string>();
+        return "comparison of " + m.at("scene").at("name").get<std::string>();
+    } catch (const std::exception&) {
+        return "";
+    }
+}
+}  // namespace
+
+void must_be_ours(const fs::path& folder, const std::string& what, const store::Listener& listener) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) return;
+    if (const std::string there = what_is_in(folder / "manifest.json"); !there.empty() && there != what)
+        throw store::UsageError(fmt::format("--out {}: this folder holds the {}, and this is the {}; choose another folder, or empty it",
+                                            folder.string(), there, what));
+    std::vector<std::string> foreign;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename(), extension = entry.path().extension();
+        const bool own = entry.is_directory(error)
+                             ? std::find(std::begin(own_folders), std::end(own_folders), name) != std::end(own_folders)
+                             : std::find(std::begin(own_endings), std::end(own_endings), extension) != std::end(own_endings);
+        if (!own && !name.starts_with(".")) foreign.push_back(name);
+    }
+    std::sort(foreign.begin(), foreign.end());
+    if (foreign.empty()) return;
+    std::string names;
+    for (std::size_t k = 0; k < std::min<std::size_t>(foreign.size(), 5); ++k) names += (k > 0 ? ", " : "") + foreign[k];
+    listener.note(fmt::format("{} holds what is not of a {}: {}{}", folder.string(), what.substr(0, what.find(' ')), names,
+                              foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
+}
+
+}  // namespace jvari::bench::command

@@ -1,0 +1,12 @@
+// Strings that will not sound.
+#pragma once
+
+#include "bench/store/listener.hpp"
+#include "scenes/scene.hpp"
+
+namespace jvari::bench::compare {
+
+// Warns of each string that nothing sets in motion before the scene ends.
+void note_silent_strings(const Scene&, const store::Listener&);
+
+}  // namespace jvari::bench::compare
