@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bench/compare/bound.hpp"
+#include "bench/compare/diagnosis.hpp"
 #include "bench/store/cell_rows.hpp"
 
 namespace jvari::bench::compare {
@@ -43,24 +44,36 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
     const auto undecided = [&](std::size_t i) { return goal.undecided(cells, i); };
     if (!best) {
         const bool open = std::any_of(rows.begin(), rows.end(), undecided);
-        return {open ? "not_known" : "none", "", "", "", "", "", "", "", "", open ? other_schemes(cells, rows, "", undecided) : ""};
+        const bool waveform = goal.measure != "third_octave_db";
+        return {open ? "not_known" : "none",
+                "",
+                "",
+                "",
+                "",
+                "",
+                "",
+                "",
+                "",
+                open ? other_schemes(cells, rows, "", undecided) : "",
+                waveform && !open ? why_none(cells, rows, goal.measure, goal.most) : ""};
     }
     const std::string& scheme = cells.at(*best, "scheme");
     const Bound b = bound_of(cells, *best, goal.measure);
-    return {"found",
-            scheme,
-            cells.at(*best, "options"),
-            cells.at(*best, "rate"),
-            cells.at(*best, "modes"),
-            store::text_of(b.error),
-            std::isnan(b.certificate) ? "" : store::text_of(b.most()),
-            cells.at(*best, "cost_s_per_s"),
-            other_schemes(
-                cells, rows, scheme,
-                [&](std::size_t i) { return goal.met(cells, i) && cells.number(i, "cost_lower") <= cells.number(*best, "cost_upper"); }),
-            other_schemes(cells, rows, scheme, [&](std::size_t i) {
-                return undecided(i) && cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s");
-            })};
+    return {
+        "found",
+        scheme,
+        cells.at(*best, "options"),
+        cells.at(*best, "rate"),
+        cells.at(*best, "modes"),
+        store::text_of(b.error),
+        std::isnan(b.certificate) ? "" : store::text_of(b.most()),
+        cells.at(*best, "cost_s_per_s"),
+        other_schemes(
+            cells, rows, scheme,
+            [&](std::size_t i) { return goal.met(cells, i) && cells.number(i, "cost_lower") <= cells.number(*best, "cost_upper"); }),
+        other_schemes(cells, rows, scheme,
+                      [&](std::size_t i) { return undecided(i) && cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s"); }),
+        ""};
 }
 }  // namespace
 
@@ -70,7 +83,7 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene) {
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
     for (const char* name :
-         {"measure", "target", "status", "scheme", "options", "rate", "modes", "error", "bound", "cost_s_per_s", "ties", "perhaps"})
+         {"measure", "target", "status", "scheme", "options", "rate", "modes", "error", "bound", "cost_s_per_s", "ties", "perhaps", "why"})
         t.columns.push_back(name);
     std::vector<std::string> naming = swept;
     naming.insert(naming.begin(), "scene");
@@ -110,7 +123,7 @@ std::string cheapest_text(const store::Table& t) {
         text += fmt::format("  {:<16} within {:<6}  ", t.at(i, "measure"), goal_name(t, i));
         const std::string& perhaps = t.at(i, "perhaps");
         if (t.at(i, "status") == "not_known") text += "not known: the reference is not certain enough to tell\n";
-        else if (t.at(i, "status") == "none") text += "none\n";
+        else if (t.at(i, "status") == "none") text += t.at(i, "why").empty() ? "none\n" : fmt::format("none: {}\n", t.at(i, "why"));
         else
             text +=
                 fmt::format("{}{} {}, {:.3g} s per s{}{}\n", t.at(i, "scheme"), t.at(i, "options").empty() ? "" : " " + t.at(i, "options"),
