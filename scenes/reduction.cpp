@@ -117,10 +117,14 @@ std::vector<Reduction> reductions_of(const Scene& scene, double penetration) {
 }
 
 void remove_idle_taps(Scene& scene, const std::string& kept) {
-    const bool thread = std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return s.thread.has_value(); });
-    const bool contact = std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return !s.barriers.empty(); });
     std::erase_if(scene.taps, [&](const Tap& t) {
         if (t.name == kept) return false;
+        bool thread = false, contact = false;  // of its string, or of any where it is a sum
+        for (std::size_t s = 0; s < scene.strings.size(); ++s) {
+            if (t.string && *t.string != static_cast<int>(s)) continue;
+            thread = thread || scene.strings[s].thread.has_value();
+            contact = contact || !scene.strings[s].barriers.empty();
+        }
         return (t.quantity == Quantity::thread_force && !thread) || (t.quantity == Quantity::bridge_force && !contact) ||
                (t.quantity == Quantity::driving_force && !thread && !contact);
     });

@@ -9,6 +9,8 @@
 namespace jvari::bench::report {
 
 Section work_precision_section(const Results&);
+Section path_section(const Results&);
+Section needs_section(const Results&);
 Section dispersion_section(const Results&);
 Section convergence_section(const Results&);
 Section cost_section(const Results&);
