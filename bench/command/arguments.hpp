@@ -66,7 +66,8 @@ struct CheckRequest : Common {
     std::string junit;
 };
 
-using Request = std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest, TrimCall, CertifyRequest, ReportRequest, DiffRequest, CheckRequest>;
+using Request =
+    std::variant<ListRequest, RunRequest, CompareCall, SuiteRequest, TrimCall, CertifyRequest, ReportRequest, DiffRequest, CheckRequest>;
 
 // Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);
