@@ -16,6 +16,7 @@ struct Verb {
     int operator()(const jvari::bench::command::RunRequest& r) const { return jvari::bench::command::run_command(r); }
     int operator()(const jvari::bench::command::CompareCall& r) const { return jvari::bench::command::compare_command(r); }
     int operator()(const jvari::bench::command::SuiteRequest& r) const { return jvari::bench::command::suite_command(r); }
+    int operator()(const jvari::bench::command::TrimCall& r) const { return jvari::bench::command::trim_command(r); }
     int operator()(const jvari::bench::command::CertifyRequest& r) const { return jvari::bench::command::certify_command(r); }
     int operator()(const jvari::bench::command::ReportRequest& r) const { return jvari::bench::command::report_command(r); }
     int operator()(const jvari::bench::command::DiffRequest& r) const { return jvari::bench::command::diff_command(r); }

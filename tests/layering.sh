@@ -23,7 +23,7 @@ forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(gr
 forbid "grids see contacts and the seam" '#include "schemes/(modal|spatial|sitar)/' $(files schemes/grid)
 forbid "sitars see contacts and the seam" '#include "schemes/(modal|spatial|grid)/' $(files schemes/sitar)
 above=
-for room in command report check suite map diff compare trust store; do  # each room of bench sees itself and those after it here
+for room in command report trim check suite map diff compare trust store; do  # each room of bench sees itself and those after it here
     [ -z "$above" ] || forbid "bench/$room sees nothing of the rooms above it" "#include \"bench/($above)/" $(files bench/$room)
     above=${above:+$above|}$room
     forbid "bench/$room opens the namespace of its room" "^namespace jvari(::bench::[a-z]+)? \\{$" \

@@ -24,6 +24,7 @@ constexpr const char* examples =
     "  jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --energy --set string.0.tension=40 --out c3.csv\n"
     "  jvari compare tanpura_c3_release --out report           every scheme that represents it, at 44.1 kHz x 1 ... 64\n"
     "  jvari suite paper-deshmukh --out sitar --resume         a declared set of cells, taken up where it was stopped\n"
+    "  jvari trim tanpura_c3_release --within 1% --out trimmed  no more than the scene needs: the cheapest model within 1 %\n"
     "  jvari certify tanpura_c3_release --duration 0.1         how far the references agree there\n"
     "  jvari report report                                     its page and picture once more\n"
     "  jvari diff results/smoke report                         what got worse, what got better\n"
@@ -198,6 +199,46 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     suite_verb->footer("Example: jvari suite paper-deshmukh --out sitar --resume");
     add_common(*suite_verb, suite);
 
+    TrimCall trim;
+    auto* trim_verb = app.add_subcommand("trim", "the cheapest model of a scene within a tolerance: no more than it needs");
+    trim_verb->add_option("scene", trim.scene, "a scene file, or a name that `jvari list scenes` shows")->required()->type_name("SCENE");
+    trim_verb->add_option("--within", trim.within, "the tolerance: 1%, or 1dB where the measure is in dB")->required()->type_name("ERROR");
+    trim_verb->add_option("--of", trim.measure, "l2_50ms (absent), third_octave_db, stft, centroid or decay")
+        ->type_name("MEASURE")
+        ->option_text("MEASURE");
+    trim_verb->add_option("--tap", trim.tap, "what is listened to; absent: the first nut force, else the first tap")->type_name("NAME");
+    trim_verb->add_option("--scheme", trim.scheme, "a scheme; any: all that represent the scene or what is left of it")
+        ->type_name("NAME|any")
+        ->option_text("NAME|any");
+    trim_verb->add_option("--set", trim.set, "overrides a key of the scene (repeatable)")
+        ->type_name("KEY.PATH=VALUE")
+        ->allow_extra_args(false);
+    trim_verb->add_option("--duration", trim.duration, "how much of the scene is run and judged; 0.05 where absent")
+        ->type_name("S")
+        ->check(positive)
+        ->option_text("S");
+    trim_verb
+        ->add_option("--tap-rate", trim.tap_rate,
+                     "rows per second that are compared, and the lowest rate that is tried; 44100 where absent")
+        ->type_name("HZ")
+        ->check(positive)
+        ->option_text("HZ");
+    trim_verb->add_option("--reference", trim.reference, "a reference or a scheme; absent: the highest reference that represents the scene")
+        ->type_name("NAME");
+    trim_verb
+        ->add_option("--reference-modes", trim.reference_modes,
+                     "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber)
+        ->option_text("N");
+    add_jobs(*trim_verb, trim.jobs);
+    trim_verb
+        ->add_option("--out", trim.out,
+                     "folder for trimmed.toml, needs.csv, path.csv, trim.svg, report.html; what was judged is kept in its cells/")
+        ->type_name("DIR");
+    trim_verb->footer("Example: jvari trim tanpura_c3_release --within 1% --out trimmed");
+    add_common(*trim_verb, trim);
+
     CertifyRequest certify;
     auto* certify_verb = app.add_subcommand("certify", "how far the references agree on a scene: what an error can be believed to");
     add_scene(*certify_verb, certify.scene, certify.set, certify.modes);
@@ -281,6 +322,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     must_be_assignments(run.set);
     must_be_assignments(compare.set);
     must_be_assignments(certify.set);
+    must_be_assignments(trim.set);
     run.options = scheme_options(run_options);
     compare.options = scheme_options(compare_options);
     if (!run.wav_format.empty() && run.out.empty()) throw store::UsageError("--wav-format: there is no --out FILE.wav");
@@ -299,6 +341,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
             throw store::UsageError("diff: expected two folders, or --history DIR (see jvari diff --help)");
         return diff;
     }
+    if (trim_verb->parsed()) return trim;
     return report;
 }
 

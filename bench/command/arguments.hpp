@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/compare/request.hpp"
+#include "bench/trim/judge.hpp"
 
 namespace jvari::bench::command {
 
@@ -49,6 +50,8 @@ struct SuiteRequest : Common {
     int jobs = 0;  // 0: as many as there are cores
 };
 
+struct TrimCall : Common, trim::Request {};
+
 struct CertifyRequest : Common {
     std::string scene, out;
     int modes = 0;
@@ -67,8 +70,8 @@ struct CheckRequest : Common {
     std::string junit;
 };
 
-using Request =
-    std::variant<NewRequest, ListRequest, RunRequest, CompareCall, SuiteRequest, CertifyRequest, ReportRequest, DiffRequest, CheckRequest>;
+using Request = std::variant<NewRequest, ListRequest, RunRequest, CompareCall, SuiteRequest, TrimCall, CertifyRequest, ReportRequest,
+                             DiffRequest, CheckRequest>;
 
 // Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);

@@ -10,6 +10,7 @@ int list_command(const ListRequest&);
 int run_command(const RunRequest&);
 int compare_command(const CompareCall&);
 int suite_command(const SuiteRequest&);
+int trim_command(const TrimCall&);
 int certify_command(const CertifyRequest&);
 int report_command(const ReportRequest&);
 int diff_command(const DiffRequest&);

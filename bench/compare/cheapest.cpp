@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "bench/compare/bound.hpp"
+#include "bench/compare/diagnosis.hpp"
 #include "bench/store/cell_rows.hpp"
 
 namespace jvari::bench::compare {
@@ -53,6 +54,7 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
     const auto undecided = [&](std::size_t i) { return goal.undecided(cells, i); };
     if (!best) {
         const bool open = std::any_of(rows.begin(), rows.end(), undecided);
+        const bool waveform = goal.measure != "third_octave_db";
         return {open ? "not_known" : "none",
                 "",
                 "",
@@ -63,7 +65,8 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
                 "",
                 "",
                 "",
-                open ? joined(cells, other_schemes(cells, rows, "", undecided), "scheme") : ""};
+                open ? joined(cells, other_schemes(cells, rows, "", undecided), "scheme") : "",
+                waveform && !open ? why_none(cells, rows, goal.measure, goal.most) : ""};
     }
     const std::string& scheme = cells.at(*best, "scheme");
     const Bound b = bound_of(cells, *best, goal.measure);
@@ -83,7 +86,8 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
             cells.at(*best, "cost_s_per_s"),
             joined(cells, ties, "scheme"),
             joined(cells, ties, "rate"),
-            joined(cells, perhaps, "scheme")};
+            joined(cells, perhaps, "scheme"),
+            ""};
 }
 }  // namespace
 
@@ -93,7 +97,7 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene) {
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
     for (const char* name : {"measure", "target", "status", "scheme", "options", "rate", "modes", "error", "bound", "cost_s_per_s", "ties",
-                             "tie_rates", "perhaps"})
+                             "tie_rates", "perhaps", "why"})
         t.columns.push_back(name);
     std::vector<std::string> naming = swept;
     naming.insert(naming.begin(), "scene");
@@ -144,7 +148,7 @@ std::string cheapest_text(const store::Table& t) {
         text += fmt::format("  {:<16} within {:<6}  ", t.at(i, "measure"), goal_name(t, i));
         const std::string& perhaps = t.at(i, "perhaps");
         if (t.at(i, "status") == "not_known") text += "not known: the reference is not certain enough to tell\n";
-        else if (t.at(i, "status") == "none") text += "none\n";
+        else if (t.at(i, "status") == "none") text += t.at(i, "why").empty() ? "none\n" : fmt::format("none: {}\n", t.at(i, "why"));
         else {
             const std::string tied = ties_text(t, i);
             text +=

@@ -6,11 +6,12 @@
 namespace jvari::bench::compare {
 
 // From the rows of cells.csv. Columns scene, <swept keys>, measure (a column of cells.csv), target, status, scheme, options, rate, modes,
-// error, bound, cost_s_per_s, ties, tie_rates, perhaps. A row per scene and target.
+// error, bound, cost_s_per_s, ties, tie_rates, perhaps, why. A row per scene and target.
 //   A cell meets a target where error and certificate together (bound.hpp) do; third octaves have no certificate and count as measured.
 //   status:  found; none; not_known: no cell meets it, and of some neither that it does nor that it does not is certain.
 //   ties:    other schemes with a cell that meets the target and whose quartiles of cost touch; tie_rates: the rate of the cheapest such
 //   cell of each. perhaps: other schemes with a cheaper cell (not_known: any cell) of which it is not certain.
+//   why:     of none, for a waveform: what stands in the way and what can be judged instead (diagnosis.hpp).
 // Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene.
 store::Table cheapest_of(const store::Table& cells, const std::string& scene = "");
 

@@ -64,19 +64,6 @@ std::string ties_of(const Comparison& c, const Cell& cell) {
     return ties;
 }
 
-// What a run's own figures say against it, whatever its error: balance is necessary, never sufficient.
-std::string flags_of(const Summary& s) {
-    std::string flags;
-    const auto flag = [&flags](bool raised, const char* name) {
-        if (raised) flags += (flags.empty() ? "" : " ") + std::string(name);
-    };
-    flag(s.smallest_contact_force < -1e-9, "adhesion");                          // the contact pulls, [N]
-    flag(fact(s.facts, facts::psi_out_of_contact) > 1e-9, facts::psi_gap.name);  // quadratised: energy stored where there is no contact
-    flag(s.energy_residual_accumulated > 1e-6, "energy");                        // the ledger does not close
-    flag(fact(s.facts, facts::modes_above_nyquist) > 0, facts::modes_above_nyquist.name);  // they alias
-    return flags;
-}
-
 class Row {  // one row, and on the first one the columns
 public:
     Row(store::Table& table, bool first) : table_(table), first_(first) { table_.rows.emplace_back(); }
@@ -179,6 +166,18 @@ Json certificate_json(const Comparison& c) {
     return j;
 }
 }  // namespace
+
+std::string flags_of(const Summary& s) {
+    std::string flags;
+    const auto flag = [&flags](bool raised, const char* name) {
+        if (raised) flags += (flags.empty() ? "" : " ") + std::string(name);
+    };
+    flag(s.smallest_contact_force < -1e-9, "adhesion");                          // the contact pulls, [N]
+    flag(fact(s.facts, facts::psi_out_of_contact) > 1e-9, facts::psi_gap.name);  // quadratised: energy stored where there is no contact
+    flag(s.energy_residual_accumulated > 1e-6, "energy");                        // the ledger does not close
+    flag(fact(s.facts, facts::modes_above_nyquist) > 0, facts::modes_above_nyquist.name);  // they alias
+    return flags;
+}
 
 store::Table cells_of(const Comparison& c) {
     store::Table table;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "bench/store/usage.hpp"
+#include "scenes/reduction.hpp"
 
 namespace jvari::bench::compare {
 
@@ -13,22 +13,16 @@ constexpr std::array all = {Element::thread, Element::contact, Element::stiffnes
 constexpr std::array names = {"thread", "contact", "stiffness", "taps", "probe"};
 static_assert(all.size() == names.size());
 
-// Taps of forces that nothing makes any more.
-void remove_idle_taps(Scene& scene) {
-    const bool thread = std::ranges::any_of(scene.strings, [](const String& s) { return s.thread.has_value(); });
-    const bool contact = std::ranges::any_of(scene.strings, [](const String& s) { return !s.barriers.empty(); });
-    std::erase_if(scene.taps, [thread, contact](const Tap& t) {
-        return (t.quantity == Quantity::thread_force && !thread) || (t.quantity == Quantity::bridge_force && !contact) ||
-               (t.quantity == Quantity::driving_force && !thread && !contact);
-    });
-}
-
-// Whether `take`, which empties a part and says whether something was in it, found something on any string.
-template <class Take>
-bool taken_from_any(Scene& scene, Take take) {
-    bool any = false;
-    for (String& s : scene.strings) any = take(s) || any;
-    return any;
+// The reductions that an element is made of.
+bool is_of(Element e, const Reduction& r, const Scene& scene) {
+    switch (e) {
+        case Element::thread: return r.part == Part::thread;
+        case Element::contact: return r.part == Part::barrier;
+        case Element::stiffness: return r.part == Part::bending_stiffness;
+        case Element::taps: return r.part == Part::tap && r.key != "tap." + scene.taps.front().name;
+        case Element::probe: return false;
+    }
+    return false;
 }
 }  // namespace
 
@@ -45,21 +39,12 @@ std::string change_of(Element e) {
 }
 
 Scene without(Element e, Scene scene) {
-    bool had = true;
-    switch (e) {
-        case Element::thread:
-            had = taken_from_any(scene, [](String& s) { return std::exchange(s.thread, std::nullopt).has_value(); });
-            break;
-        case Element::contact: had = taken_from_any(scene, [](String& s) { return !std::exchange(s.barriers, {}).empty(); }); break;
-        case Element::stiffness: had = taken_from_any(scene, [](String& s) { return std::exchange(s.bending_stiffness, 0.0) != 0; }); break;
-        case Element::taps:
-            had = scene.taps.size() > 1;
-            if (had) scene.taps.resize(1);
-            break;
-        case Element::probe: break;
-    }
-    if (!had)
+    if (e == Element::probe) return scene;
+    std::vector<Reduction> own = reductions_of(scene);
+    std::erase_if(own, [&](const Reduction& r) { return !is_of(e, r, scene); });
+    if (own.empty())
         throw store::UsageError(std::string("elements: it has no ") + (e == Element::taps ? "second tap" : name_of(e)) + " to go without");
+    for (const Reduction& r : own) r.apply(scene);
     remove_idle_taps(scene);
     return scene;
 }

@@ -7,13 +7,11 @@
 
 namespace jvari::bench::compare {
 
-namespace {
-double processor_seconds() {  // of this thread
+double processor_seconds() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
-}  // namespace
 
 std::function<void(long, long)> within(double seconds, std::function<void(long, long)> progress) {
     return [seconds, start = processor_seconds(), progress = std::move(progress)](long done, long rows) {

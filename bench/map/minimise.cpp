@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <exception>
 #include <utility>
+#include <vector>
 
+#include "scenes/reduction.hpp"
 #include "schemes/grid/finite_difference.hpp"
 #include "schemes/run.hpp"
 
@@ -21,45 +23,27 @@ bool still(const Fails& fails, const Trial& t) {
     }
 }
 
-using Change = std::function<bool(Trial&)>;  // false: nothing there to change
+// The parts that are taken away, in turn: what is large goes first, and one string, something that moves it and its taps stay.
+bool is_removal(const Reduction& r) {
+    return r.part != Part::contact_stiffness && r.part != Part::footprint && r.part != Part::damping_term && r.part != Part::body &&
+           r.part != Part::tap && r.key != "string.0";
+}
 
-std::vector<Change> removals(const Trial& t) {
-    std::vector<Change> all;
-    for (int s = static_cast<int>(t.scene.strings.size()) - 1; s > 0; --s)
-        all.push_back([s](Trial& x) { return x.scene.strings.erase(x.scene.strings.begin() + s), true; });
-    const auto each_barrier = [](String& s, auto change) {
-        bool changed = false;
-        for (Barrier& b : s.barriers) changed = std::visit(change, b) || changed;
-        return changed;
-    };
-    for (int b = static_cast<int>(t.scene.strings.front().barriers.size()) - 1; b >= 0; --b)
-        all.push_back([b](Trial& x) {
-            auto& barriers = x.scene.strings.front().barriers;
-            if (b >= static_cast<int>(barriers.size())) return false;
-            return barriers.erase(barriers.begin() + b), true;
-        });
-    all.push_back([](Trial& x) { return std::exchange(x.scene.strings.front().thread, std::nullopt).has_value(); });
-    all.push_back([](Trial& x) {
-        String& s = x.scene.strings.front();
-        return s.initial && std::exchange(s.pluck, std::nullopt).has_value();
-    });
-    all.push_back([](Trial& x) {
-        String& s = x.scene.strings.front();
-        return s.pluck && std::exchange(s.initial, std::nullopt).has_value();
-    });
-    all.push_back([](Trial& x) { return std::exchange(x.scene.strings.front().polarisation, std::nullopt).has_value(); });
-    all.push_back([](Trial& x) {
-        Damping& d = x.scene.strings.front().damping;
-        return !std::holds_alternative<NoDamping>(d) && (d = NoDamping{}, true);
-    });
-    all.push_back([](Trial& x) { return std::exchange(x.scene.strings.front().bending_stiffness, 0.0) != 0; });
-    all.push_back([each_barrier](Trial& x) {
-        return each_barrier(x.scene.strings.front(), [](auto& b) { return std::exchange(b.contact_loss, 0.0) != 0; });
-    });
-    all.push_back([each_barrier](Trial& x) {
-        return each_barrier(x.scene.strings.front(), [](auto& b) { return std::exchange(b.exponent, 1.0) != 1; });
-    });
-    return all;
+bool remove_what_can_be(Trial& t, const Fails& fails) {
+    bool smaller = false;
+    std::vector<Reduction> left = reductions_of(t.scene);
+    while (!left.empty()) {
+        const Reduction r = std::move(left.back());
+        left.pop_back();
+        if (!is_removal(r)) continue;
+        Trial x = t;
+        r.apply(x.scene);
+        if (!still(fails, x)) continue;
+        t = std::move(x);
+        left = reductions_of(t.scene);  // the others may have changed their places
+        smaller = true;
+    }
+    return smaller;
 }
 
 // The least n for which `fails_with` holds on a descent by n/2, n/4, ... 1.
@@ -119,13 +103,7 @@ Trial minimised(Trial t, const Fails& fails) {
     t.scene = listened(t.scene);
     t.scene.taps.resize(1);
     for (bool smaller = true; smaller;) {
-        smaller = false;
-        for (const Change& change : removals(t)) {  // while there is time and bandwidth enough to fail without
-            Trial x = t;
-            if (!change(x) || !still(fails, x)) continue;
-            t = std::move(x);
-            smaller = true;
-        }
+        smaller = remove_what_can_be(t, fails);  // while there is time and bandwidth enough to fail without
         smaller = shorten(t, fails) || smaller;
     }
     return t;

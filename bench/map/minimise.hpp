@@ -1,8 +1,9 @@
 // A trial that fails, made as small as it still fails in the same way: delta debugging over what a scene and its settings are made of.
 //
-// Taken away one by one, in turn, until nothing more can be: strings, barriers, thread, pluck or initial shape (one of the two stays),
-// losses, bending stiffness, an exponent other than 1; then duration, modes or the grid's intervals are shortened by halves, quarters ...
-// down to single rows and modes. What is left is minimal step by step, not the smallest of all.
+// Taken away one by one, in turn, until nothing more can be (scenes/reduction.hpp): strings, barriers, polarisation, pluck or initial shape
+// (one of the two stays), thread, losses, bending stiffness, contact losses, an exponent other than 1; then duration, modes or the grid's
+// intervals are shortened by halves, quarters ... down to single rows and modes. What is left is minimal step by step, not the smallest of
+// all.
 #pragma once
 
 #include <functional>

@@ -13,6 +13,8 @@ namespace jvari::bench::report {
 std::vector<Verdict> verdicts_of(const Results&);
 
 Section work_precision_section(const Results&);
+Section path_section(const Results&);
+Section needs_section(const Results&);
 Section dispersion_section(const Results&);
 Section convergence_section(const Results&);
 Section cost_section(const Results&);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -98,7 +99,8 @@ Results read_results(const fs::path& folder) {
     Results r;
     r.folder = folder;
     std::error_code error;
-    if (!fs::is_regular_file(folder / "cells.csv", error) && !fs::is_regular_file(folder / "maps.csv", error))
+    if (std::ranges::none_of(std::array{"cells.csv", "maps.csv", "path.csv"},
+                             [&](const char* n) { return fs::is_regular_file(folder / n, error); }))
         throw store::UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
     read_manifest(r);
     const std::pair<const char*, store::Table*> files[] = {{"cells.csv", &r.cells},
@@ -112,6 +114,8 @@ Results read_results(const fs::path& folder) {
         *table = read_table(folder / name);
         if (!table->columns.empty()) name_rows(*table, r.name);
     }
+    r.path = read_table(folder / "path.csv");
+    r.needs = read_table(folder / "needs.csv");
     return r;
 }
 

@@ -18,9 +18,10 @@ struct Results {
     std::vector<std::pair<std::string, double>> floors;  // noise floor of an error column, where the manifest holds them
     // Empty where the file is absent. Each row has the columns `problem` and `series` in front (below).
     store::Table cells, dispersion, convergence, scaling, maps, boundaries, sounds;
+    store::Table path, needs;  // of trim, as they are
 };
 
-// Throws UsageError where there is no manifest.json, neither cells.csv nor maps.csv, or one of the files cannot be read.
+// Throws UsageError where there is no manifest.json, none of cells.csv, maps.csv and path.csv, or one of the files cannot be read.
 Results read_results(const std::filesystem::path&);
 
 // A problem is a scene at one point of what is swept; runs of different problems are not compared. A series is a scheme with its options,

@@ -1,0 +1,109 @@
+// jvari trim: no more than a scene needs. DIR gets trimmed.toml, needs.csv, path.csv, manifest.json, the report and cells/.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bench/command/commands.hpp"
+#include "bench/command/console.hpp"
+#include "bench/report/report.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/indented.hpp"
+#include "bench/store/interruption.hpp"
+#include "bench/trim/trim_record.hpp"
+
+namespace jvari::bench::command {
+
+namespace {
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+std::string needs_text(const trim::Trimmed& t, const trim::Judge& judge) {
+    std::string text = fmt::format("  {:<44} {:>10} {:>10} {:>7}  {}\n", "part", "error", "cost", "needed", "in the model");
+    for (const trim::Need& n : t.needs)
+        text += fmt::format("  {:<44} {:>10} {:>10} {:>7}  {}\n", n.part + (n.becomes == "left out" ? "" : " = " + n.becomes),
+                            text_of(*judge.target().measure, n.error), std::isnan(n.saved) ? "-" : fmt::format("{:+.0f} %", -100 * n.saved),
+                            n.needed ? "yes" : "no", n.left_out ? "left out" : "kept");
+    return text;
+}
+
+std::string path_text(const trim::Trimmed& t, const trim::Judge& judge) {
+    std::string text = fmt::format("  {:<44} {:>10} {:>10}  {}\n", "from the whole scene to the trimmed one", "error", "s per s", "model");
+    for (std::size_t k = 0; k < t.path.steps.size(); ++k) {
+        const trim::Step& s = t.path.steps[k];
+        text += fmt::format("  {:<44} {:>10} {:>10.3g}  {}\n", s.change + (s.within ? "" : " (not within)"),
+                            text_of(*judge.target().measure, s.error), t.costs[k].median, s.model.settings_text());
+    }
+    return text;
+}
+
+std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
+    const trim::Measure& m = *judge.target().measure;
+    const trim::Truth& truth = t.truths.front();
+    std::string text = fmt::format("truth: {}, {}; certain to {}, noise floor {}\n", truth.reference, truth.said,
+                                   text_of(m, truth.certificate), text_of(m, truth.floor));
+    if (!t.path.found)
+        return text + fmt::format("none of {} is within {} over {:g} s", fmt::join(t.path.tried, ", "), text_of(m, judge.target().most),
+                                  t.whole.duration);
+    for (const trim::Verified& v : t.verified)
+        text += fmt::format("verified: {} from {}{}\n", text_of(m, v.error), v.said,
+                            v.judged_by ? ""
+                            : v.within  ? ", which the search did not know"
+                                        : ", which the search did not know: NOT within");
+    text += fmt::format("{:.3g} times cheaper than the whole scene unasked{}, {:.3g} times than its cheapest model",
+                        t.costs.front().median / t.costs.back().median,
+                        t.full().within ? "" : fmt::format(" (which errs by {})", text_of(m, t.full().error)),
+                        t.costs[std::min<std::size_t>(1, t.costs.size() - 1)].median / t.costs.back().median);
+    return text;
+}
+}  // namespace
+
+int trim_command(const TrimCall& r) {
+    const Console console(r.json, r.quiet);
+    const compare::Catalogue catalogue(r.Common::plugins);
+    compare::note_slow_plugins(console);
+    trim::Request request = r;
+    request.plugins = r.Common::plugins;
+    std::optional<store::WhenInterrupted> last_word;
+    if (!r.out.empty())
+        last_word.emplace(
+            [&] { console.note("interrupted: what was judged is kept in " + r.out + "; the same command goes on from there"); });
+    trim::Judge judge(request, catalogue, console);
+    const trim::Trimmed t = trim::trimmed(judge, request, catalogue, console);
+    const std::string manifest = trim::manifest_of(t, judge, request);
+    const store::Table needs = trim::needs_table(t, judge), path = trim::path_table(t, judge);
+    Json files = Json::array();
+    if (!r.out.empty()) {
+        const fs::path folder = r.out;
+        const auto write = [&](const char* name, const std::string& content) {
+            store::write_fresh(folder / name, content);
+            files.push_back((folder / name).string());
+        };
+        if (t.path.found) write("trimmed.toml", trim::trimmed_toml(t, judge));
+        write("needs.csv", store::csv(needs));
+        write("path.csv", store::csv(path));
+        write("manifest.json", manifest + "\n");
+        for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
+    }
+    console.print(fmt::format("{} within {} of {}, tap {}, {:g} s; {} models judged, {} read back", t.whole.name,
+                              text_of(*judge.target().measure, judge.target().most), judge.target().measure->title, judge.tap().name,
+                              t.whole.duration, t.judged, t.read_back));
+    if (!t.path.steps.empty()) console.print(path_text(t, judge));
+    if (t.path.found) console.print(needs_text(t, judge));
+    console.print(verdict_text(t, judge));
+    std::string left = "not tried:";
+    for (const std::string& what : t.not_tried) left += "\n  " + what;
+    console.print(left);
+    if (t.path.found && !r.out.empty())
+        console.print("written: " + r.out + "\n" + trim::command_of(t, (fs::path(r.out) / "trimmed.toml").string()));
+    console.print_json(store::indented({{"status", t.path.found ? "ok" : "none"},
+                                        {"manifest", Json::parse(manifest)},
+                                        {"path", Json::parse(store::rows_json(path))},
+                                        {"needs", Json::parse(store::rows_json(needs))},
+                                        {"files", files}}));
+    return t.path.found ? exit_code::done : exit_code::run_failed;
+}
+
+}  // namespace jvari::bench::command

@@ -1,0 +1,18 @@
+// What each part of a scene is needed for: the error if it alone is left out, and what it costs.
+#pragma once
+
+#include "bench/trim/search.hpp"
+
+namespace jvari::bench::trim {
+
+struct Need {
+    std::string part, becomes;
+    double error;             // of the whole scene at its cheapest settings without it; NaN: no such model runs
+    double saved;             // of that model's cost, a share; negative where the rest costs more. NaN: not timed
+    double error_in_trimmed;  // of the trimmed model, the part's state turned round: put back, or left out as well
+    bool left_out;            // of the trimmed model
+    bool needed;              // left out alone, the error is beyond the tolerance
+};
+std::vector<Need> needs_of(Judge&, const Model& whole, const Model& trimmed);
+
+}  // namespace jvari::bench::trim

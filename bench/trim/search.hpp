@@ -1,0 +1,37 @@
+// The cheapest model of a scene within a tolerance.
+//
+// A model is a set of parts left out, a scheme with its options, a rate and a number of modes.
+//   1. Of the whole scene, less the taps that are not judged: for each scheme, own and matched compliance, and each rate the fewest modes
+//   that serve; the cheapest stays.
+//   2. In turn the part that saves most for the error it costs is left out, the fewest modes at half, the same and twice the rate are
+//      sought anew, and what is cheaper stays. Parts that went before are put back in the same way: what one part costs depends on others.
+//   3. Step 1 for what is left: a plainer scene is open to more schemes. What is cheaper stays, and step 2 begins again.
+//   4. Parts that cost nothing that a clock can see go last, while the tolerance holds.
+// Cheaper is by a twentieth or more. Costs are processor time, so that what else the machine does hardly counts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/trim/judge.hpp"
+
+namespace jvari::bench::trim {
+
+struct Step {
+    std::string change;  // to the model of the step before
+    Model model;
+    double error = std::numeric_limits<double>::quiet_NaN();  // worst of the starts that it is judged by
+    double cost = std::numeric_limits<double>::quiet_NaN();   // [s of processor per s]
+    bool within = false;
+};
+
+struct Path {
+    std::vector<Step> steps;         // [0]: the whole scene as its scheme takes it unasked; the last is the trimmed model
+    bool found = false;              // the last step is within the tolerance
+    std::vector<std::string> tried;  // schemes
+};
+
+// Judged by the starts 0 .. starts-1. Schemes: of the catalogue, those that declare nothing against themselves, or one by name.
+Path search(Judge&, const std::vector<const Descriptor*>& schemes, int judged_starts, const store::Listener&);
+
+}  // namespace jvari::bench::trim

@@ -1,0 +1,15 @@
+// The scene's start and others like it. A model that is trimmed by one start is verified by another, so that it is not tuned to one.
+#pragma once
+
+#include <string>
+
+#include "scenes/scene.hpp"
+
+namespace jvari::bench::trim {
+
+constexpr int starts = 3;
+// 0: the scene's own. Further ones have another shape or place, and four fifths or seven tenths of its size.
+Scene started(Scene, int start);
+std::string name_of_start(const Scene& started);  // of its first string that is set in motion
+
+}  // namespace jvari::bench::trim

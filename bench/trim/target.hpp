@@ -1,0 +1,26 @@
+// What a trimmed model has to keep, and how far: a measure of one tap and a tolerance.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace jvari::bench::trim {
+
+struct Measure {
+    const char *name, *title;
+    const char* unit;  // "%" for what is relative, "dB"
+    double (*error)(std::span<const double> candidate, std::span<const double> truth, double rate);
+    double window;  // of time that it listens to [s]; HUGE_VAL: the whole run
+};
+std::span<const Measure> measures();
+
+struct Target {
+    const Measure* measure;
+    double most;  // 0.01 for 1 %; dB as they are
+};
+// "1%", "0.01", "1dB". Throws UsageError for a measure that there is not and for a tolerance in another unit than the measure's.
+Target target_of(const std::string& measure, const std::string& within);
+std::string text_of(const Measure&, double error);  // "1.3 %", "0.8 dB"
+
+}  // namespace jvari::bench::trim

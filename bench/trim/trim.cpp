@@ -1,0 +1,74 @@
+#include "bench/trim/trim.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace jvari::bench::trim {
+
+namespace {
+constexpr int rounds = 7;
+
+std::vector<const Descriptor*> schemes_of(const Request& r, const compare::Catalogue& catalogue) {
+    if (r.scheme != "any") return {&catalogue.find(r.scheme)};
+    return catalogue.schemes;
+}
+
+std::vector<std::string> not_tried(const Judge& judge, const Request& r, const Path& path) {
+    std::vector<std::string> left{
+        fmt::format("rates below {:g} Hz, at which rows are compared, and rates other than 1, 2, 4, 8, 16, 32 times it", r.tap_rate),
+        "references as models, and modes above 20 kHz",
+        "several parts left out at once where each alone is beyond the tolerance",
+        "other values of a part than those named: widths between, stiffness by factors other than 10 and 100, a body's filters",
+        fmt::format("what happens after {:g} s, and other starts than those named", judge.scene().duration),
+        "models that need more than 10 s of computing, or ten times what serves already, for one judged run"};
+    if (r.scheme != "any") left.push_back("schemes other than " + r.scheme);
+    if (judge.scene().strings.front().pluck || judge.scene().strings.front().initial)
+        left.emplace_back("plainer excitations: they are the question");
+    std::string names;
+    for (const std::string& name : path.tried) names += (names.empty() ? "" : ", ") + name;
+    left.push_back("schemes that do not represent the scene or what is left of it; those that do: " + names);
+    return left;
+}
+
+Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
+    const Verdict v = judge.verdict(m, start);
+    return {start,
+            name_of_start(started(judge.scene(), start)),
+            v.status == "ok" ? v.error : std::nan(""),
+            judge.truth(start).certificate,
+            judge.within(v, start),
+            judged_by};
+}
+}  // namespace
+
+Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalogue, const store::Listener& listener) {
+    Trimmed t{judge.scene(), judge.scene(), judge.own_duration(), {}, {}, {}, {}, {}, {}, 0, 0};
+    const std::vector<const Descriptor*> schemes = schemes_of(r, catalogue);
+    for (int judged_by = 1; judged_by <= starts; ++judged_by) {
+        t.path = search(judge, schemes, judged_by, listener);
+        t.verified.clear();
+        if (!t.path.found) break;
+        for (int s = 0; s < std::min(judged_by + 1, starts); ++s) t.verified.push_back(verified(judge, t.last().model, s, s < judged_by));
+        if (t.verified.back().within) break;
+        listener.note(fmt::format("started otherwise ({}) it errs by {}: that start is judged by as well", t.verified.back().said,
+                                  text_of(*judge.target().measure, t.verified.back().error)));
+    }
+    for (std::size_t s = 0; s < std::max<std::size_t>(1, t.verified.size()); ++s) t.truths.push_back(judge.truth(static_cast<int>(s)));
+    if (!t.path.steps.empty()) {
+        std::vector<Model> models;
+        for (const Step& step : t.path.steps) models.push_back(step.model);
+        t.costs = judge.costs(models, rounds);
+    }
+    if (t.path.found) {
+        t.scene = judge.scene_of(t.last().model);
+        t.needs = needs_of(judge, t.path.steps[std::min<std::size_t>(1, t.path.steps.size() - 1)].model, t.last().model);
+    }
+    t.not_tried = not_tried(judge, r, t.path);
+    t.judged = judge.judged();
+    t.read_back = judge.read_back();
+    return t;
+}
+
+}  // namespace jvari::bench::trim

@@ -1,0 +1,132 @@
+#include "bench/trim/trim_record.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/compare/bound.hpp"
+#include "bench/store/indented.hpp"
+#include "bench/store/machine.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::bench::trim {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+std::string rounded(double x) {  // three digits: no more is known of an error or a clock
+    return std::isfinite(x) ? fmt::format("{:.3g}", x) : "";
+}
+
+Json number(double x) {
+    return std::isfinite(x) ? Json(x) : Json();
+}
+
+std::string within_text(const Judge& judge) {
+    return fmt::format("within {} of {} ({}), tap {}", text_of(*judge.target().measure, judge.target().most), judge.target().measure->name,
+                       judge.target().measure->title, judge.tap().name);
+}
+}  // namespace
+
+store::Table needs_table(const Trimmed& t, const Judge&) {
+    store::Table table{{"part", "becomes", "error_without", "cost_saved", "needed", "in_trimmed_model", "error_if_turned_round"}, {}};
+    for (const Need& n : t.needs)
+        table.rows.push_back({n.part, n.becomes, rounded(n.error), rounded(n.saved), n.needed ? "yes" : "no",
+                              n.left_out ? "left out" : "kept", rounded(n.error_in_trimmed)});
+    return table;
+}
+
+store::Table path_table(const Trimmed& t, const Judge& judge) {
+    store::Table table{{"step", "change", "scheme", "options", "modes", "rate", "error", "certificate", "within", "cost_s_per_s",
+                        "cost_lower", "cost_upper", "parts_left_out", "measure", "target"},
+                       {}};
+    for (std::size_t k = 0; k < t.path.steps.size(); ++k) {
+        const Step& s = t.path.steps[k];
+        table.rows.push_back({std::to_string(k), s.change, s.model.scheme->name, store::options_text(s.model.settings.options),
+                              s.model.settings.modes > 0 ? std::to_string(s.model.settings.modes) : "",
+                              store::text_of(s.model.settings.sample_rate), rounded(s.error), rounded(t.truths.front().certificate),
+                              s.within ? "yes" : "no", rounded(t.costs[k].median), rounded(t.costs[k].lower), rounded(t.costs[k].upper),
+                              std::to_string(s.model.left_out.size()), judge.target().measure->title, rounded(judge.target().most)});
+    }
+    return table;
+}
+
+std::string command_of(const Trimmed& t, const std::string& file) {
+    const Settings& s = t.last().model.settings;
+    std::string text = fmt::format("jvari run {} --scheme {} --rate {:g}", file, t.last().model.scheme->name, s.sample_rate);
+    if (s.modes > 0) text += fmt::format(" --modes {}", s.modes);
+    if (s.tap_rate != 44100) text += fmt::format(" --tap-rate {:g}", s.tap_rate);
+    for (const auto& [name, value] : s.options) text += " --option " + name + "=" + value;
+    return text;
+}
+
+std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
+    const Step &full = t.full(), &last = t.last();
+    std::string text = fmt::format("# The cheapest model of {} that `jvari trim` found {}.\n", t.whole.name, within_text(judge));
+    text += "#   " + command_of(t, "trimmed.toml") + "\n";
+    for (const Verified& v : t.verified)
+        text += fmt::format("# Error {}, and the reference is certain to {}; started from {}{}.\n",
+                            text_of(*judge.target().measure, v.error), text_of(*judge.target().measure, v.certificate), v.said,
+                            v.judged_by ? ""
+                            : v.within  ? ", which the search did not know"
+                                        : ", which the search did not know: not within");
+    text += fmt::format("# It costs {} s of computing per second of sound; {}, unasked, {} for an error of {}.\n",
+                        rounded(t.costs.back().median), full.model.settings_text(), rounded(t.costs.front().median),
+                        text_of(*judge.target().measure, full.error));
+    text += "#\n# What went:\n";
+    for (const int k : last.model.left_out) {
+        const auto need = std::ranges::find_if(t.needs, [&](const Need& n) {
+            return n.part == judge.reductions()[k].key &&
+                   (judge.reductions()[k].becomes.empty() || n.becomes == judge.reductions()[k].becomes);
+        });
+        text += fmt::format("#   {}{}\n", judge.reductions()[k].said(),
+                            need == t.needs.end() || std::isnan(need->error)
+                                ? ""
+                                : fmt::format(" (alone: error {})", text_of(*judge.target().measure, need->error)));
+    }
+    if (t.own_duration > t.scene.duration)
+        text += fmt::format("#   duration = {:g} s in place of {:g} s: no more was judged\n", t.scene.duration, t.own_duration);
+    text += "\n";
+    Scene named = t.scene;
+    named.name = t.whole.name + "_trimmed";
+    return text + write_scene(named);
+}
+
+std::string manifest_of(const Trimmed& t, const Judge& judge, const Request& r) {
+    Json verified = Json::array(), truths = Json::array();
+    for (const Verified& v : t.verified)
+        verified.push_back({{"start", v.said},
+                            {"error", number(v.error)},
+                            {"certificate", v.certificate},
+                            {"within", v.within},
+                            {"judged_by", v.judged_by}});
+    for (const Truth& x : t.truths)
+        truths.push_back({{"reference", x.reference},
+                          {"said", x.said},
+                          {"modes", x.modes},
+                          {"certificate", x.certificate},
+                          {"floor", number(x.floor)},
+                          {"horizon_s", number(x.horizon)}});
+    Json manifest = Json::parse(store::made_by());
+    manifest.update({{"suite", "trim " + t.whole.name},
+                     {"source", t.whole.source},
+                     {"asked",
+                      {{"scene", r.scene},
+                       {"within", r.within},
+                       {"of", r.measure},
+                       {"tap", judge.tap().name},
+                       {"scheme", r.scheme},
+                       {"duration", t.whole.duration}}},
+                     {"found", t.path.found},
+                     {"command", t.path.found ? command_of(t, "trimmed.toml") : ""},
+                     {"verified", verified},
+                     {"truths", truths},
+                     {"judged", t.judged},
+                     {"read_back", t.read_back},
+                     {"not_tried", t.not_tried}});
+    return store::indented(manifest);
+}
+
+}  // namespace jvari::bench::trim
