@@ -11,6 +11,7 @@ namespace jvari::bench::compare {
 //   status:  found; none; not_known: no cell meets it, and of some neither that it does nor that it does not is certain.
 //   ties:    other schemes with a cell that meets the target and whose quartiles of cost touch.
 //   perhaps: other schemes with a cheaper cell (not_known: any cell) of which it is not certain.
+// Where cells were timed on several machines there is a row for each of them, and a column `machine` before `measure`.
 // Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene.
 store::Table cheapest_of(const store::Table& cells, const std::string& scene = "");
 

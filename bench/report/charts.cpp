@@ -102,7 +102,7 @@ void add_front(Json& layers, const Encodings& e) {
               {{{"filter", "datum.problem == problem_field && datum.error == error_field && datum.cost == cost_field && datum.y > 0"}}})},
          {"mark",
           {{"type", "line"}, {"strokeWidth", 9}, {"opacity", 0.28}, {"color", "#888"}, {"strokeCap", "round"}, {"strokeJoin", "round"}}},
-         {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}}}});
+         {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}, {"detail", {{"field", "machine"}}}}}});
 }
 
 void add_schemes(Json& layers, const Encodings& e) {

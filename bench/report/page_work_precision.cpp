@@ -49,6 +49,7 @@ std::string goal_text(const store::Table& cheapest, std::size_t row) {
     text += fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
     std::istringstream ties(cheapest.at(row, "ties"));
     for (std::string name; ties >> name;) text += " or " + name;
+    if (const std::string& machine = cheapest.at(row, "machine"); !machine.empty()) text += " (" + machine + ")";
     return text;
 }
 
@@ -130,6 +131,8 @@ Section work_precision_section(const Results& r) {
         "Numbers at the points are rates: \u00d71 is the lowest. Dotted lines are accuracies, with the cheapest that gets there."};
     if (std::any_of(r.cells.rows.begin(), r.cells.rows.end(), [&](const auto& row) { return flags >= 0 && !row[flags].empty(); }))
         s.notes.emplace_back("Hollow points are not to be trusted: the run's own figures speak against it. They are on no front.");
+    if (const std::string several = store::machines_text(r.cells); !several.empty())
+        s.notes.push_back("Each machine has a front of its own: " + several);
     if (!w.bands.empty())
         s.notes.emplace_back(
             "What lies in a grey band is a tie (the reference's own sensitivity), in a blue one below what the reference is certain to. "
