@@ -118,6 +118,57 @@ TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
     EXPECT_EQ(content(scratch / "stopped/errors.csv"), content(scratch / "whole/errors.csv"));
 }
 
+TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
+    const Scratch scratch;
+    const std::string out = scratch / "stopped";
+    const auto arguments = [](const std::string& folder, bool resume) {
+        std::vector<std::string> all = {"compare",
+                                        "tanpura_c3_release",
+                                        "--schemes",
+                                        "modal_two_point,modal_strang,modal_quadratised",
+                                        "--rates",
+                                        "44100,88200,176400",
+                                        "--modes",
+                                        "40",
+                                        "--duration",
+                                        "0.05",
+                                        "--repeats",
+                                        "1",
+                                        "--reference-modes",
+                                        "40",
+                                        "--jobs",
+                                        "1",
+                                        "--out",
+                                        folder};
+        if (resume) all.push_back("--resume");
+        return all;
+    };
+    ASSERT_EQ(Started(scratch, arguments(scratch / "whole", false)).end(), -1) << content(scratch / "stderr");
+    Started compare(scratch, arguments(out, false));
+    compare.once([&] { return cells_in(out + "/cells") > 2; });
+    compare.send(SIGINT);
+    EXPECT_EQ(compare.end(), SIGINT);
+    const std::string kept = std::to_string(cells_in(out + "/cells")) + " of 9 cells";
+    EXPECT_NE(
+        content(scratch / "stderr").find("interrupted: the errors of " + kept + " are kept in " + out + "; --resume goes on from there"),
+        std::string::npos)
+        << content(scratch / "stderr");
+    EXPECT_FALSE(fs::exists(out + "/cells.csv"));
+    ASSERT_EQ(Started(scratch, arguments(out, true)).end(), -1) << content(scratch / "stderr");
+    EXPECT_NE(content(scratch / "stderr").find("the errors of " + kept + " were read back"), std::string::npos)
+        << content(scratch / "stderr");
+    EXPECT_EQ(content(out + "/errors.csv"), content(scratch / "whole/errors.csv"));
+    EXPECT_EQ(content(out + "/convergence.csv"), content(scratch / "whole/convergence.csv"));
+    for (const auto& sound : fs::directory_iterator(scratch / "whole/sounds"))
+        EXPECT_EQ(content(out + "/sounds/" + sound.path().filename().string()), content(sound.path())) << sound.path();
+
+    Started nowhere(scratch, {"compare", "tanpura_c3", "--schemes", "modal_two_point", "--rates", "2822400"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    nowhere.send(SIGINT);
+    EXPECT_EQ(nowhere.end(), SIGINT);
+    EXPECT_NE(content(scratch / "stderr").find("interrupted: nothing is kept, for there is no --out DIR"), std::string::npos);
+}
+
 TEST(Interruption, ARunLeavesNoFile) {
     const Scratch scratch;
     Started run(scratch,
@@ -258,28 +309,32 @@ struct Left : Scratch {  // files of some age, in the name of a process that is 
         const pid_t child = fork();
         if (child == 0) _exit(0);
         waitpid(child, nullptr, 0);
-        gone = std::to_string(child);
+        char host[256] = "";
+        gethostname(host, sizeof host - 1);
+        here = host;
+        gone = here + "." + std::to_string(child);
     }
     std::string file(const std::string& name, int hours) const {
         std::ofstream(*this / name) << "half";
         fs::last_write_time(*this / name, fs::file_time_type::clock::now() - std::chrono::hours(hours));
         return *this / name;
     }
-    std::string gone;
+    std::string here, gone;  // this machine, and HOST.PROCESS
 };
 
 TEST(Killed, PartsAreSweptAndThoseOfOthersAreNot) {
     const Left left;
     const std::string swept = left.file(".a.json." + left.gone + ".part", 2);
-    const std::string kept[] = {left.file(".b.json." + left.gone + ".part", 0),
-                                left.file(".c.json." + std::to_string(getpid()) + ".part", 2),
-                                left.file("d.json", 2),
-                                left.file("e.json." + left.gone + ".part", 2),
-                                left.file(".f.json.part", 2),
-                                left.file(".g.x" + left.gone + ".part", 2)};
+    const std::string kept[] = {
+        left.file(".b.json." + left.gone + ".part", 0), left.file(".c.json." + left.here + "." + std::to_string(getpid()) + ".part", 2),
+        left.file(".h.json.elsewhere.7.part", 2),       left.file("d.json", 2),
+        left.file("e.json." + left.gone + ".part", 2),  left.file(".f.json.part", 2),
+        left.file(".g.x" + left.gone + ".part", 2)};
+    const std::string forsaken = left.file(".i.json.elsewhere.7.part", 25);
     bench::store::sweep_parts(left.path);
     bench::store::sweep_parts(left.path / "nowhere");
     EXPECT_FALSE(fs::exists(swept));
+    EXPECT_FALSE(fs::exists(forsaken));
     for (const std::string& name : kept) EXPECT_TRUE(fs::exists(name)) << name;
 }
 

@@ -64,5 +64,41 @@ TEST(SideBySide, TheFirstFailureInOrderIsThrownWhicheverComesFirstAndEndsTheRest
     }
 }
 
+TEST(SideBySide, TheLineSaysHowManyAreDoneHowLongItTakesAndWhichTookLongest) {
+    struct Kept : bench::store::Progress {
+        std::string& last;
+        explicit Kept(std::string& to) : last(to) {}
+        void show(double, const std::string& what) override { last = what; }
+    };
+    struct Ear : bench::store::Listener {
+        mutable std::string last;
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Kept>(last); }
+    } ear;
+    bench::store::side_by_side(
+        {1, 1, 1, 1}, 1, ear, "", [](std::size_t i, bench::store::Done& done) { done = 0.5, wait(i == 1 ? 1300 : 5); },
+        [](std::size_t i) { return "number " + std::to_string(i); });
+    EXPECT_NE(ear.last.find(" of 4, about "), std::string::npos) << ear.last;
+    EXPECT_NE(ear.last.find("longest 1 s: number 1"), std::string::npos) << ear.last;
+}
+
+TEST(SideBySide, WhatTheListenerThrowsEndsThoseThatRunAndBeginsNoOther) {
+    struct Weary : bench::store::Progress {
+        void show(double, const std::string&) override { throw std::runtime_error("enough"); }
+    };
+    struct Ear : bench::store::Listener {
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Weary>(); }
+    };
+    std::atomic<int> begun = 0, to_the_end = 0;
+    EXPECT_THROW(bench::store::side_by_side(std::vector<double>(20, 1), 2, Ear(), "",
+                                            [&](std::size_t, bench::store::Done& done) {
+                                                ++begun;
+                                                for (int k = 0; k < 3000; ++k) wait(10), done = k / 3000.0;
+                                                ++to_the_end;
+                                            }),
+                 std::runtime_error);
+    EXPECT_LE(begun, 2);
+    EXPECT_EQ(to_the_end, 0);
+}
+
 }  // namespace
 }  // namespace jvari::test

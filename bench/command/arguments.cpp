@@ -32,7 +32,7 @@ constexpr const char* examples =
     "\n"
     "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed, or "
     "its result could not be written (what was written stays valid).\n"
-    "Ctrl-C leaves whole files only; a suite says how many cells are kept.";
+    "Ctrl-C leaves whole files only; compare and suite say how many cells are kept.";
 
 std::string a_number(const std::string& text, bool whole) {
     double x = 0;
@@ -179,6 +179,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->type_name("N")
         ->check(counting);
     add_jobs(*compare_verb, compare.jobs);
+    compare_verb->add_flag("--resume", compare.resume,
+                           "reads back the errors of the cells that DIR holds and runs the others; all are timed again");
     compare_verb
         ->add_option("--out", compare.out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
         ->type_name("DIR");
@@ -195,8 +197,28 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
                      "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures")
         ->type_name("DIR");
     suite_verb->add_flag("--resume", suite.resume, "reads back the cells that DIR holds and runs the others");
+    auto* prepare =
+        suite_verb->add_flag("--prepare", suite.prepare,
+                             "for several processes: writes plan.csv, the list of what there is to do, and makes each reference once");
+    auto* shard =
+        suite_verb
+            ->add_option("--shard", suite.shard,
+                         "runs share number I of N of what is prepared, and writes what it comes to into DIR/cells and DIR/points alone")
+            ->type_name("I/N");
+    auto* gather =
+        suite_verb->add_flag("--gather", suite.gather, "makes tables, maps and report of what lies there, and says what is missing");
+    auto* print =
+        suite_verb->add_option("--print", suite.print, "writes a script that does these three as jobs of Slurm to standard output")
+            ->check(CLI::IsMember({"slurm"}))
+            ->type_name("slurm")
+            ->option_text("slurm");
+    for (auto* one : {prepare, shard, gather, print})
+        for (auto* other : {prepare, shard, gather, print})
+            if (one != other) one->excludes(other);
     add_jobs(*suite_verb, suite.jobs);
-    suite_verb->footer("Example: jvari suite paper-deshmukh --out sitar --resume");
+    suite_verb->footer(
+        "Examples: jvari suite paper-deshmukh --out sitar --resume\n"
+        "          jvari suite stability --out maps --print slurm > job.sh && sh job.sh");
     add_common(*suite_verb, suite);
 
     TrimCall trim;

@@ -38,7 +38,9 @@ struct RunRequest : Common {
     std::string out, wav_format, plot;
 };
 
-struct CompareCall : Common, compare::CompareRequest {};
+struct CompareCall : Common, compare::CompareRequest {
+    bool resume = false;
+};
 
 struct ReportRequest : Common {
     std::string folder;
@@ -47,7 +49,10 @@ struct ReportRequest : Common {
 struct SuiteRequest : Common {
     std::string suite, out;
     bool resume = false;
-    int jobs = 0;  // 0: as many as there are cores
+    bool prepare = false, gather = false;
+    std::string shard;  // "3/20"
+    std::string print;  // "slurm"
+    int jobs = 0;       // 0: as many as there are cores
 };
 
 struct TrimCall : Common, trim::Request {};

@@ -9,6 +9,7 @@
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/compare/catalogue.hpp"
+#include "bench/store/file_lock.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/listener.hpp"
@@ -152,6 +153,12 @@ int certify_command(const CertifyRequest& r) {
 
     bool cached = false;
     std::error_code error;
+    const auto there = [&] {  // another process made it meanwhile
+        std::string why;
+        const auto found = r.again ? std::nullopt : trust::read_certificate(path, why);
+        return found && found->key == kept.key;
+    };
+    const store::FileLock lock(path.string() + ".lock", there);
     if (fs::exists(path, error)) {
         std::string why;
         if (auto found = trust::read_certificate(path, why)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bench/command/commands.hpp"
 #include "bench/command/compare_text.hpp"
@@ -14,10 +15,12 @@
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/convergence_table.hpp"
+#include "bench/compare/kept_cells.hpp"
 #include "bench/compare/spread.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
+#include "bench/store/interruption.hpp"
 
 namespace jvari::bench::command {
 
@@ -27,10 +30,19 @@ namespace fs = std::filesystem;
 
 void make_folder(const fs::path& folder) {
     std::error_code error;
-    fs::create_directories(folder, error);
+    fs::create_directories(folder / "cells", error);
     if (!fs::is_directory(folder))
         throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
     store::must_be_writable(folder / "cells.csv");
+    store::must_be_writable(folder / "cells" / "any.json");
+    store::sweep_parts(folder / "cells");
+}
+
+std::string kept_text(const compare::KeptCells& keep, const std::string& folder) {
+    if (folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
+    if (keep.of == 0) return "interrupted: no cell has its errors yet; long runs of references are kept";
+    return fmt::format("interrupted: the errors of {} of {} cells are kept in {}; --resume goes on from there", keep.kept.load(),
+                       keep.of.load(), folder);
 }
 
 int code_of(const compare::Comparison& c) {
@@ -77,11 +89,18 @@ int compare_command(const CompareCall& r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
+    if (r.resume && r.out.empty()) throw store::UsageError("--resume: there is no --out DIR to resume from");
+    compare::KeptCells keep;
+    keep.resume = r.resume;
     if (!r.out.empty()) {
         must_be_ours(r.out, "comparison of " + compare::load_scene(r.scene, r.set, r.duration).name, console);
         make_folder(r.out);
+        keep.folder = fs::path(r.out) / "cells";
     }
-    const compare::Comparison c = compare::compare(r, catalogue, console);
+    std::optional<store::WhenInterrupted> last_word(std::in_place, [&] { console.note(kept_text(keep, r.out)); });
+    const compare::Comparison c = compare::compare(r, catalogue, console, keep);
+    last_word.reset();
+    if (r.resume) console.note(fmt::format("the errors of {} of {} cells were read back", keep.read.load(), keep.of.load()));
     const store::Table cells = compare::cells_of(c);
     const std::string manifest = compare::manifest_of(c, r);
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -71,11 +72,15 @@ public:
         last_ = now;
         const store::Undisturbed line;
         if (!shown_) shown_.emplace(clear_line);
-        std::fputs(fmt::format("\r\033[K{} {:3.0f} % {}", job_, 100 * fraction, what).c_str(), stderr);
+        std::fputs(("\r\033[K" + fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what).substr(0, width())).c_str(), stderr);
         std::fflush(stderr);
     }
 
 private:
+    static std::size_t width() {  // a line that wraps cannot be renewed
+        winsize size{};
+        return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
+    }
     std::string job_;
     Clock::time_point start_ = Clock::now(), last_ = start_;
     std::optional<store::WhenInterrupted> shown_;  // the line is cleared at an interruption, too

@@ -11,6 +11,7 @@
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
+#include "bench/command/suite_shards.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_record.hpp"
@@ -91,6 +92,14 @@ std::string kept_text(const suite::SuitePlan& plan, const suite::Suite& suite, c
     return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", text, folder.string());
 }
 
+std::string missing_text(const std::vector<std::string>& missing) {
+    constexpr std::size_t shown = 10;
+    std::string text = fmt::format("{} missing:", missing.size());
+    for (std::size_t i = 0; i < std::min(shown, missing.size()); ++i) text += "\n  " + missing[i];
+    if (missing.size() > shown) text += fmt::format("\n  and {} more", missing.size() - shown);
+    return text + "\n--shard 1/1 runs them here; shards that are run again run what is missing alone";
+}
+
 int code_of(const std::vector<suite::SuiteRecord>& records) {
     const auto is = [](const char* status) { return [status](const suite::SuiteRecord& r) { return r.row.at(0, "status") == status; }; };
     if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return exit_code::done;  // empty: a suite of maps alone
@@ -104,7 +113,7 @@ void make_folder(const fs::path& folder) {
         throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
     store::must_be_writable(folder / "cells.csv");
     store::must_be_writable(folder / "cells" / "any.json");
-    for (const char* own : {"cells", "points", "sounds", "failures"}) store::sweep_parts(folder / own);
+    for (const char* own : {"cells", "points", "sounds", "failures", "references"}) store::sweep_parts(folder / own);
 }
 }  // namespace
 
@@ -114,7 +123,10 @@ int suite_command(const SuiteRequest& r) {
     const suite::Suite suite = suite::read_suite(r.suite);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
-    const suite::SuitePlan plan = suite::plan_of(suite, catalogue, r.plugins);
+    suite::SuitePlan plan = suite::plan_of(suite, catalogue, r.plugins);
+    const bool shared = r.prepare || r.gather || !r.shard.empty() || !r.print.empty();  // by several processes
+    if (shared && r.out.empty()) throw store::UsageError("--prepare, --shard, --gather and --print: there is no --out DIR to share");
+    if (!r.print.empty()) return print_script(r, suite::parts_of(plan, suite.maps, catalogue), console);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
     std::optional<store::WhenInterrupted> last_word;
@@ -123,9 +135,16 @@ int suite_command(const SuiteRequest& r) {
         make_folder(folder);
         last_word.emplace([&] { console.note(kept_text(plan, suite, folder)); });
     }
+    if (r.prepare) return prepare_suite(r, plan, suite::parts_of(plan, suite.maps, catalogue), console);
+    if (!r.shard.empty()) return run_shard(r, plan, suite::parts_of(plan, suite.maps, catalogue), catalogue, console);
+    const map::Points points = r.gather ? map::Points::only_read : r.resume ? map::Points::resumed : map::Points::run_again;
     const map::RecordedMaps maps =
-        map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs}, console);
-    const suite::SuiteRun run = suite::run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
+        map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, points, r.jobs}, console);
+    if (r.gather) last_word.reset();  // it takes the missing cells out of the plan, and leaves all that lies there
+    const suite::SuiteRun run = r.gather ? suite::gather_suite(plan, folder / "cells")
+                                         : suite::run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
+    std::vector<std::string> missing = run.missing;
+    missing.insert(missing.end(), maps.missing.begin(), maps.missing.end());
     const store::Table cells = suite::table_of(plan, run.records);
     const std::string manifest = manifest_of(suite, plan);
     const store::Table cheapest = compare::cheapest_of(cells);
@@ -148,7 +167,8 @@ int suite_command(const SuiteRequest& r) {
             write("scaling.csv", store::csv(scaling));
         write("manifest.json", manifest + "\n");
         for (const report::DrawnFigure& f : report::draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
-        for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
+        if (!plan.cells.empty() || !suite.maps.empty())
+            for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
     }
     // Files first: nothing is lost where nobody reads this.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
@@ -156,13 +176,16 @@ int suite_command(const SuiteRequest& r) {
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + folder.string());
-    const int code = code_of(run.records);
+    if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);
+    if (!missing.empty()) console.note(missing_text(missing));
+    const int code = missing.empty() ? code_of(run.records) : exit_code::run_failed;
     const char* status = code == exit_code::done ? "ok" : code == exit_code::refused ? "refused" : "failed";
     console.print_json(store::indented({{"suite", suite.name},
                                         {"status", status},
                                         {"ran", run.ran},
                                         {"timed", run.timed},
                                         {"read_back", run.read_back},
+                                        {"missing", missing},
                                         {"manifest", Json::parse(manifest)},
                                         {"cells", Json::parse(store::rows_json(compare::with_bounds(cells)))},
                                         {"cheapest", Json::parse(store::rows_json(cheapest))},

@@ -92,7 +92,7 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
 }  // namespace
 
 store::Table cheapest_of(const store::Table& cells, const std::string& scene) {
-    const std::vector<std::string> swept = store::swept_keys(cells);
+    const std::vector<std::string> swept = store::with_machine(cells, store::swept_keys(cells));
     store::Table t;
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
@@ -105,7 +105,7 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene) {
         store::Rows rows;
         for (const std::size_t i : group)
             if (trusted(cells, i) && cells.number(i, "cost_s_per_s") > 0) rows.push_back(i);
-        if (rows.empty()) continue;  // nothing was timed
+        if (rows.empty()) continue;  // nothing was timed, or this is the group of those that were not
         std::vector<std::string> key{cells.column("scene") < 0 ? scene : cells.at(rows.front(), "scene")};
         for (const std::string& name : swept) key.push_back(cells.at(rows.front(), name));
         for (const Target& target : targets) {
@@ -158,6 +158,7 @@ std::string cheapest_text(const store::Table& t) {
                             perhaps.empty() ? "" : "; perhaps for less " + perhaps);
         }
     }
+    if (t.column("machine") >= 0) text += "cells were timed on several machines: each has its own cheapest\n";
     if (!text.empty()) text.pop_back();
     return text;
 }

@@ -12,6 +12,7 @@ namespace jvari::bench::compare {
 //   ties:    other schemes with a cell that meets the target and whose quartiles of cost touch; tie_rates: the rate of the cheapest such
 //   cell of each. perhaps: other schemes with a cheaper cell (not_known: any cell) of which it is not certain.
 //   why:     of none, for a waveform: what stands in the way and what can be judged instead (diagnosis.hpp).
+// Where cells were timed on several machines there is a row for each of them, and a column `machine` before `measure`.
 // Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene.
 store::Table cheapest_of(const store::Table& cells, const std::string& scene = "");
 

@@ -10,8 +10,11 @@
 
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/cost.hpp"
+#include "bench/compare/kept_cells.hpp"
 #include "bench/compare/time_limit.hpp"
 #include "bench/compare/truth.hpp"
+#include "bench/store/checksum.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "bench/store/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "reference/agreement.hpp"
@@ -28,7 +31,9 @@ Run reference_run(const ReferenceChoice& choice, const Scene& scene, const Progr
     RunOptions options;
     options.progress = progress;
     const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
-    return choice.kept ? trust::kept_run(trust::kept_runs_folder(), trust::run_key(*choice.scheme, scene, choice.settings), make) : make();
+    if (!choice.kept) return make();
+    const std::string key = trust::run_key(*choice.scheme, scene, choice.settings);
+    return choice.kept_in.empty() ? trust::kept_run(trust::kept_runs_folder(), key, make) : trust::kept_run(choice.kept_in, key, make, 0);
 }
 
 double last_instant(const Run& r) {
@@ -143,6 +148,11 @@ double least_error(const Comparison& c, const std::vector<Trace>& cells, const T
 }  // namespace
 
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener) {
+    KeptCells nowhere;
+    return compare(request, catalogue, listener, nowhere);
+}
+
+Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener, KeptCells& keep) {
     Comparison c;
     c.scene = load_scene(request.scene, request.set, request.duration);
     note_silent_strings(c.scene, listener);
@@ -156,15 +166,18 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     std::vector<double> sizes;
     for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0));
     const auto each_cell = [&](const char* label, const std::function<void(std::size_t, const ProgressOf&)>& work) {
-        store::side_by_side(sizes, request.jobs, listener, label, [&](std::size_t i, store::Done& done) {
-            if (c.cells[i].refused) return;
-            try {
-                work(i, told_to(done));
-            } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
-                c.cells[i].refused = true;
-                c.cells[i].reason = e.what();
-            }
-        });
+        store::side_by_side(
+            sizes, request.jobs, listener, label,
+            [&](std::size_t i, store::Done& done) {
+                if (c.cells[i].refused) return;
+                try {
+                    work(i, told_to(done));
+                } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
+                    c.cells[i].refused = true;
+                    c.cells[i].reason = e.what();
+                }
+            },
+            [&](std::size_t i) { return fmt::format("{} at {} Hz", c.cells[i].scheme->name, c.cells[i].settings.sample_rate); });
     };
     // Unless it is given, the size of the truth follows from the errors that there are to show: cells run over the headline's window first.
     Scene shown = c.scene;
@@ -198,11 +211,21 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
                                   name_of(reference.run.status.outcome), c.reference_summary.duration));
 
     const bool all_shown = !request.reference_modes && shown.duration >= c.scene.duration;
+    keep.of = static_cast<int>(c.cells.size());
     each_cell("errors", [&](std::size_t i, const ProgressOf& progress) {
         Cell& cell = c.cells[i];
+        const std::string identity = keep.folder.empty() ? "" : identity_of(cell, reference, model, c.scene);
+        const std::filesystem::path file = keep.folder / (store::hash_of(identity) + ".json");
+        if (keep.resume && read_cell(file, identity, cell)) {
+            ++keep.kept, ++keep.read;
+            return;
+        }
         const Trace trace = all_shown ? std::move(early[i]) : run_cell(cell, c.scene, progress);
         judge(cell, trace, reference.run.trace, model.run.trace);
         if (cell.reason.empty()) cell.sound = store::sound_of(trace.column(c.headline.nut), trace.tap_rate);
+        if (keep.folder.empty()) return;
+        store::write_fresh(file, json_of(cell, identity));
+        ++keep.kept;
     });
     std::vector<Contender> contenders;
     for (Cell& cell : c.cells) contenders.push_back({&cell, &c.scene});

@@ -14,6 +14,7 @@
 #include "bench/compare/request.hpp"
 #include "bench/compare/summary.hpp"
 #include "bench/store/listener.hpp"
+#include "bench/store/machine.hpp"
 #include "bench/store/sound.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/trust/certificate_library.hpp"
@@ -31,6 +32,7 @@ struct Cell {
     store::Sound sound{};  // of the headline's nut tap, where the run reached its end
     Spread wall{};         // of the timed runs [s], of the whole scene or up to the failure
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
+    store::Stamp stamp{};                                           // of the machine that timed it
     int modes() const { return refused ? settings.modes : summary.modes; }
 };
 

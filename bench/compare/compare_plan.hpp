@@ -12,9 +12,10 @@ namespace jvari::bench::compare {
 struct ReferenceChoice {
     const Descriptor* scheme;
     Settings settings;
-    std::string note;     // why this one, "" where it is the rule or was asked for
-    int oversampled = 0;  // a scheme, and the multiple of the coarsest rate of three; 0: a reference
-    bool kept = false;    // its run may be one of before (kept_run.hpp): the reference is of this program and not of a plugin
+    std::string note;                 // why this one, "" where it is the rule or was asked for
+    int oversampled = 0;              // a scheme, and the multiple of the coarsest rate of three; 0: a reference
+    bool kept = false;                // its run may be one of before (kept_run.hpp): the reference is of this program and not of a plugin
+    std::filesystem::path kept_in{};  // a study's own folder, for all of its runs; "": kept_runs_folder(), for those worth keeping
     std::string name() const { return (oversampled ? "oversampled " : "") + std::string(scheme->name); }
 };
 

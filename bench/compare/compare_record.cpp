@@ -28,6 +28,9 @@ constexpr const char* cost_columns[] = {"cost_s_per_s",
                                         "times_real_time",
                                         "worst_block_of_deadline",
                                         "repeats",
+                                        "machine",
+                                        "load",
+                                        "governor",
                                         "pareto"};
 
 double error_in(const Cell& cell, int tap, int measure) {
@@ -101,6 +104,9 @@ void add_row(store::Table& table, const Comparison& c, const Cell& cell, const s
     row.number("times_real_time", seconds / wall);
     row.number("worst_block_of_deadline", ran ? cell.worst_block : nan);
     row.count("repeats", cell.wall.count, ran);
+    row.text("machine", ran ? cell.stamp.name : "");
+    row.text("load", ran ? cell.stamp.load : "");
+    row.text("governor", ran ? cell.stamp.governor : "");
     row.text("pareto", "");  // once all rows are there
     row.text("below_floor", ties_of(c, cell));
     for (std::size_t k = 0; k < measures().size(); ++k)

@@ -36,6 +36,7 @@ double sample(const Timed& t) {
 }  // namespace
 
 void time_cells(const std::vector<Contender>& contenders, int repeats, const store::Listener& listener) {
+    const store::Stamp stamp = store::stamp_now();  // the load is what others made of it
     std::vector<Timed> timed;
     double work = 0, finished = 0;
     for (const Contender& c : contenders) {
@@ -58,7 +59,10 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
             t.samples.push_back(sample(t));
             finished += t.cell->summary.wall_seconds * t.runs;
         }
-    for (Timed& t : timed) t.cell->wall = spread_of(t.samples);
+    for (Timed& t : timed) {
+        t.cell->wall = spread_of(t.samples);
+        t.cell->stamp = stamp;
+    }
 }
 
 }  // namespace jvari::bench::compare

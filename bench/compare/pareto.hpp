@@ -19,7 +19,7 @@ struct Point {
 std::vector<bool> pareto_front(std::span<const Point>);
 
 // Which of the rows of cells.csv are on the front of an error column and a cost column: of those that are trusted and whose error is
-// known.
+// known. Where the cost is a clock's and cells were timed on several machines, each machine has a front of its own.
 std::vector<bool> pareto_front(const store::Table& cells, const store::Rows&, const std::string& error, const std::string& cost);
 
 }  // namespace jvari::bench::compare

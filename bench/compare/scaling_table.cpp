@@ -27,7 +27,7 @@ Nanoseconds step_of(const store::Table& cells, std::size_t row) {
 class Scaling {
 public:
     explicit Scaling(const store::Table& cells) : cells_(cells) {
-        naming_ = store::naming_columns(cells);
+        naming_ = store::with_machine(cells, store::naming_columns(cells));
         std::erase(naming_, "element");
         into_.columns = naming_;
         for (const char* name : {"at", "what", "x", "ns_per_step", "ns_lower", "ns_upper", "exponent", "exponent_half_width", "extra_ns",

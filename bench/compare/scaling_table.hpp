@@ -12,6 +12,7 @@ namespace jvari::bench::compare {
 //          two).
 //   what = thread, contact, stiffness, taps, probe: cells of a set with `elements`. ns_per_step is that of the scene without it (probe:
 //          with it), extra_ns what it adds to the step; between extra_lower and extra_upper by the quartiles of both.
+// Where cells were timed on several machines a column `machine` stands before `at`: no fit and no difference is of two machines.
 // Rows that did not reach their end, or were not timed, have no place in it. `sets`: rows of one set of a suite, which were timed in one
 // interleaved run; rows of different sets are not compared. None where nothing was varied.
 store::Table scaling_of(const store::Table& cells, const std::vector<store::Rows>& sets);

@@ -1,5 +1,7 @@
 #include "bench/map/map_report.hpp"
 
+#include <fmt/core.h>
+
 #include "bench/map/failures.hpp"
 #include "bench/map/map_tables.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -19,8 +21,12 @@ RecordedMaps run_and_record_maps(const std::vector<Map>& maps, const compare::Ca
             store::must_be_writable(r.folder / name / "any");
         }
     Truths truths(catalogue);
-    const MapRun run = run_maps(maps, truths, r.program, kept ? r.folder / "points" : fs::path(), r.resume, r.jobs, listener);
-    RecordedMaps recorded{{}, maps_text(run)};
+    const MapRun run =
+        run_maps(rows_of(maps, catalogue), truths, r.program, kept ? r.folder / "points" : fs::path(), r.points, r.jobs, listener);
+    RecordedMaps recorded{{}, maps_text(run), {}};
+    for (const PointPlace& p : run.missing)
+        recorded.missing.push_back(fmt::format("{}: {} at {} = {}{}", p.map->name, p.scheme->name, p.map->x.key, p.x,
+                                               p.y.empty() ? "" : ", " + p.map->y.key + " = " + p.y));
     if (!kept) return recorded;
     const auto write = [&](const fs::path& name, const std::string& content) {
         store::write_fresh(r.folder / name, content);

@@ -72,19 +72,20 @@ std::optional<Tried> read_back(const fs::path& path, const std::string& identity
 
 class Laboratory {  // tries points, and keeps what came of them
 public:
-    Laboratory(Truths& truths, std::string program, fs::path folder, bool resume)
-        : truths_(truths), program_(std::move(program)), folder_(std::move(folder)), resume_(resume) {}
+    Laboratory(Truths& truths, std::string program, fs::path folder, Points points)
+        : truths_(truths), program_(std::move(program)), folder_(std::move(folder)), points_(points) {}
 
-    Tried operator()(const PointPlace& at) {
+    std::optional<Tried> operator()(const PointPlace& at) {  // nothing: it was to be read and is not there
         const Trial trial = trial_at(at);
         const std::string identity = Json{{"program", program_}, {"trial", Json::parse(identity_of(trial))}}.dump();
         const fs::path file = folder_ / (store::hash_of(identity) + ".json");
-        if (resume_ && !folder_.empty())
+        if (points_ != Points::run_again && !folder_.empty())
             if (auto kept = read_back(file, identity)) {
                 ++kept_;
                 kept->figures.balance = at.scheme->balance;
-                return *kept;
+                return kept;
             }
+        if (points_ == Points::only_read) return std::nullopt;
         Tried tried = run_trial(trial, truths_);
         ++ran_;
         if (!folder_.empty()) {
@@ -101,7 +102,7 @@ private:
     Truths& truths_;
     const std::string program_;
     const fs::path folder_;
-    const bool resume_;
+    const Points points_;
     std::mutex writing_;
     std::atomic<int> ran_ = 0, kept_ = 0;
 };
@@ -169,52 +170,76 @@ double Boundary::relative_difference() const {
     return 0.5 * (store::number_of(x_low) + store::number_of(x_high)) / theory - 1;
 }
 
-MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const std::string& program, const fs::path& folder, bool resume, int jobs,
-                const store::Listener& listener) {
-    MapRun result;
+std::vector<MapRow> rows_of(const std::vector<Map>& maps, const compare::Catalogue& catalogue) {
+    std::vector<MapRow> rows;
     for (const Map& m : maps) {
-        if (!m.reference.empty() && m.reference != "none") truths.catalogue().find(m.reference);
-        const auto schemes = schemes_of(m, truths.catalogue());
-        const std::vector<std::string> rows = m.y.values.empty() ? std::vector<std::string>{""} : m.y.values;
-        for (const Descriptor* d : schemes)
-            for (const std::string& y : rows)
-                for (const std::string& x : m.x.values) result.points.push_back({{&m, d, x, y}, {}});
+        if (!m.reference.empty() && m.reference != "none") catalogue.find(m.reference);
+        const std::vector<std::string> ys = m.y.values.empty() ? std::vector<std::string>{""} : m.y.values;
+        for (const Descriptor* d : schemes_of(m, catalogue))
+            for (const std::string& y : ys) rows.push_back({&m, d, y});
     }
-    for (const JudgedPoint& p : result.points) trial_at(p.at);  // scenes and keys that are none are said before anything runs
-    Laboratory laboratory(truths, program, folder, resume);
-    store::side_by_side(std::vector<double>(result.points.size(), 1), jobs, listener, "points",
-                        [&](std::size_t i, store::Done&) { result.points[i].tried = laboratory(result.points[i].at); });
+    return rows;
+}
 
-    struct Pair {
-        const JudgedPoint *low, *high;
-    };
-    std::vector<Pair> changes;
-    for (std::size_t i = 0; i + 1 < result.points.size(); ++i) {
-        const JudgedPoint &p = result.points[i], &q = result.points[i + 1];
-        const bool same_row = p.at.map == q.at.map && p.at.scheme == q.at.scheme && p.at.y == q.at.y;
-        if (same_row && !p.at.map->x.at.empty() && p.tried.judgement.verdict != q.tried.judgement.verdict) changes.push_back({&p, &q});
+std::string identity_of(const MapRow& row) {
+    Json trials = Json::array();
+    for (const std::string& x : row.map->x.values) trials.push_back(Json::parse(identity_of(trial_at({row.map, row.scheme, x, row.y}))));
+    return Json{{"trials", trials}, {"refine", row.map->refine}}.dump();
+}
+
+MapRun run_maps(const std::vector<MapRow>& rows, Truths& truths, const std::string& program, const fs::path& folder, Points points,
+                int jobs, const store::Listener& listener) {
+    std::vector<PointPlace> places;
+    for (const MapRow& r : rows)
+        for (const std::string& x : r.map->x.values) places.push_back({r.map, r.scheme, x, r.y});
+    for (const PointPlace& p : places) trial_at(p);  // scenes and keys that are none are said before anything runs
+    Laboratory laboratory(truths, program, folder, points);
+    std::vector<std::optional<Tried>> tried(places.size());
+    store::side_by_side(std::vector<double>(places.size(), 1), jobs, listener, "points",
+                        [&](std::size_t i, store::Done&) { tried[i] = laboratory(places[i]); });
+
+    std::vector<std::size_t> changes;  // between this point and the next
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+        const PointPlace &p = places[i], &q = places[i + 1];
+        const bool same_row = p.map == q.map && p.scheme == q.scheme && p.y == q.y;
+        if (same_row && !p.map->x.at.empty() && tried[i] && tried[i + 1] && tried[i]->judgement.verdict != tried[i + 1]->judgement.verdict)
+            changes.push_back(i);
     }
-    std::vector<std::optional<Boundary>> found(changes.size());
+    struct Found {
+        std::optional<Boundary> boundary;
+        std::optional<PointPlace> missing;
+    };
+    std::vector<Found> found(changes.size());
     store::side_by_side(std::vector<double>(changes.size(), 1), jobs, listener, "boundaries", [&](std::size_t i, store::Done&) {
-        const JudgedPoint *low = changes[i].low, *high = changes[i].high;  // clang 14 captures no structured binding
-        const MapAxis& axis = low->at.map->x;
+        const PointPlace &low = places[changes[i]], &high = places[changes[i] + 1];
+        const Verdict at_low = tried[changes[i]]->judgement.verdict, at_high = tried[changes[i] + 1]->judgement.verdict;
+        const MapAxis& axis = low.map->x;
         const Bracket b =
-            bisect({store::number_of(low->at.x), store::number_of(high->at.x), low->tried.judgement.verdict, high->tried.judgement.verdict},
-                   low->at.map->refine, axis.whole, [&](double x) {
-                       PointPlace at = low->at;
-                       at.x = axis_text(axis, x);
-                       return laboratory(at).judgement.verdict;
-                   });
-        found[i] = Boundary{low->at.map,
-                            low->at.scheme,
-                            low->at.y,
-                            b.at_low,
-                            b.at_high,
-                            axis_text(axis, b.low),
-                            axis_text(axis, b.high),
-                            std::numeric_limits<double>::quiet_NaN()};
+            bisect({store::number_of(low.x), store::number_of(high.x), at_low, at_high}, low.map->refine, axis.whole, [&](double x) {
+                PointPlace at = low;
+                at.x = axis_text(axis, x);
+                const auto there = found[i].missing ? std::nullopt : laboratory(at);
+                if (!there && !found[i].missing) found[i].missing = at;
+                return there ? there->judgement.verdict : at_low;
+            });
+        if (!found[i].missing)
+            found[i].boundary = Boundary{low.map,
+                                         low.scheme,
+                                         low.y,
+                                         b.at_low,
+                                         b.at_high,
+                                         axis_text(axis, b.low),
+                                         axis_text(axis, b.high),
+                                         std::numeric_limits<double>::quiet_NaN()};
     });
-    for (auto& b : found) result.boundaries.push_back(std::move(*b));
+    MapRun result;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (tried[i]) result.points.push_back({places[i], std::move(*tried[i])});
+        else result.missing.push_back(places[i]);
+    for (Found& f : found) {
+        if (f.boundary) result.boundaries.push_back(std::move(*f.boundary));
+        if (f.missing) result.missing.push_back(std::move(*f.missing));
+    }
     compare_with_theory(result.boundaries);
     result.ran = laboratory.ran();
     result.read_back = laboratory.kept();

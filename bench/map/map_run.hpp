@@ -18,6 +18,15 @@ struct PointPlace {  // on a map
 };
 Trial trial_at(const PointPlace&);
 
+// What one process runs of a map: its points along x at one y, and the bisections between them. No row needs another's.
+struct MapRow {
+    const Map* map;
+    const Descriptor* scheme;
+    std::string y;
+};
+std::vector<MapRow> rows_of(const std::vector<Map>&, const compare::Catalogue&);  // in the order of the file: map, scheme, y
+std::string identity_of(const MapRow&);                                           // JSON: all that its points depend on, the program aside
+
 struct JudgedPoint {
     PointPlace at;
     Tried tried;
@@ -34,12 +43,15 @@ struct Boundary {
 struct MapRun {
     std::vector<JudgedPoint> points;   // in the order of the file: map, scheme, y, x
     std::vector<Boundary> boundaries;  // in that order
+    std::vector<PointPlace> missing;   // that were to be read and are not there; a bisection ends at its first
     int ran = 0, read_back = 0;        // points, those of bisections included
 };
 
+enum class Points { run_again, resumed, only_read };
+
 // `folder`: where points are kept, "" for nowhere. `program` counts into a point's address. Throws what a scene or a name that is none
 // throws, before anything is run.
-MapRun run_maps(const std::vector<Map>&, Truths&, const std::string& program, const std::filesystem::path& folder, bool resume, int jobs,
+MapRun run_maps(const std::vector<MapRow>&, Truths&, const std::string& program, const std::filesystem::path& folder, Points, int jobs,
                 const store::Listener&);
 
 // Bisection of a change between two outcomes along one axis: `verdict_at(x)` is asked at most `times` times, at the geometric mean of

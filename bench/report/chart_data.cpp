@@ -99,6 +99,7 @@ std::string chart_fronts(const WorkPrecision& w) {
                     const std::string key = fmt::format("{}|{}|{}|{}|{}", problem_of(t, i), error.column, cost.column, series_of(t, i),
                                                         std::isnan(rate) ? "null" : fmt::format("{}", rate));
                     rows.push_back({{"problem", problem_of(t, i)},
+                                    {"machine", t.at(i, "machine")},  // a front is of one
                                     {"error", error.column},
                                     {"cost", cost.column},
                                     {"x", t.number(i, cost.column)},

@@ -108,7 +108,7 @@ void add_front(Json& layers, const Encodings& e) {
                {{"calculate", "datum.x * (cost_field == 'rate' ? 1e-3 : 1)"}, {"as", "x"}}})},
          {"mark",
           {{"type", "line"}, {"strokeWidth", 9}, {"opacity", 0.28}, {"color", "#888"}, {"strokeCap", "round"}, {"strokeJoin", "round"}}},
-         {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}}}});
+         {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}, {"detail", {{"field", "machine"}}}}}});
 }
 
 Json line_of(const Encodings& e, const char* condition, double width) {

@@ -46,8 +46,8 @@ std::string goal_text(const store::Table& cheapest, std::size_t row) {
     std::string text = compare::goal_name(cheapest, row) + ": " + cheapest.at(row, "scheme");
     if (!cheapest.at(row, "options").empty()) text += " " + cheapest.at(row, "options");
     text += fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
-    const std::string ties = compare::ties_text(cheapest, row);
-    return text + (ties.empty() ? "" : " or " + ties);
+    const std::string ties = compare::ties_text(cheapest, row), &machine = cheapest.at(row, "machine");
+    return text + (ties.empty() ? "" : " or " + ties) + (machine.empty() ? "" : " (" + machine + ")");
 }
 
 // The goals that some cells of the problem reach and some do not, so that they lie among the points.
@@ -128,6 +128,8 @@ Section work_precision_section(const Results& r) {
         "legend to bring it out, more names with it, or the empty chart for all."};
     if (std::any_of(r.cells.rows.begin(), r.cells.rows.end(), [&](const auto& row) { return flags >= 0 && !row[flags].empty(); }))
         s.notes.emplace_back("Hollow points are not to be trusted: the run's own figures speak against it. They are on no front.");
+    if (const std::string several = store::machines_text(r.cells); !several.empty())
+        s.notes.push_back("Each machine has a front of its own: " + several);
     if (!w.bands.empty())
         s.notes.emplace_back(
             "What lies in a grey band is a tie (the reference's own sensitivity), in a blue one below what the reference is certain to. "

@@ -24,4 +24,9 @@ std::vector<Rows> differing_in_rate(const Table& cells, const Rows&, const std::
 
 Rows all_rows(const Table&);
 
+// What tells problems apart where a clock is compared: `columns`, and the machine where the cells were timed on several.
+std::vector<std::string> machines_of(const Table& cells);  // each once, in the order in which they come; cells without a clock have none
+std::vector<std::string> with_machine(const Table& cells, std::vector<std::string> columns);
+std::string machines_text(const Table& cells);  // the sentence that says so; "" where there is one machine
+
 }  // namespace jvari::bench::store

@@ -20,8 +20,14 @@ namespace jvari::bench::store {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr const char* part = "part";  // a file on its way: .NAME.PROCESS.part
-constexpr auto forsaken = std::chrono::hours(1);
+constexpr const char* part = "part";  // a file on its way: .NAME.HOST.PROCESS.part; hosts share folders, and count their processes alone
+constexpr auto forsaken = std::chrono::hours(1), forsaken_elsewhere = std::chrono::hours(24);
+
+std::string host_name() {
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    return host;
+}
 
 fs::path behind_links(fs::path path) {
     std::error_code error;
@@ -60,7 +66,7 @@ void must_be_writable(const fs::path& named) {
 FreshFile::FreshFile(fs::path path) : path_(behind_links(std::move(path))) {
     must_be_writable(path_);
     beside_ = path_;
-    beside_.replace_filename(fmt::format(".{}.{}.{}", path_.filename().string(), getpid(), part));
+    beside_.replace_filename(fmt::format(".{}.{}.{}.{}", path_.filename().string(), host_name(), getpid(), part));
 }
 
 FreshFile::~FreshFile() {
@@ -94,9 +100,11 @@ void sweep_parts(const fs::path& folder) {
     std::vector<fs::path> parts;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const pid_t process = process_of(entry.path());
-        if (process == 0 || kill(process, 0) == 0 || errno != ESRCH) continue;
+        if (process == 0) continue;
+        const bool here = entry.path().string().ends_with(fmt::format(".{}.{}.{}", host_name(), process, part));
+        if (here && (kill(process, 0) == 0 || errno != ESRCH)) continue;
         const auto written = fs::last_write_time(entry.path(), error);
-        if (!error && fs::file_time_type::clock::now() - written > forsaken) parts.push_back(entry.path());
+        if (!error && fs::file_time_type::clock::now() - written > (here ? forsaken : forsaken_elsewhere)) parts.push_back(entry.path());
     }
     for (const fs::path& file : parts) fs::remove(file, error);
 }

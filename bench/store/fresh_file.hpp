@@ -30,7 +30,7 @@ std::string read_whole(const std::filesystem::path&);                        // 
 void must_be_writable(const std::filesystem::path&);
 
 // Removes from a folder of ours what killed programs left: parts of files of processes that are no more, and that nobody has written to for
-// an hour (a process of another machine or container is not seen from here).
+// an hour (a process of another container is not seen from here); of another machine's, what nobody has written to for a day.
 void sweep_parts(const std::filesystem::path& folder);
 
 }  // namespace jvari::bench::store

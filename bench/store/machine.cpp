@@ -1,6 +1,7 @@
 #include "bench/store/machine.hpp"
 
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 #include "bench/provenance.hpp"  // written at build time by provenance.cmake
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/records.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/vector_instructions.hpp"
 
@@ -76,6 +78,26 @@ std::string command() {  // as typed, by the kernel's account; a word with blank
     return text;
 }
 }  // namespace
+
+Stamp stamp_now() {
+    const Machine& m = machine();
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    Stamp s{m.cpu + ", " + std::to_string(m.cores) + " cores, " + m.vectors + ", " + m.compiler + " " + m.flags, host, now_utc(), {}, {}};
+    if (double load = 0; getloadavg(&load, 1) == 1) s.load = text_of(load);
+    std::ifstream("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor") >> s.governor;
+    return s;
+}
+
+std::string json_of(const Stamp& s) {
+    return nlohmann::ordered_json{{"name", s.name}, {"host", s.host}, {"at", s.at}, {"load", s.load}, {"governor", s.governor}}.dump(
+        -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+Stamp stamp_of(const std::string& json) {
+    const auto j = nlohmann::ordered_json::parse(json);
+    return {j.at("name"), j.at("host"), j.at("at"), j.at("load"), j.at("governor")};
+}
 
 std::string made_by() {
     const Machine& m = machine();

@@ -22,6 +22,17 @@ const Machine& machine();
 std::string run_identity(const Machine& = machine());                                               // of a run, with the plugins loaded
 std::string program_identity(const std::vector<std::string>& plugins, const Machine& = machine());  // of a cell
 
+// What a clock's figures depend on beside that. `name` is the same on machines of one kind with one program: costs compare there alone.
+struct Stamp {
+    std::string name;      // "AMD EPYC 7763, 2 cores, AVX2, GNU 12.2.0 -O3 -ffp-contract=off"
+    std::string host, at;  // at: now_utc
+    std::string load;      // the average number of running processes over a minute, "" where it is not known
+    std::string governor;  // of the clock of its processors: "performance"; "" likewise
+};
+Stamp stamp_now();
+std::string json_of(const Stamp&);
+Stamp stamp_of(const std::string& json);  // throws std::exception where it is none
+
 // All of it, the date and the plugins loaded (file, hash, compiler, flags) as a JSON object: what a manifest begins with.
 std::string made_by();
 std::string now_utc();  // "2016-05-04T12:00:00Z"

@@ -10,12 +10,27 @@
 
 namespace jvari::bench::store {
 
-using Done = std::atomic<double>;  // how much of a thing is done, from 0 to 1
+struct Stopped {};  // no std::exception: a cell that is no longer wanted is none that failed
+
+class Done {  // how much of a thing is done, from 0 to 1
+public:
+    void operator=(double part) {  // throws Stopped where it is no longer wanted
+        part_.store(part, std::memory_order_relaxed);
+        if (unwanted_ && *unwanted_) throw Stopped{};
+    }
+    operator double() const { return part_.load(std::memory_order_relaxed); }
+
+private:
+    friend class Things;
+    std::atomic<double> part_ = 0;
+    const std::atomic<bool>* unwanted_ = nullptr;
+};
 
 // work(i, done) for each i below sizes.size(), begun in this order, on `jobs` threads (0: as many as there are cores). `sizes`: how long
 // each is expected to take, in any unit; for the progress line alone. Where one throws no further one is begun, and of what was thrown that
-// of the lowest i is thrown again: the one that would have ended them if they had gone one by one.
+// of the lowest i is thrown again: the one that would have ended them if they had gone one by one. What the listener throws while it is
+// shown how far they are ends all of them. `name`, where there is one, lets the line say which took longest.
 void side_by_side(const std::vector<double>& sizes, int jobs, const Listener&, const std::string& label,
-                  const std::function<void(std::size_t i, Done&)>& work);
+                  const std::function<void(std::size_t i, Done&)>& work, const std::function<std::string(std::size_t i)>& name = {});
 
 }  // namespace jvari::bench::store

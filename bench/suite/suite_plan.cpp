@@ -114,6 +114,15 @@ SuitePlan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const
     return all;
 }
 
+std::string what_of(const PlannedCell& c) {
+    std::string text = c.point->scene.name;
+    for (const auto& [key, value] : c.point->swept) text += " " + key + "=" + value;
+    const std::string options = store::options_text(c.cell.settings.options);
+    text += ": " + std::string(c.cell.scheme->name) + (options.empty() ? "" : " " + options);
+    if (c.cell.settings.sample_rate > 0) text += fmt::format(" at {} Hz", c.cell.settings.sample_rate);
+    return text;
+}
+
 std::vector<store::Rows> sets_of(const SuitePlan& plan) {
     std::map<const CellSet*, store::Rows> sets;  // in the order of the file: they lie in one vector
     for (std::size_t i = 0; i < plan.cells.size(); ++i) sets[plan.cells[i].set].push_back(i);

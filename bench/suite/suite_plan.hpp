@@ -31,6 +31,8 @@ struct PlannedCell {
     std::string id;        // hash_of it
 };
 
+std::string what_of(const PlannedCell&);  // for people: "tanpura_c3_release: modal_two_point at 44100 Hz"
+
 struct SuitePlan {
     std::deque<PlannedPoint> points;  // does not move what it holds
     std::vector<PlannedCell> cells;   // each identity once, in the order of the file

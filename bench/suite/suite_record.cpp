@@ -44,14 +44,16 @@ SuiteRecord record_of(const PlannedCell& planned, const compare::Cell& cell, con
     r.duration = cell.summary.duration;
     r.seconds = cell.summary.wall_seconds;
     r.steps = cell.summary.steps;
+    r.stamp = store::stamp_now();
     if (cell.refused) r.duration = r.seconds = 0, r.steps = 0;
     return r;
 }
 
-void add_clock(SuiteRecord& r, const PlannedCell& planned, const compare::Cell& timed) {
+void add_clock(SuiteRecord& r, const PlannedCell& planned, const KeptClock& clock) {
     compare::Cell cell = planned.cell;
-    cell.wall = timed.wall;
-    cell.worst_block = timed.worst_block;
+    cell.wall = clock.wall;
+    cell.worst_block = clock.worst_block;
+    cell.stamp = clock.stamp;
     cell.summary.duration = r.duration;
     cell.summary.steps = r.steps;
     const store::Table row = row_of(planned, cell, {}), rest = compare::errors_only(row);
@@ -63,8 +65,14 @@ void add_clock(SuiteRecord& r, const PlannedCell& planned, const compare::Cell& 
 std::string json_of(const SuiteRecord& r, const std::string& identity) {
     Json row = Json::array();
     for (std::size_t k = 0; k < r.row.columns.size(); ++k) row.push_back(Json::array({r.row.columns[k], r.row.rows[0][k]}));
-    Json j{{"cell", Json::parse(identity)}, {"row", row},           {"reference", r.reference}, {"ran", r.ran}, {"timed", r.timed},
-           {"duration", r.duration},        {"seconds", r.seconds}, {"steps", r.steps}};
+    Json j{{"cell", Json::parse(identity)},
+           {"row", row},
+           {"reference", r.reference},
+           {"ran", r.ran},
+           {"duration", r.duration},
+           {"seconds", r.seconds},
+           {"steps", r.steps},
+           {"stamp", Json::parse(store::json_of(r.stamp))}};
     const Levels& l = r.levels;
     j["levels"] = {{"frames", l.frames}, {"rows", l.rows},     {"start", l.start},
                    {"hop", l.hop},       {"row_hz", l.row_hz}, {"tenths_of_db", l.level}};
@@ -86,10 +94,10 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const 
         }
         r.reference = j.at("reference");
         r.ran = j.at("ran");
-        r.timed = j.at("timed");
         r.duration = j.at("duration");
         r.seconds = j.at("seconds");
         r.steps = store::whole<long>(j.at("steps"));
+        r.stamp = store::stamp_of(j.at("stamp").dump());
         const Json& l = j.at("levels");
         r.levels = {store::whole<int>(l.at("frames")), store::whole<int>(l.at("rows")), l.at("start"), l.at("hop"), l.at("row_hz"), {}};
         for (const Json& tenths : l.at("tenths_of_db")) r.levels.level.push_back(store::whole<int>(tenths));

@@ -10,19 +10,22 @@
 #include "bench/compare/compare.hpp"
 #include "bench/store/records.hpp"
 #include "bench/suite/spectrogram_levels.hpp"
+#include "bench/suite/suite_clock.hpp"
 #include "bench/suite/suite_plan.hpp"
 
 namespace jvari::bench::suite {
 
 struct SuiteRecord {
-    store::Table row;       // one row, the columns of compare's cells.csv
-    std::string reference;  // name, "" where there was none
-    bool ran = false;       // up to its end or to a failure: it can be timed
-    bool timed = false;
+    store::Table row;                  // one row, the columns of compare's cells.csv
+    std::string reference;             // name, "" where there was none
+    bool ran = false;                  // up to its end or to a failure: it can be timed
+    bool timed = false;                // its row has a clock's figures: they are kept apart from it (suite_clock.hpp)
     double duration = 0, seconds = 0;  // simulated, and wall time of the accuracy run [s]
     long steps = 0;
     Levels levels;                       // of the spectrogram; none where it was not asked for
     std::map<Facet, store::Table> rows;  // of each row facet that was asked for
+    store::Stamp stamp;                  // of the machine that ran it
+    bool known() const { return !row.rows.empty(); }
 };
 
 struct Against {  // what a cell was measured against; nothing is known of a reference that there was not
@@ -32,7 +35,7 @@ struct Against {  // what a cell was measured against; nothing is known of a ref
     std::string truth;  // as Comparison has it
 };
 SuiteRecord record_of(const PlannedCell&, const compare::Cell& measured, const Against&);
-void add_clock(SuiteRecord&, const PlannedCell&, const compare::Cell& timed);
+void add_clock(SuiteRecord&, const PlannedCell&, const KeptClock&);
 
 std::string json_of(const SuiteRecord&, const std::string& identity);
 // Nothing where there is no such file, it is of another cell, its checksum is not its own, or it cannot be read.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -61,12 +62,15 @@ public:
         std::vector<double> sizes;
         for (const std::size_t i : todo_)
             sizes.push_back(std::max(plan_.cells[i].cell.settings.sample_rate, 44100.0) * plan_.cells[i].point->scene.duration);
-        store::side_by_side(sizes, jobs, listener, "cells", [this](std::size_t k, store::Done& done) {
-            const PlannedCell& planned = plan_.cells[todo_[k]];
-            SuiteRecord& record = into_.records[todo_[k]];
-            record = cell(planned, done);
-            if (!folder_.empty()) store::write_fresh(folder_ / (planned.id + ".json"), json_of(record, planned.identity));
-        });
+        store::side_by_side(
+            sizes, jobs, listener, "cells",
+            [this](std::size_t k, store::Done& done) {
+                const PlannedCell& planned = plan_.cells[todo_[k]];
+                SuiteRecord& record = into_.records[todo_[k]];
+                record = cell(planned, done);
+                if (!folder_.empty()) store::write_fresh(folder_ / (planned.id + ".json"), json_of(record, planned.identity));
+            },
+            [this](std::size_t k) { return what_of(plan_.cells[todo_[k]]); });
     }
 
 private:
@@ -87,9 +91,7 @@ private:
         compare::Cell cell = planned.cell;
         Trace trace;
         std::string status;
-        const auto told = [&fraction](long done, long rows) {
-            fraction.store(static_cast<double>(done) / static_cast<double>(rows), std::memory_order_relaxed);
-        };
+        const auto told = [&fraction](long done, long rows) { fraction = static_cast<double>(done) / static_cast<double>(rows); };
         try {
             trace = compare::run_cell(cell, point.scene, compare::within(limit, told));
             if (known) compare::judge(cell, trace, *truth->trace(), *model->trace());
@@ -132,49 +134,152 @@ private:
     std::map<std::string, std::unique_ptr<Known>> known_;
 };
 
-// Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.
-void time_missing(const SuitePlan& plan, const std::filesystem::path& folder, SuiteRun& into, const store::Listener& listener) {
-    for (store::Rows indices : sets_of(plan)) {
-        const CellSet& set = *plan.cells[indices.front()].set;
-        std::erase_if(indices, [&into](std::size_t i) { return !into.records[i].ran || into.records[i].timed; });
-        if (!set.measures(Facet::cost) || indices.empty()) continue;
-        std::vector<compare::Cell> cells;
-        for (const std::size_t i : indices) {
-            cells.push_back(plan.cells[i].cell);
-            cells.back().summary.wall_seconds = into.records[i].seconds;
-        }
-        std::vector<compare::Contender> contenders;
-        for (std::size_t k = 0; k < indices.size(); ++k) {
-            const PlannedPoint& p = *plan.cells[indices[k]].point;
-            contenders.push_back({&cells[k], &p.scene, p.element == compare::Element::probe});
-        }
-        compare::time_cells(contenders, set.repeats, listener);
-        for (std::size_t k = 0; k < indices.size(); ++k) {
-            const PlannedCell& planned = plan.cells[indices[k]];
-            SuiteRecord& record = into.records[indices[k]];
-            add_clock(record, planned, cells[k]);
-            if (!folder.empty()) store::write_fresh(folder / (planned.id + ".json"), json_of(record, planned.identity));
-            ++into.timed;
-        }
+// How long a run of the cell takes here, and whether it runs at all: that of its accuracy, or one more.
+bool runs(const PlannedCell& planned, compare::Cell& cell, const SuiteRecord& record) {
+    if (record.known()) {
+        cell.summary.wall_seconds = record.seconds;
+        return record.ran;
     }
+    try {
+        compare::run_cell(cell, planned.point->scene, compare::within(planned.set->time_limit.value_or(HUGE_VAL), [](long, long) {}));
+        return true;
+    } catch (const std::exception&) {  // the accuracy run says why
+        return false;
+    }
+}
+
+// Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike. Where one of them has
+// no clock of the machine that timed the others, all are timed here.
+std::vector<Clocks> time_set(const SuitePlan& plan, const store::Rows& indices, const std::filesystem::path& folder, bool resume,
+                             SuiteRun& into, const store::Listener& listener) {
+    std::vector<Clocks> clocks(indices.size());
+    if (resume && !folder.empty()) clocks = clocks_in(folder, plan, indices);
+    if (machine_of(clocks).all) return clocks;
+    const std::string here = store::stamp_now().name;
+    std::vector<std::size_t> todo;  // of indices
+    std::vector<compare::Cell> cells;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        if (clocks[k].contains(here)) continue;
+        compare::Cell cell = plan.cells[indices[k]].cell;
+        cell.refused = !runs(plan.cells[indices[k]], cell, into.records[indices[k]]);
+        todo.push_back(k);
+        cells.push_back(std::move(cell));
+    }
+    std::vector<compare::Contender> contenders;
+    for (std::size_t t = 0; t < todo.size(); ++t) {
+        const PlannedPoint& p = *plan.cells[indices[todo[t]]].point;
+        contenders.push_back({&cells[t], &p.scene, p.element == compare::Element::probe});
+    }
+    compare::time_cells(contenders, plan.cells[indices.front()].set->repeats, listener);
+    for (std::size_t t = 0; t < todo.size(); ++t) {
+        const compare::Cell& c = cells[t];
+        const PlannedCell& planned = plan.cells[indices[todo[t]]];
+        const KeptClock clock{!c.refused, c.refused ? spread_of({}) : c.wall, c.worst_block, c.refused ? store::stamp_now() : c.stamp};
+        if (!folder.empty()) store::write_fresh(folder / clock_file(planned, clock.stamp), clock_json(clock, planned.identity));
+        clocks[todo[t]].insert_or_assign(clock.stamp.name, clock);
+        into.timed += clock.ran;
+    }
+    return clocks;
+}
+
+// Into the rows of those cells: the costs of one machine, of others where that has none.
+void show_clocks(const SuitePlan& plan, const store::Rows& indices, const std::vector<Clocks>& clocks, SuiteRun& into) {
+    const std::string machine = machine_of(clocks).machine;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        SuiteRecord& record = into.records[indices[k]];
+        if (clocks[k].empty() || !record.known() || !record.ran) continue;
+        const auto own = clocks[k].find(machine);
+        const KeptClock& clock = own == clocks[k].end() ? clocks[k].begin()->second : own->second;
+        if (clock.ran) add_clock(record, plan.cells[indices[k]], clock);
+    }
+}
+
+store::Rows ran_of(const store::Rows& indices, const SuiteRun& run) {  // those that can be timed, as far as is known
+    store::Rows rows;
+    for (const std::size_t i : indices)
+        if (!run.records[i].known() || run.records[i].ran) rows.push_back(i);
+    return rows;
 }
 }  // namespace
 
-SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const store::Listener& listener) {
+SuiteWork all_of(const SuitePlan& plan) {
+    SuiteWork work;
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) work.cells.push_back(i);
+    for (const store::Rows& set : sets_of(plan))
+        if (plan.cells[set.front()].set->measures(Facet::cost)) work.clocks.push_back(set);
+    return work;
+}
+
+SuiteRun run_suite(const SuitePlan& plan, const SuiteWork& work, const std::filesystem::path& folder, bool resume, int jobs,
+                   const store::Listener& listener) {
     SuiteRun result;
     result.records.resize(plan.cells.size());
     std::vector<std::size_t> missing;
-    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+    for (const std::size_t i : work.cells) {
         std::optional<SuiteRecord> kept;
         if (resume && !folder.empty()) kept = read_record(folder / (plan.cells[i].id + ".json"), plan.cells[i].identity);
         if (kept) result.records[i] = std::move(*kept);
         else missing.push_back(i);
     }
     result.ran = static_cast<int>(missing.size());
-    result.read_back = static_cast<int>(plan.cells.size() - missing.size());
+    result.read_back = static_cast<int>(work.cells.size() - missing.size());
     if (!missing.empty()) Accuracy(plan, std::move(missing), folder, result).run(jobs, listener);
-    time_missing(plan, folder, result, listener);
+    for (const store::Rows& set : work.clocks)
+        if (const store::Rows rows = ran_of(set, result); !rows.empty())
+            show_clocks(plan, rows, time_set(plan, rows, folder, resume, result, listener), result);
     return result;
+}
+
+SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const store::Listener& listener) {
+    return run_suite(plan, all_of(plan), folder, resume, jobs, listener);
+}
+
+SuiteRun gather_suite(SuitePlan& plan, const std::filesystem::path& folder) {
+    SuiteRun result;
+    std::vector<PlannedCell> there;
+    for (PlannedCell& cell : plan.cells)
+        if (auto kept = read_record(folder / (cell.id + ".json"), cell.identity)) {
+            there.push_back(std::move(cell));
+            result.records.push_back(std::move(*kept));
+        } else {
+            result.missing.push_back(what_of(cell));
+        }
+    plan.cells = std::move(there);
+    result.read_back = static_cast<int>(plan.cells.size());
+    for (const store::Rows& set : all_of(plan).clocks) {
+        const store::Rows rows = ran_of(set, result);
+        const std::vector<Clocks> clocks = clocks_in(folder, plan, rows);
+        show_clocks(plan, rows, clocks, result);
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            if (clocks[k].empty()) result.missing.push_back("the clock of " + what_of(plan.cells[rows[k]]));
+    }
+    return result;
+}
+
+void keep_references_in(SuitePlan& plan, const std::filesystem::path& folder) {
+    for (PlannedPoint& p : plan.points)
+        for (compare::ReferenceChoice& c : p.references) c.kept_in = folder;
+}
+
+int make_references(const SuitePlan& plan, int jobs, const store::Listener& listener) {
+    std::map<std::string, std::function<void()>> all;  // by their keys
+    for (const PlannedCell& c : plan.cells) {
+        if (!c.set->measures(Facet::errors) || !c.point->references.front().kept) continue;
+        const PlannedPoint& p = *c.point;
+        const double limit = c.set->time_limit.value_or(HUGE_VAL);
+        all[p.reference_key] = [&p, limit] { compare::run_reference(p.references, p.scene, 1, {}, limit); };
+        if (!p.truth_key.empty())
+            all[p.truth_key] = [&p, limit] { compare::run_truth(p.references, p.scene, p.truth_modes, 1, {}, limit); };
+    }
+    std::vector<std::function<void()>> makes;
+    for (auto& [key, make] : all) makes.push_back(std::move(make));
+    store::side_by_side(std::vector<double>(makes.size(), 1), jobs, listener, "references", [&makes](std::size_t i, store::Done&) {
+        try {
+            makes[i]();
+        } catch (const std::exception&) {  // the rows of its cells say why
+        }
+    });
+    return static_cast<int>(makes.size());
 }
 
 }  // namespace jvari::bench::suite

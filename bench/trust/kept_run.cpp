@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
+#include "bench/store/file_lock.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/outcome_name.hpp"
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr int format = 2;                  // of the file: a checksum, a line of JSON, the columns as this machine holds them
-constexpr double worth_keeping = 0.5;      // [s] of stepping
 constexpr long most_values = 1L << 26;     // of all columns: half a gigabyte
 constexpr std::size_t checksum_size = 32;  // hexadecimal digits
 }  // namespace
@@ -94,14 +94,22 @@ std::optional<Run> read_run(const fs::path& path, const std::string& key) noexce
     }
 }
 
-Run kept_run(const fs::path& folder, const std::string& key, const std::function<Run()>& make) {
+Run kept_run(const fs::path& folder, const std::string& key, const std::function<Run()>& make, double worth_keeping) {
     if (folder.empty()) return make();
     const fs::path path = folder / (key + ".run");
-    if (auto kept = read_run(path, key)) return std::move(*kept);
+    std::optional<Run> kept;
+    const auto there = [&] {
+        std::error_code error;
+        return fs::exists(path, error) && (kept = read_run(path, key));
+    };
+    if (there()) return std::move(*kept);
+    std::error_code error;
+    fs::create_directories(folder, error);
+    const store::FileLock lock(path.string() + ".lock", there);
+    if (kept || there()) return std::move(*kept);
     Run r = make();
     if (r.wall_seconds < worth_keeping) return r;
     try {
-        fs::create_directories(folder);
         store::sweep_parts(folder);
         write_run(path, key, r);
     } catch (const std::exception&) {  // it is a convenience

@@ -2,7 +2,7 @@
 //
 // A file per run, named by a hash of everything that its numbers depend on: scene, reference and settings, sources, compiler, flags and
 // vector instructions. It appears by rename and is believed only where it is whole: its key, its checksum and its sizes are looked at.
-// Nothing is kept of a run of less than half a second.
+// Nothing is kept of a run of less than half a second, unless the caller keeps all of its study's.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,9 @@ void write_run(const std::filesystem::path&, const std::string& key, const Run&)
 std::optional<Run> read_run(const std::filesystem::path&,
                             const std::string& key) noexcept;  // nothing where it is not whole or not of `key`
 
-// The run that is kept there, else what `make` gives, which is kept from then on. A folder that cannot be written to keeps nothing.
-Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make);
+// The run that is kept there, else what `make` gives, which is kept from then on. Of processes that ask for it at once one makes it and the
+// others wait (file_lock.hpp). A folder that cannot be written to keeps nothing.
+Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make,
+             double worth_keeping = 0.5 /* s of stepping */);
 
 }  // namespace jvari::bench::trust

@@ -1,0 +1,80 @@
+#include "bench/suite/suite_clock.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/store/checksum.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/whole.hpp"
+
+namespace jvari::bench::suite {
+
+namespace {
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+}  // namespace
+
+std::string clock_json(const KeptClock& c, const std::string& identity) {
+    const auto number = [](double x) { return store::text_of(x); };
+    return store::sealed(Json{{"clock_of", Json::parse(identity)},
+                              {"ran", c.ran},
+                              {"repeats", c.wall.count},
+                              {"wall_seconds", {number(c.wall.median), number(c.wall.lower), number(c.wall.upper)}},
+                              {"worst_block", number(c.worst_block)},
+                              {"stamp", Json::parse(json_of(c.stamp))}}
+                             .dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::optional<KeptClock> read_clock(const fs::path& path, const std::string& identity) {
+    try {
+        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
+        if (j.at("clock_of") != Json::parse(identity)) return std::nullopt;
+        KeptClock c;
+        c.ran = j.at("ran");
+        c.wall = spread_of({});
+        c.wall.count = store::whole<int>(j.at("repeats"));
+        c.wall.median = store::number_of(j.at("wall_seconds").at(0));
+        c.wall.lower = store::number_of(j.at("wall_seconds").at(1));
+        c.wall.upper = store::number_of(j.at("wall_seconds").at(2));
+        c.worst_block = store::number_of(j.at("worst_block"));
+        c.stamp = store::stamp_of(j.at("stamp").dump());
+        return c;
+    } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
+        return std::nullopt;
+    }
+}
+
+std::string clock_file(const PlannedCell& cell, const store::Stamp& stamp) {
+    return cell.id + "." + store::hash_of(stamp.name).substr(0, 8) + ".clock";
+}
+
+std::vector<Clocks> clocks_in(const fs::path& folder, const SuitePlan& plan, const store::Rows& cells) {
+    std::multimap<std::string, fs::path> files;  // by the id of their cell
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (const std::string name = entry.path().filename().string(); name.front() != '.' && entry.path().extension() == ".clock")
+            files.emplace(name.substr(0, name.find('.')), entry.path());
+    std::vector<Clocks> all;
+    for (const std::size_t i : cells) {
+        Clocks& own = all.emplace_back();
+        const auto [from, to] = files.equal_range(plan.cells[i].id);
+        for (auto file = from; file != to; ++file)
+            if (auto clock = read_clock(file->second, plan.cells[i].identity)) own.emplace(clock->stamp.name, std::move(*clock));
+    }
+    return all;
+}
+
+Chosen machine_of(const std::vector<Clocks>& cells) {
+    std::map<std::string, std::size_t> timed;
+    for (const Clocks& c : cells)
+        for (const auto& [machine, clock] : c) ++timed[machine];
+    const auto own = timed.find(store::stamp_now().name);
+    if (own != timed.end() && own->second == cells.size()) return {own->first, true};
+    Chosen best;
+    std::size_t most = 0;
+    for (const auto& [machine, count] : timed)
+        if (count > most) best.machine = machine, most = count;
+    best.all = most == cells.size();
+    return best;
+}
+
+}  // namespace jvari::bench::suite
