@@ -97,7 +97,7 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const 
         r.duration = j.at("duration");
         r.seconds = j.at("seconds");
         r.steps = store::whole<long>(j.at("steps"));
-        r.stamp = store::stamp_of(j.at("stamp").dump());
+        if (const auto stamp = j.find("stamp"); stamp != j.end()) r.stamp = store::stamp_of(stamp->dump());
         const Json& l = j.at("levels");
         r.levels = {store::whole<int>(l.at("frames")), store::whole<int>(l.at("rows")), l.at("start"), l.at("hop"), l.at("row_hz"), {}};
         for (const Json& tenths : l.at("tenths_of_db")) r.levels.level.push_back(store::whole<int>(tenths));
