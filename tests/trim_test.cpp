@@ -124,18 +124,6 @@ TEST_P(NothingIsCheaper, OnAGridByMoreThanAFifth) {
 INSTANTIATE_TEST_SUITE_P(TwoScenes, NothingIsCheaper,
                          testing::Values(std::pair{"tanpura_c3_release", "5%"}, std::pair{"two_point_bridge", "20%"}));
 
-TEST(Search, LeavesOutWhatPlaysNoPartAndKeepsWhatDoes) {
-    trim::Request r = request("tanpura_c3_release", "10%");
-    r.duration = 10e-3;  // the nut hears of the bridge after 6 ms
-    trim::Judge judge(r, catalogue(), silent, counted);
-    const trim::Path path = trim::search(judge, {&catalogue().find("modal_two_point")}, 1, silent);
-    ASSERT_TRUE(path.found);
-    const Scene left = judge.scene_of(path.steps.back().model);
-    EXPECT_EQ(left.taps.size(), 1u);
-    EXPECT_EQ(left.strings[0].barriers.size(), 1u);  // without it the string would swing through
-    for (std::size_t k = 2; k < path.steps.size(); ++k) EXPECT_TRUE(path.steps[k].within) << path.steps[k].change;
-}
-
 TEST(Search, SaysWhereNothingServes) {
     trim::Judge judge(request("tanpura_c3_release", "0.0001%"), catalogue(), silent, counted);
     EXPECT_FALSE(trim::search(judge, {&catalogue().find("modal_two_point")}, 1, silent).found);
