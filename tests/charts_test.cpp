@@ -181,7 +181,9 @@ TEST(Identity, ASchemeLooksTheSameInAnyCompanyAndLikeNoOther) {
         EXPECT_EQ(std::pair(alone.colour, alone.shape), std::pair(all[i].colour, all[i].shape)) << names[i];
         EXPECT_NE(alone.dash, all[i].dash) << names[i];
         EXPECT_EQ(all[i].control, is_control(schemes()[i])) << names[i];
-        if (all[i].control) EXPECT_EQ(all[i].colour, bench::report::families()[bench::report::families().size() - 2].light);
+        if (all[i].control) {
+            EXPECT_EQ(all[i].colour, bench::report::families()[bench::report::families().size() - 2].light);
+        }
     }
     const auto ordered = bench::report::in_order({"modal_explicit_penalty", "a plugin", "finite_difference_theta", "modal_two_point"});
     EXPECT_EQ(ordered, (std::vector<std::string>{"modal_two_point", "finite_difference_theta", "a plugin", "modal_explicit_penalty"}));

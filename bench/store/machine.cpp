@@ -75,7 +75,8 @@ std::string command() {  // as typed, by the kernel's account; a word with blank
         const bool plain = !word.empty() && word.find_first_of(" \t\n'\"") == std::string::npos;
         text += (first ? "" : " ") + (plain ? word : "'" + word + "'");
     }
-    return text;
+    using Json = nlohmann::json;
+    return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));  // what is no UTF-8 becomes U+FFFD
 }
 }  // namespace
 
