@@ -18,7 +18,7 @@
 namespace jvari::bench::compare {
 
 constexpr double settled = 1e-4;
-constexpr double budget = 6e5;  // [s], of motion times modes^2 times 1 + points^2/4: some twenty seconds of computing
+constexpr double budget = 6e5;  // [s], of motion times modes^2 times 1 + points^2/4 times how dear the reference is: some twenty seconds
 
 // The reference with the modes of the truth: found where `modes` is 0, else so many. A stand-in is left as it is. `said` tells how far it
 // went. `enough`, of the truth so far: by how much a doubling may change the headline figure; absent: `settled`. Throws as run_reference.
