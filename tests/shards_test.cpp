@@ -137,7 +137,9 @@ TEST(Shards, EveryPartIsDealtOnceAndClocksGoToTheLast) {
             rows += share.rows.size();
             clocks += share.work.clocks.size();
             EXPECT_EQ(share.work.clocks.size(), i == of ? 1u : 0u) << i << " of " << of;
-            if (i == of && of > 1) EXPECT_TRUE(share.work.cells.empty() && share.rows.empty());
+            if (i == of && of > 1) {
+                EXPECT_TRUE(share.work.cells.empty() && share.rows.empty());
+            }
         }
         EXPECT_EQ(cells.size(), plan.cells.size());
         EXPECT_EQ(std::set<std::size_t>(cells.begin(), cells.end()).size(), plan.cells.size());
