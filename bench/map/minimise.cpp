@@ -23,42 +23,46 @@ bool still(const Fails& fails, const Trial& t) {
 
 using Change = std::function<bool(Trial&)>;  // false: nothing there to change
 
+// The first tap alone: what fails is judged by taps of its own.
+Scene heard_at_one_point(const Scene& scene) {
+    Scene one = listened(scene);
+    one.taps.resize(1);
+    return one;
+}
+
 std::vector<Change> removals(const Trial& t) {
     std::vector<Change> all;
-    for (int s = static_cast<int>(t.scene.strings.size()) - 1; s > 0; --s)
-        all.push_back([s](Trial& x) { return x.scene.strings.erase(x.scene.strings.begin() + s), true; });
+    for (int s = static_cast<int>(t.scene.strings.size()) - 1; s >= 0; --s)
+        all.push_back([s](Trial& x) {
+            if (x.scene.strings.size() < 2 || s >= static_cast<int>(x.scene.strings.size())) return false;
+            x.scene.strings.erase(x.scene.strings.begin() + s);
+            x.scene = heard_at_one_point(x.scene);
+            return true;
+        });
+    const auto of_a_string = [&all](int s, auto change) {  // change(String&): whether there was something to change
+        all.push_back([s, change](Trial& x) { return s < static_cast<int>(x.scene.strings.size()) && change(x.scene.strings[s]); });
+    };
     const auto each_barrier = [](String& s, auto change) {
         bool changed = false;
         for (Barrier& b : s.barriers) changed = std::visit(change, b) || changed;
         return changed;
     };
-    for (int b = static_cast<int>(t.scene.strings.front().barriers.size()) - 1; b >= 0; --b)
-        all.push_back([b](Trial& x) {
-            auto& barriers = x.scene.strings.front().barriers;
-            if (b >= static_cast<int>(barriers.size())) return false;
-            return barriers.erase(barriers.begin() + b), true;
-        });
-    all.push_back([](Trial& x) { return std::exchange(x.scene.strings.front().thread, std::nullopt).has_value(); });
-    all.push_back([](Trial& x) {
-        String& s = x.scene.strings.front();
-        return s.initial && std::exchange(s.pluck, std::nullopt).has_value();
-    });
-    all.push_back([](Trial& x) {
-        String& s = x.scene.strings.front();
-        return s.pluck && std::exchange(s.initial, std::nullopt).has_value();
-    });
-    all.push_back([](Trial& x) { return std::exchange(x.scene.strings.front().polarisation, std::nullopt).has_value(); });
-    all.push_back([](Trial& x) {
-        Damping& d = x.scene.strings.front().damping;
-        return !std::holds_alternative<NoDamping>(d) && (d = NoDamping{}, true);
-    });
-    all.push_back([](Trial& x) { return std::exchange(x.scene.strings.front().bending_stiffness, 0.0) != 0; });
-    all.push_back([each_barrier](Trial& x) {
-        return each_barrier(x.scene.strings.front(), [](auto& b) { return std::exchange(b.contact_loss, 0.0) != 0; });
-    });
-    all.push_back([each_barrier](Trial& x) {
-        return each_barrier(x.scene.strings.front(), [](auto& b) { return std::exchange(b.exponent, 1.0) != 1; });
-    });
+    for (int k = 0; k < static_cast<int>(t.scene.strings.size()); ++k) {
+        for (int b = static_cast<int>(t.scene.strings[k].barriers.size()) - 1; b >= 0; --b)
+            of_a_string(k, [b](String& s) {
+                if (b >= static_cast<int>(s.barriers.size())) return false;
+                return s.barriers.erase(s.barriers.begin() + b), true;
+            });
+        of_a_string(k, [](String& s) { return std::exchange(s.thread, std::nullopt).has_value(); });
+        of_a_string(k, [](String& s) { return s.initial && std::exchange(s.pluck, std::nullopt).has_value(); });
+        of_a_string(k, [](String& s) { return s.pluck && std::exchange(s.initial, std::nullopt).has_value(); });
+        of_a_string(k, [](String& s) { return std::exchange(s.polarisation, std::nullopt).has_value(); });
+        of_a_string(k, [](String& s) { return !std::holds_alternative<NoDamping>(s.damping) && (s.damping = NoDamping{}, true); });
+        of_a_string(k, [](String& s) { return std::exchange(s.bending_stiffness, 0.0) != 0; });
+        of_a_string(k,
+                    [each_barrier](String& s) { return each_barrier(s, [](auto& b) { return std::exchange(b.contact_loss, 0.0) != 0; }); });
+        of_a_string(k, [each_barrier](String& s) { return each_barrier(s, [](auto& b) { return std::exchange(b.exponent, 1.0) != 1; }); });
+    }
     return all;
 }
 
@@ -113,11 +117,10 @@ bool shorten(Trial& t, const Fails& fails) {
 Trial minimised(Trial t, const Fails& fails) {
     if (t.settings.modes == 0 && has_modes(t)) {  // the default, said aloud
         Trial explicit_modes = t;
-        explicit_modes.settings.modes = modes_for(t.scene.strings.front(), t.settings);
+        explicit_modes.settings.modes = modes_for(t.scene, t.settings);
         if (still(fails, explicit_modes)) t = std::move(explicit_modes);
     }
-    t.scene = listened(t.scene);
-    t.scene.taps.resize(1);
+    t.scene = heard_at_one_point(t.scene);
     for (bool smaller = true; smaller;) {
         smaller = false;
         for (const Change& change : removals(t)) {  // while there is time and bandwidth enough to fail without

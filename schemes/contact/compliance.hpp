@@ -48,8 +48,8 @@ struct Sites {
     std::vector<Reading> readings;
     std::vector<std::size_t> tap;  // of the scene, for each reading after the points
 };
-Sites sites_of(const Scene&, int string, std::span<const Footprint> contacts);
-Sites sites_of(const Scene&, int string);  // with one lumped barrier at most
+Sites sites_of(const Scene&, std::span<const Footprint> contacts);
+Sites sites_of(const Scene&);  // with one lumped barrier at most
 
 // own(r, f): what a scheme's string makes at reading r of 1 N of force f.
 using OwnResponse = std::function<double(int reading, int force)>;

@@ -8,7 +8,7 @@
 // n adds n modes for those cut off (effective_modes.hpp), stepped by the coefficients of eq 32: exact under a steady force, stable above
 // half the rate.
 // `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
-// Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+// Leaves out: contact loss, several barriers, profiles, polarisation, the body.
 #include <algorithm>
 #include <cmath>
 #include <complex>
