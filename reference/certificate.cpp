@@ -61,7 +61,7 @@ Certificate head(const Scene& scene, const CertifySettings& settings) {
     c.tap_rate = settings.tap_rate;
     c.duration = scene.duration;
     for (const Tap& tap : scene.taps) c.taps.push_back(tap.name);
-    c.modes = modes_for(scene.strings.at(0), {0, settings.tap_rate, settings.modes, {}});
+    c.modes = modes_for(scene, {0, settings.tap_rate, settings.modes, {}});
     return c;
 }
 

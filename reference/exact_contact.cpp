@@ -7,7 +7,7 @@
 //   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast pair per point, or a polynomial where they are soft;
 //   - collocated_contact.hpp, step by step, where the law is no spring or there are many contacts.
 // crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. With compliance=matched the static
-// deflection of the modes left out stands in series with barrier and thread (in_series.hpp). Leaves out: several strings.
+// deflection of the modes left out stands in series with barrier and thread (in_series.hpp).
 #include <algorithm>
 #include <cmath>
 #include <optional>

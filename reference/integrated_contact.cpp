@@ -4,7 +4,7 @@
 // touched the motion is linear and flies exactly, its next contact isolated rigorously (flight.hpp); while one is, SUNDIALS integrates to a
 // stated tolerance and finds the crossings (integrator.hpp). With flight = integrate everything is integrated, by steps short enough for
 // root finding to see contacts, which is a belief and not a bound: it is there to be compared with.
-// A profile acts as the points of profile_points.hpp. Leaves out: several strings, polarisation.
+// A profile acts as the points of profile_points.hpp. Leaves out: polarisation.
 #include <algorithm>
 #include <cmath>
 

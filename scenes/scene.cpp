@@ -27,9 +27,32 @@ const char* unit_of(Quantity q) {
     return "";
 }
 
+const char* lacks(const String& s, Quantity q) {
+    const bool barrier = !s.barriers.empty(), thread = s.thread.has_value();
+    if (q == Quantity::bridge_force && !barrier) return "a barrier";
+    if (q == Quantity::thread_force && !thread) return "a thread";
+    if (q == Quantity::driving_force && !barrier && !thread) return "a barrier or a thread";
+    return nullptr;
+}
+
+bool hears(const Tap& tap, const Scene& scene, int string) {
+    return tap.string ? *tap.string == string : !lacks(scene.strings[string], tap.quantity);
+}
+
+Scene alone(const Scene& scene, int string) {
+    Scene one = scene;
+    one.strings = {scene.strings[string]};
+    one.taps.clear();
+    for (Tap tap : scene.taps) {
+        if (!hears(tap, scene, string)) continue;
+        if (tap.string) tap.string = 0;
+        one.taps.push_back(std::move(tap));
+    }
+    return one;
+}
+
 const char* name_of(Feature f) {
     switch (f) {
-        case Feature::several_strings: return "several strings";
         case Feature::bending_stiffness: return "bending stiffness";
         case Feature::damping: return "damping";
         case Feature::frequency_dependent_damping: return "frequency-dependent damping";
@@ -85,7 +108,6 @@ Features needed_by(const Barrier& barrier) {
 
 Features needed_by(const Scene& scene) {
     Features f;
-    if (scene.strings.size() > 1) f = f | Feature::several_strings;
     for (const String& s : scene.strings) {
         if (s.bending_stiffness != 0) f = f | Feature::bending_stiffness;
         f = f | std::visit(DampingNeeds{}, s.damping);

@@ -168,26 +168,32 @@ struct Scene {
     bool operator==(const Scene&) const = default;
 };
 
-// ---- What a scene asks of a scheme.
+// What the quantity is taken from, where the string has none ("a barrier"); nullptr where it has.
+const char* lacks(const String&, Quantity);
+
+// The scene of one of its strings: that string, and the taps that hear it, in their order.
+Scene alone(const Scene&, int string);
+bool hears(const Tap&, const Scene&, int string);
+
+// ---- What a scene asks of a scheme of its strings one by one: that there are several asks nothing.
 
 enum class Feature : unsigned {
-    several_strings = 1u << 0,
-    bending_stiffness = 1u << 1,
-    damping = 1u << 2,                      // any loss of the free string
-    frequency_dependent_damping = 1u << 3,  // a loss that differs from mode to mode
-    measured_modes = 1u << 4,               // a table in place of the string's own frequencies
-    lumped_barrier = 1u << 5,
-    profile_barrier = 1u << 6,
-    several_barriers = 1u << 7,   // on one string
-    power_law_contact = 1u << 8,  // exponent other than 1
-    contact_loss = 1u << 9,
-    thread = 1u << 10,
-    initial_shape = 1u << 11,
-    pluck = 1u << 12,
-    polarisation = 1u << 13,
-    body = 1u << 14,
+    bending_stiffness = 1u << 0,
+    damping = 1u << 1,                      // any loss of the free string
+    frequency_dependent_damping = 1u << 2,  // a loss that differs from mode to mode
+    measured_modes = 1u << 3,               // a table in place of the string's own frequencies
+    lumped_barrier = 1u << 4,
+    profile_barrier = 1u << 5,
+    several_barriers = 1u << 6,   // on one string
+    power_law_contact = 1u << 7,  // exponent other than 1
+    contact_loss = 1u << 8,
+    thread = 1u << 9,
+    initial_shape = 1u << 10,
+    pluck = 1u << 11,
+    polarisation = 1u << 12,
+    body = 1u << 13,
 };
-constexpr int feature_count = 15;
+constexpr int feature_count = 14;
 const char* name_of(Feature);
 
 struct Features {

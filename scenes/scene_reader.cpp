@@ -7,6 +7,7 @@
 #include <span>
 
 #include "scenes/columns.hpp"
+#include "scenes/pitch.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/schema.hpp"
 #include "scenes/wording.hpp"
@@ -31,6 +32,8 @@ void emplace(std::variant<T...>& v, std::size_t index) {
     }
 }
 
+constexpr const char* tension_keys[] = {"tension", "frequency", "note"};
+
 // ---- Which keys this table may have. Where the key that chooses an alternative is missing or wrong, those of every alternative.
 struct Names {
     const Value& table;
@@ -41,6 +44,9 @@ struct Names {
         if (std::find(names.begin(), names.end(), key) == names.end()) names.emplace_back(key);
     }
     void number(const char* key, auto&&...) { add(key); }
+    void tension(auto&) {
+        for (const char* key : tension_keys) add(key);
+    }
     void count(const char* key, auto&) { add(key); }
     void text(const char* key, auto&) { add(key); }
     void optional_text(const char* key, auto&) { add(key); }
@@ -88,6 +94,37 @@ public:
         else if (const auto* d = std::get_if<double>(&v->content)) x = *d;
         else if (const auto* i = std::get_if<std::int64_t>(&v->content)) x = static_cast<double>(*i);
         else fail(*v, at(key), v->found(), expected);
+    }
+    // Of the three keys one: where an override brings one, those of the file stay unread.
+    void tension(String& s) {
+        const char* chosen = nullptr;
+        for (const char* key : tension_keys) {
+            const Value* v = table_.find(key);
+            if (!v) continue;
+            const bool overridden = v->place < 0, before = chosen && table_.find(chosen)->place < 0;
+            if (chosen && overridden == before)
+                fail(*v, at(key), v->found(), "nothing beside " + std::string(chosen) + ", which says as much");
+            if (!chosen || overridden) chosen = key;
+        }
+        if (!chosen || chosen == tension_keys[0]) return number(tension_keys[0], s.tension, positive, "N");
+        const Value& v = *table_.find(chosen);
+        double hertz = 0;
+        if (chosen == tension_keys[1]) number(chosen, hertz, positive, "Hz");
+        else {
+            std::string note;
+            text(chosen, note);
+            const auto frequency = frequency_of_note(note);
+            if (!frequency) fail(v, at(chosen), v.found(), "a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\" or \"Bb4\"");
+            hertz = *frequency;
+        }
+        if (!positive.holds(hertz)) fail(v, at(chosen), v.found(), std::string(positive.says) + " [Hz]");
+        number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);
+        s.tension = 1;  // where what it follows from is out of range validate() says so
+        if (!positive.holds(s.length) || !positive.holds(s.linear_density) || !not_negative.holds(s.bending_stiffness)) return;
+        s.tension = tension_for(s, hertz);
+        if (!positive.holds(s.tension))
+            fail(v, at(chosen), v.found(),
+                 "a pitch that a tension gives: the bending stiffness alone gives " + number_text(slack_pitch(s)) + " Hz");
     }
     void count(const char* key, int& n) { n = integer(*required(key, "a whole number >= 1"), key, 1); }
     void string_index(const char* key, std::optional<int>& n) {

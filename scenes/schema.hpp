@@ -3,7 +3,7 @@
 // ranges. What no single value can tell (a bridge beyond the end of the string) is checked in validate.cpp.
 //
 // A pass has: number, count, text, optional_text, choice, string_index, refused (a key that has no meaning here), columns (a CSV file),
-// one_of (a variant and the key that chooses), part (a table), parts (an array of tables).
+// one_of (a variant and the key that chooses), tension (or the pitch that it gives), part (a table), parts (an array of tables).
 #pragma once
 
 #include <concepts>
@@ -139,7 +139,7 @@ void fields(auto& pass, Is<Polarisation> auto& p) {
 void fields(auto& pass, Is<String> auto& s) {
     pass.number("length", s.length, positive, "m");
     pass.number("linear_density", s.linear_density, positive, "kg/m");
-    pass.number("tension", s.tension, positive, "N");
+    pass.tension(s);
     pass.number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);
     pass.part("damping", s.damping);
     pass.parts("barrier", s.barriers);

@@ -20,6 +20,7 @@ struct Ranges {
     void number(const char* key, double x, const Range& range, const char* unit, std::optional<double> = {}) {
         if (!range.holds(x)) throw BadScene(joined(path, key), number_text(x), range.says + (*unit ? " [" + std::string(unit) + "]" : ""));
     }
+    void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) {
         if (n < 1) throw BadScene(joined(path, key), std::to_string(n), "a whole number >= 1");
     }
@@ -115,14 +116,6 @@ bool name_is_plain(const std::string& name) {  // it heads a column of CSV files
            name != "time_s" && name.rfind("energy_", 0) != 0;
 }
 
-const char* lacks(Quantity q, const String& s) {  // what the quantity is taken from, where the string has none
-    const bool barrier = !s.barriers.empty(), thread = s.thread.has_value();
-    if (q == Quantity::bridge_force && !barrier) return "a barrier";
-    if (q == Quantity::thread_force && !thread) return "a thread";
-    if (q == Quantity::driving_force && !barrier && !thread) return "a barrier or a thread";
-    return nullptr;
-}
-
 void check(const Tap& tap, const Scene& scene, const std::string& path) {
     if (!name_is_plain(tap.name))
         throw BadScene(path + "name", found_text(tap.name), "letters, digits, _ . and -, neither time_s nor energy_...");
@@ -134,12 +127,12 @@ void check(const Tap& tap, const Scene& scene, const std::string& path) {
     const char* lack = nullptr;
     if (tap.string) {
         const String& s = scene.strings[static_cast<std::size_t>(*tap.string)];
-        lack = lacks(tap.quantity, s);
+        lack = lacks(s, tap.quantity);
         if (has_position(tap.quantity) && !(tap.position >= 0 && tap.position <= s.length))
             throw BadScene(path + "position", number_text(tap.position), On{s, ""}.between("<="));
     } else {
         for (const String& s : scene.strings)
-            if (!(lack = lacks(tap.quantity, s))) break;
+            if (!(lack = lacks(s, tap.quantity))) break;
     }
     if (lack)
         throw BadScene(path + "quantity", quote(name_of(tap.quantity)) + " of a string without " + lack, "a quantity that the string has");

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scenes/modes.hpp"
+#include "schemes/several_strings.hpp"
 
 namespace jvari {
 
@@ -63,10 +64,18 @@ Features approximated(const Descriptor& scheme) {
 std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     refuse_missing(descriptor, scene);
     refuse_undeclared(descriptor, settings);
+    if (scene.strings.size() > 1) return several_strings(descriptor, scene, settings);
     auto scheme = heard("is made", [&] { return descriptor.make(descriptor, scene, settings); });
     if (!scheme)
         throw BadScheme(std::string(descriptor.name) + " makes no scheme of scene " + scene.name + ", and does not refuse it either");
     return scheme;
+}
+
+double margin_of(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    double least = std::numeric_limits<double>::quiet_NaN();
+    for (int k = 0; descriptor.limit.margin && k < static_cast<int>(scene.strings.size()); ++k)
+        least = std::fmin(least, descriptor.limit.margin(alone(scene, k), settings));  // of a number and NaN the number
+    return least;
 }
 
 int steps_per_row(const Settings& s) {
@@ -88,6 +97,12 @@ double default_limit(const Settings& s) {  // of the modes that are carried unas
 
 int modes_for(const String& string, const Settings& s) {
     return s.modes > 0 ? s.modes : modes_below(string, default_limit(s));
+}
+
+int modes_for(const Scene& scene, const Settings& s) {
+    int most = 0;
+    for (const String& string : scene.strings) most = std::max(most, modes_for(string, s));
+    return most;
 }
 
 Modes modes_of(const String& string, const Settings& s) {

@@ -70,7 +70,8 @@ public:
     virtual int dofs() const = 0;                           // doubles of state carried: no more than the scene needs
     virtual std::vector<Fact> facts() const { return {}; }  // of the run so far; between blocks only
 
-    // Modes 1, 2, ... of the first string, without its barriers and its thread; none where the scheme has no relation in closed form.
+    // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread; none where the scheme has no relation in
+    // closed form.
     virtual std::vector<FreeMode> free_modes() const { return {}; }
 };
 
@@ -109,8 +110,8 @@ struct Approximation {
 
 // A boundary of soundness that is known: positive on the sound side, 0 on it, NaN where it has nothing to say of the scene.
 struct Limit {
-    const char* name = nullptr;  // as maps call it, "grid_limit"
-    double (*margin)(const Scene&, const Settings&) = nullptr;
+    const char* name = nullptr;                                 // as maps call it, "grid_limit"
+    double (*margin)(const Scene&, const Settings&) = nullptr;  // of a scene of one string; margin_of asks for all
 };
 
 // How a reference confirms itself in a certificate: options to run it with.
@@ -146,7 +147,8 @@ struct Descriptor {
     Features represents;  // what it takes, those that it approximates among them
     Balance balance;
     Clock clock;
-    std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&, const Settings&);  // throws Refusal or BadScene; by make_scheme alone
+    std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&,
+                                    const Settings&);  // of one string, by make_scheme alone; throws Refusal or BadScene
     std::span<const Option> options = {};
     std::span<const Approximation> approximates = {};
     const char* note = "";  // what the features cannot express, one sentence for the capability table
@@ -158,13 +160,18 @@ struct Descriptor {
 Features approximated(const Descriptor&);
 
 // The only way to make a scheme: refuses features that the scheme does not represent, options that it does not
-// declare and words that an option does not take, then calls `make`. Throws Refusal, BadScene, or BadScheme.
+// declare and words that an option does not take, then calls `make`, once for each string of the scene. Throws Refusal, BadScene, or
+// BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
+
+// The least margin that the scheme's limit leaves on a string of the scene; NaN where it has nothing to say.
+double margin_of(const Descriptor&, const Scene&, const Settings&);
 
 // ---- Checks and values for `make`.
 
 int steps_per_row(const Settings&);              // sample_rate/tap_rate; Refusal unless a whole number from 1 to 2^31 - 1
 int modes_for(const String&, const Settings&);   // settings.modes, or every mode below min(20 kHz, sample_rate/2)
+int modes_for(const Scene&, const Settings&);    // the most that one of its strings has
 Modes modes_of(const String&, const Settings&);  // those; Refusal where there is none, or more than most_modes
 
 bool declares(const Descriptor&, const std::string& option_name);

@@ -7,6 +7,7 @@
 #include "reference/certificate.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/references.hpp"
+#include "scenes/scene_file.hpp"
 #include "schemes/registry.hpp"
 #include "tests/c3.hpp"
 
@@ -69,15 +70,15 @@ TEST(Oversampled, EstimatesNoLessThanItsErrorAgainstTheExactReference) {
     }
 }
 
-TEST(StandIn, IsTheSchemeThatErrsLeastAndSaysSoItself) {  // two strings: grids alone represent them; each string is the exact one's
+TEST(StandIn, IsTheSchemeThatErrsLeastAndSaysSoItself) {  // of the grids, for two strings: each string is the exact one's
     Scene one = c3_free();
     one.duration = 10e-3;
     one.strings.front().initial = ModeInitial{4, 1e-3};
     one.taps = {{"nut", Quantity::nut_force, {}, 0}};
     Scene two = one;
     two.strings.push_back(two.strings.front());
-    const auto able = stand_ins(two);
-    ASSERT_GE(able.size(), 2u);
+    const std::vector<const Descriptor*> able{&scheme("finite_difference_explicit"), &scheme("finite_difference_theta"),
+                                              &scheme("finite_difference_hamiltonian")};
     const Settings coarsest{44100, 44100, 0, {}};
     const Descriptor* best = best_by_estimate(able, two, coarsest, 4);
     ASSERT_NE(best, nullptr);
@@ -89,7 +90,7 @@ TEST(StandIn, IsTheSchemeThatErrsLeastAndSaysSoItself) {  // two strings: grids 
     };
     const double chosen = error(*best);
     for (const Descriptor* d : able) EXPECT_LE(chosen, error(*d)) << d->name << " errs less than " << best->name;
-    EXPECT_NE(best, able.front());  // which stood in before
+    EXPECT_NE(best, able.front());
 }
 
 TEST(StandIn, OfOneStringCarriesItsModes) {
@@ -174,10 +175,10 @@ TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
 }
 
 TEST(Certificate, OfASceneThatNoReferenceRepresentsIsTheStandInsOwnEstimate) {
-    Scene scene = release(1e-3);
-    scene.strings.push_back(scene.strings.front());
+    Scene scene = read_scene("sitar_c5_two_planes", {});
+    scene.duration = 1e-3;
     ASSERT_EQ(best_reference(scene), nullptr);
-    const Certificate c = certify(scene, {50, 44100, 8 * 44100.0, {}});
+    const Certificate c = certify(scene, {38, 44100, 8 * 44100.0, {}});
     ASSERT_EQ(c.entries.size(), 1u);
     EXPECT_EQ(c.entries[0].sample_rate, 8 * 44100.0);
     EXPECT_EQ(c.entries[0].reference.find("oversampled "), 0u);

@@ -343,7 +343,7 @@ TEST(CommittedCertificates, ThereIsOneForEverySceneOfTheLibraryWithAllThatRepres
         const auto kept = bench::trust::read_certificate(fs::path(JVARI_COMMITTED_CERTIFICATES) / (name + ".json"), why);
         ASSERT_TRUE(kept) << name << ": " << why;
         EXPECT_EQ(kept->scene_hash, bench::trust::timeless_hash(scene)) << name;
-        EXPECT_EQ(kept->certificate.modes, modes_for(scene.strings[0], {})) << name;
+        EXPECT_EQ(kept->certificate.modes, modes_for(scene, {})) << name;
         for (const auto& planned : certificate_plan(scene).entries)
             EXPECT_TRUE(std::any_of(kept->certificate.entries.begin(), kept->certificate.entries.end(),
                                     [&](const auto& e) {

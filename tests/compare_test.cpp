@@ -121,6 +121,12 @@ TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
     EXPECT_NE(bench::compare::cheapest_text(t).find("within 0.1 %   none"), std::string::npos) << bench::compare::cheapest_text(t);
 }
 
+TEST(Cheapest, NamesEachTieWithItsOwnRateWhereOneHasNone) {
+    const bench::store::Table t = bench::compare::cheapest_of(cells_of(
+        {{"a", "44100", "", "0.05", "", "", 1}, {"exact", "", "", "0.05", "", "", 1.01}, {"b", "88200", "", "0.05", "", "", 1.02}}));
+    EXPECT_EQ(bench::compare::ties_text(t, 0), "exact, b at 88.2 kHz");
+}
+
 TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
     const bench::store::Table t = bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.0095", "0.001", "", 1},  // 0.0085 to 0.0105
                                                                         {"b", "100", "", "0.0088", "0.001", "", 2},  // to 0.0098

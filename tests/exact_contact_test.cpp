@@ -390,16 +390,7 @@ TEST(ExactContact, EqualBarriersOnASymmetricStringShareTheirEvents) {
     EXPECT_LT(difference(r.trace.column(0), r.trace.column(1)), 1e-13);
 }
 
-TEST(ExactContact, RefusesSeveralStringsAndAToleranceThatIsNone) {
-    Scene scene = c3();
-    scene.name = "two";
-    scene.strings.push_back(scene.strings[0]);
-    try {
-        make_scheme(exact_contact, scene, settings(5));
-        FAIL() << "made";
-    } catch (const Refusal& refusal) {
-        EXPECT_STREQ(refusal.what(), "exact_contact cannot represent scene two: it has no several strings");
-    }
+TEST(ExactContact, RefusesAToleranceThatIsNone) {
     EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "0")), Refusal);
     EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "1")), Refusal);
 }

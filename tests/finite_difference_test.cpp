@@ -710,7 +710,7 @@ TEST(GridContact, MomentumOfTheStringIsTheImpulseOfAllForces) {
 
 // ---- The seam.
 
-TEST(GridScheme, TracesDependNeitherOnTheBlockNorOnTheEnergyProbe) {
+TEST(GridString, TracesDependNeitherOnTheBlockNorOnTheEnergyProbe) {
     Scene scene = crowded();
     scene.duration = 0.005;
     Scene two = scene;

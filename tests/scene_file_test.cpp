@@ -332,6 +332,55 @@ TEST(Overrides, ErrorsNameTheOverride) {
     for (const auto& [override, expected] : rows) EXPECT_EQ(message(lumped, {override}), expected);
 }
 
+// ---- Pitch in place of tension
+
+const std::string stiff = head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\nbending_stiffness = 6.03e-5\n";  // 3-6
+
+double first_mode(const Scene& scene) {  // [Hz]
+    return modes_of(scene.strings.at(0), 1).omega0[0] / (2 * std::numbers::pi);
+}
+
+TEST(Pitch, TheTensionIsThatAtWhichTheFirstModeHasIt) {
+    EXPECT_NEAR(first_mode(parse_scene(stiff + "frequency = 130.5\n", "s.toml")), 130.5, 1e-11);
+    EXPECT_NEAR(first_mode(parse_scene(stiff + "note = \"A4\"\n", "s.toml")), 440, 1e-10);
+    EXPECT_NEAR(first_mode(parse_scene(stiff + "note = \"C4\"\n", "s.toml")), 261.6255653006, 1e-9);  // middle C
+    EXPECT_NEAR(first_mode(parse_scene(stiff + "note = \"F#2\"\n", "s.toml")),
+                first_mode(parse_scene(stiff + "note = \"Gb2\"\n", "s.toml")), 1e-11);
+    EXPECT_NEAR(2 * first_mode(parse_scene(stiff + "note = \"C-1\"\n", "s.toml")), 16.3515978313, 1e-9);
+    const double T = parse_scene(stiff + "note = \"C3\"\n", "s.toml").strings[0].tension;
+    EXPECT_NEAR(T, 33.1, 0.05);  // the paper's C3, Table 1
+    EXPECT_NEAR(parse_scene(head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\nnote = \"C3\"\n", "s.toml").strings[0].tension,
+                T + 6.03e-5 * std::numbers::pi * std::numbers::pi, 1e-12);                         // without stiffness it has to pull more
+    EXPECT_NEAR(first_mode(read_scene("tanpura_c3", {"string.0.note=G2"})), 97.9988589954, 1e-9);  // the file's tension stays unread
+}
+
+TEST(Pitch, ASceneThatSaidItIsWrittenWithItsTensionAndReadsBackTheSame) {
+    const Scene scene = parse_scene(stiff + "note = \"Eb3\"\n", "s.toml");
+    const Scene again = parse_scene(write_scene(scene), "again.toml");
+    EXPECT_TRUE(again == scene) << write_scene(scene);
+    EXPECT_NE(write_scene(scene).find("tension = "), std::string::npos);
+}
+
+TEST(Pitch, ErrorsNameLineAndKey) {
+    const std::string note = "expected a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\" or \"Bb4\"";
+    for (const char* wrong : {"H3", "C", "C10", "C-2", "c3", "C3 ", "C#b3", "Cis3"})
+        EXPECT_EQ(message(stiff + "note = \"" + wrong + "\"\n"),
+                  "scene.toml:7: string.0.note: found \"" + std::string(wrong) + "\", " + note);
+    EXPECT_EQ(message(stiff + "note = 3\n"), "scene.toml:7: string.0.note: found 3, expected a text");
+    EXPECT_EQ(message(stiff + "frequency = 0\n"), "scene.toml:7: string.0.frequency: found 0, expected a positive number [Hz]");
+    EXPECT_EQ(message(stiff + "frequency = \"A\"\n"), "scene.toml:7: string.0.frequency: found \"A\", expected a positive number [Hz]");
+    EXPECT_EQ(message(one + "note = \"C3\"\n"),
+              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside tension, which says as much");
+    EXPECT_EQ(message(stiff + "note = \"C3\"\nfrequency = 130.8\n"),
+              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside frequency, which says as much");
+    EXPECT_TRUE(
+        message(stiff + "frequency = 0.1\n")
+            .starts_with("scene.toml:7: string.0.frequency: found 0.1, expected a pitch that a tension gives: the bending stiffness "
+                         "alone gives 0.555"));
+    EXPECT_EQ(message(head + "[[string]]\nlength = -1.0\nlinear_density = 4.83e-4\nnote = \"C3\"\n"),
+              "scene.toml:4: string.0.length: found -1, expected a positive number [m]");
+}
+
 // ---- Bad input
 
 struct Bad {
@@ -363,7 +412,8 @@ const std::vector<Bad> bad_scenes{
     {one + "[string.damping]\nlwa = \"none\"\n", "scene.toml:8: string.0.damping.lwa: unknown key; did you mean \"law\"?"},
     {one + "[string.damping]\nlaw = \"none\"\nsigma0 = 1\n", "scene.toml:9: string.0.damping.sigma0: unknown key; known here: \"law\""},
     {one + "\"a\\nb\" = 1\n",
-     "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"linear_density\", \"tension\", \"bending_stiffness\", "
+     "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"linear_density\", \"tension\", \"frequency\", \"note\", "
+     "\"bending_stiffness\", "
      "\"damping\", "
      "\"barrier\", \"thread\", \"initial\", \"pluck\", \"polarisation\""},
     {head + "[[string]]\nlength = 1.0\nlinear_density = 1e-3\n",

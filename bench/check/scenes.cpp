@@ -48,7 +48,6 @@ Scene with(Feature feature, Scene scene) {
         for (Barrier& b : s.barriers) std::visit(change, b);
     };
     switch (feature) {
-        case Feature::several_strings: scene.strings.push_back(s); break;
         case Feature::bending_stiffness: s.bending_stiffness = 1e-6 * s.tension * s.length * s.length; break;
         case Feature::damping: s.damping = PolynomialDamping{0.6, 0, 0}; break;
         case Feature::frequency_dependent_damping: s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6}; break;
@@ -74,7 +73,6 @@ Scene with(Feature feature, Scene scene) {
 
 struct Change {  // of a string: false where there is nothing to change
     String& s;
-    bool several_strings() { return s.tension *= 1.02, true; }
     bool bending_stiffness() { return s.bending_stiffness *= 2, true; }
     bool damping() { return s.damping = NoDamping{}, true; }
     bool frequency_dependent_damping() {  // what all modes have in common stays
@@ -160,7 +158,6 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         if (change(last)) all.push_back(std::move(other));
     };
     switch (feature) {
-        case Feature::several_strings: add([](Change& c) { return c.several_strings(); }); break;
         case Feature::bending_stiffness: add([](Change& c) { return c.bending_stiffness(); }); break;
         case Feature::damping: add([](Change& c) { return c.damping(); }); break;
         case Feature::frequency_dependent_damping: add([](Change& c) { return c.frequency_dependent_damping(); }); break;

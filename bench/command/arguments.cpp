@@ -135,13 +135,13 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->type_name("HZ")
         ->check(positive);
     run_verb->add_flag("--energy", run.energy, "probe the energy: three more columns, and the residuals of the balance");
-    run_verb->add_option("--out", run.out, "writes the trace: .csv, .wav (one channel per tap) or .h5")->type_name("FILE");
+    run_verb->add_option("--out", run.out, "writes the trace: .csv or .h5; .wav or .flac: what is heard of it")->type_name("FILE");
     run_verb
         ->add_option("--plot", run.plot,
                      "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)")
         ->type_name("FILE");
-    run_verb->add_option("--wav-format", run.wav_format, "float64 (default), float32, or pcm24, pcm16 (each channel brought to full scale)")
-        ->check(CLI::IsMember({"float64", "float32", "pcm24", "pcm16"}))
+    run_verb->add_option("--wav-format", run.wav_format, "of a .wav or .flac: pcm24 (default) or pcm16")
+        ->check(CLI::IsMember({"pcm24", "pcm16"}))
         ->type_name("FORMAT")
         ->option_text("FORMAT");
     run_verb->footer("Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration 0.2 --energy --out c3.csv");
@@ -347,7 +347,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     must_be_assignments(trim.set);
     run.options = scheme_options(run_options);
     compare.options = scheme_options(compare_options);
-    if (!run.wav_format.empty() && run.out.empty()) throw store::UsageError("--wav-format: there is no --out FILE.wav");
+    if (!run.wav_format.empty() && run.out.empty()) throw store::UsageError("--wav-format: there is no --out FILE.wav or FILE.flac");
     if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts")
         throw store::UsageError("--markdown goes with `jvari list schemes`, `jvari list options` or `jvari list facts`");
 

@@ -13,6 +13,7 @@
 #include "bench/compare/summary.hpp"
 #include "bench/report/run_chart.hpp"
 #include "bench/report/vega.hpp"
+#include "bench/store/audio_file.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
@@ -95,16 +96,39 @@ Json json_of(const compare::Summary& s) {
 }
 
 store::TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene, const Settings& s) {
-    return {r.out,
-            r.wav_format,
-            {{"scene", scene.name},
-             {"source", scene.source},
-             {"scene_hash", scene_hash(scene)},
-             {"scheme", d.name},
-             {"scheme_source", d.source},
-             {"sample_rate", store::text_of(s.sample_rate)},
-             {"program", "jvari " + store::machine().version},
-             {"commit", store::machine().commit}}};
+    store::TraceFile file{r.out,
+                          r.wav_format,
+                          {{"scene", scene.name},
+                           {"source", scene.source},
+                           {"scene_hash", scene_hash(scene)},
+                           {"duration", store::text_of(scene.duration)},
+                           {"scheme", d.name},
+                           {"scheme_source", d.source},
+                           {"sample_rate", store::text_of(s.sample_rate)},
+                           {"program", "jvari " + store::machine().version},
+                           {"commit", store::machine().commit}}};
+    for (const std::string& set : r.set) {
+        const auto at = set.find('=');
+        file.attributes.emplace_back("set." + set.substr(0, at), set.substr(at + 1));
+    }
+    for (const Option& o : d.options) file.attributes.emplace_back("option." + std::string(o.name), option(s, o));
+    return file;
+}
+
+// What is known of the run once it is done.
+void add_attributes(store::TraceFile& file, const compare::Summary& s) {
+    const auto add = [&file](const std::string& name, const std::string& value) { file.attributes.emplace_back(name, value); };
+    add("modes", std::to_string(s.modes));
+    add("dofs", std::to_string(s.dofs));
+    add("steps", std::to_string(s.steps));
+    add("status", name_of(s.status.outcome));
+    if (s.status.outcome != Outcome::ok) add("failed_step", std::to_string(s.status.step));
+    const auto fact = [&add](const std::string& name, double value) {
+        if (!std::isnan(value)) add("fact." + name, store::text_of(value));
+    };
+    fact(facts::smallest_contact_force.name, s.smallest_contact_force);
+    fact(facts::deepest_penetration.name, s.deepest_penetration);
+    for (const Fact& f : s.facts) fact(f.name, f.value);
 }
 // Before a long run: that its picture can be drawn.
 std::optional<report::Vega> vega_for(const RunRequest& r) {
@@ -133,10 +157,10 @@ int run_command(const RunRequest& r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
-    const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
+    const Scene own = compare::load_scene(r.scene, r.set, r.duration), scene = store::is_audio(r.out) ? store::audible(own) : own;
     compare::note_silent_strings(scene, console);
     const Settings settings = settings_for(r, d);
-    const store::TraceFile file = file_for(r, d, scene, settings);
+    store::TraceFile file = file_for(r, d, scene, settings);
     const std::optional<report::Vega> vega = vega_for(r);
     if (!r.out.empty()) store::check(file, scene, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
@@ -158,9 +182,10 @@ int run_command(const RunRequest& r) {
     Json json = json_of(summary);
     std::string text = text_for(summary);
     if (!r.out.empty()) {
+        add_attributes(file, summary);
         const std::string said = store::write(file, scene, result.trace);
         json["out"] = r.out;
-        if (!said.empty()) json["wav_scaling"] = said;
+        if (!said.empty()) json["level"] = said;
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
     }
     if (vega) {

@@ -42,7 +42,10 @@ store::Rows other_schemes(const store::Table& cells, const store::Rows& rows, co
 
 std::string joined(const store::Table& cells, const store::Rows& rows, const char* column) {
     std::string text;
-    for (const std::size_t i : rows) text += (text.empty() ? "" : " ") + cells.at(i, column);
+    for (const std::size_t i : rows) {
+        const std::string& word = cells.at(i, column);
+        text += (text.empty() ? "" : " ") + (word.empty() ? "-" : word);  // a scheme without a sample rate keeps its place
+    }
     return text;
 }
 

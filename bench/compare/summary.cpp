@@ -1,5 +1,6 @@
 #include "bench/compare/summary.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "analysis/energy.hpp"
@@ -13,14 +14,18 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 int modes_used(const Scene& scene, const Settings& settings, const std::vector<Fact>& facts) {
     if (const double n = fact(facts, facts::interior_nodes); n == n) return static_cast<int>(n);
     if (const double n = fact(facts, facts::grid_intervals); n == n) return static_cast<int>(n) - 1;
-    return scene.strings.empty() ? 0 : modes_for(scene.strings.front(), settings);
+    return modes_for(scene, settings);
 }
 }  // namespace
 
 double fact(const std::vector<Fact>& facts, const std::string& name) {
-    for (const Fact& f : facts)
+    double worst = nan;
+    for (const Fact& f : facts) {
         if (f.name == name) return f.value;
-    return nan;
+        if (!f.name.starts_with("string.") || !f.name.ends_with("." + name)) continue;
+        worst = name == facts::smallest_contact_force.name ? std::fmin(worst, f.value) : std::fmax(worst, f.value);
+    }
+    return worst;
 }
 
 Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& settings, const Run& run) {

@@ -24,7 +24,8 @@ struct Summary {
 
 Summary summary_of(const Descriptor&, const Scene&, const Settings&, const Run&);
 
-// The value of a fact, NaN where the scheme does not report it.
+// The value of a fact, NaN where the scheme does not report it. Where each of several strings has its own: the least of smallest contact
+// forces, of any other the largest.
 double fact(const std::vector<Fact>&, const std::string& name);
 inline double fact(const std::vector<Fact>& all, const FactName& known) {
     return fact(all, known.name);

@@ -44,7 +44,7 @@ bool within_budget(const Descriptor& reference, const Scene& scene, const Size& 
 Size first_size(const Scene& scene, const OptionValues& options) {
     const bool asked = std::any_of(options.begin(), options.end(), [](const auto& o) { return o.first == std::string(nodes_option.name); });
     const bool profile = needed_by(scene).has(Feature::profile_barrier);
-    return {modes_for(scene.strings.front(), {}), profile && !asked ? std::stoi(nodes_option.fallback) : 0};
+    return {modes_for(scene, {}), profile && !asked ? std::stoi(nodes_option.fallback) : 0};
 }
 
 ReferenceChoice sized(ReferenceChoice choice, const Size& s) {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bench/diff/git.hpp"
 #include "bench/store/indented.hpp"
+#include "bench/store/program.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::diff {
@@ -17,20 +17,26 @@ namespace fs = std::filesystem;
 namespace {
 using Json = nlohmann::ordered_json;
 
+store::Said git(const fs::path& folder, const std::vector<std::string>& words) {
+    std::vector<std::string> all{"git", "-C", folder.string()};
+    all.insert(all.end(), words.begin(), words.end());
+    return store::run_program(std::move(all), store::Errors::left_out);
+}
+
 std::string commits_of(const fs::path& folder) {  // a line each, oldest first: hash, date and subject between tabs
     std::error_code error;
     if (!fs::is_directory(folder, error)) throw store::UsageError(fmt::format("{}: no such folder", folder.string()));
-    const Said inside = git(folder, {"rev-parse", "--is-inside-work-tree"});
+    const store::Said inside = git(folder, {"rev-parse", "--is-inside-work-tree"});
     if (inside.code == -ENOENT) throw store::UsageError("--history: git is missing (Debian: apt-get install git)");
     if (inside.code != 0) throw store::UsageError(fmt::format("--history: {} lies in no git repository", folder.string()));
-    const Said log = git(folder, {"log", "--reverse", "--format=%h%x09%as%x09%s", "--", "."});
+    const store::Said log = git(folder, {"log", "--reverse", "--format=%h%x09%as%x09%s", "--", "."});
     if (log.code != 0 || log.text.empty()) throw store::UsageError(fmt::format("--history: no commit has changed {}", folder.string()));
     return log.text;
 }
 
 Folder folder_at(const fs::path& folder, const std::string& commit) {
     return read_folder(commit, [&](const std::string& file) -> std::optional<std::string> {
-        Said shown = git(folder, {"show", commit + ":./" + file});
+        store::Said shown = git(folder, {"show", commit + ":./" + file});
         if (shown.code != 0) return std::nullopt;
         return std::move(shown.text);
     });

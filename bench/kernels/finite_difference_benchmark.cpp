@@ -43,7 +43,7 @@ struct Plain {
         const Scene scene = twenty_contacts(N);
         const String& s = scene.strings.front();
         const LossFit loss = fit_losses(s);
-        const GridString g = on_grid(schemes()[0], scene, {}, 0, {N, s.length / N}, loss);
+        const GridString g = on_grid(schemes()[0], scene, {}, {N, s.length / N}, loss);
         const Real h2 = static_cast<Real>(g.grid.dx) * g.grid.dx, S = static_cast<Real>(g.c2) * dt * dt / h2,
                    q = static_cast<Real>(g.kappa2) * dt * dt / (h2 * h2), z = 2 * static_cast<Real>(loss.sigma1) * dt / h2,
                    z4 = 2 * static_cast<Real>(loss.sigma2) * dt / (h2 * h2), D = 1 + static_cast<Real>(loss.sigma0) * dt;
@@ -234,7 +234,7 @@ void step(benchmark::State& state, bool midpoint) {
     const Coefficients c = coefficients(static_cast<int>(state.range(0)), midpoint);
     const Scene scene = c3_release();
     const double dt = 1 / implicit_rate(c.grid.intervals);
-    const GridString g = on_grid(schemes()[0], scene, {}, 0, c.grid, fit_losses(scene.strings.front()));
+    const GridString g = on_grid(schemes()[0], scene, {}, c.grid, fit_losses(scene.strings.front()));
     constexpr int steps = 1024;
     double tap[4];
     const Block one{1, 4, 1, tap, nullptr};

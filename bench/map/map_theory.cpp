@@ -14,10 +14,12 @@ namespace {
 constexpr const char* nyquist = "nyquist";
 
 double nyquist_margin(const Scene& scene, const Settings& settings) {
-    const String& s = scene.strings.front();
-    const Modes modes = modes_of(s, modes_for(s, settings));
-    const double w = std::sqrt(std::max(0.0, omega_squared_damped(modes.omega0.back(), modes.sigma.back())));
-    return 0.5 * settings.sample_rate * 2 * std::numbers::pi / w - 1;
+    double fastest = 0;  // mode of all strings: omega^2 [rad^2/s^2]
+    for (const String& s : scene.strings) {
+        const Modes modes = modes_of(s, modes_for(s, settings));
+        fastest = std::max(fastest, omega_squared_damped(modes.omega0.back(), modes.sigma.back()));
+    }
+    return 0.5 * settings.sample_rate * 2 * std::numbers::pi / std::sqrt(fastest) - 1;
 }
 }  // namespace
 
@@ -35,7 +37,7 @@ bool is_theory(const std::string& name) {
 
 double theory_margin(const std::string& name, const Descriptor& d, const Scene& scene, const Settings& settings) {
     if (name == nyquist) return nyquist_margin(scene, settings);
-    return d.limit.name && name == d.limit.name ? d.limit.margin(scene, settings) : std::numeric_limits<double>::quiet_NaN();
+    return d.limit.name && name == d.limit.name ? margin_of(d, scene, settings) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace jvari::bench::map

@@ -23,10 +23,17 @@ bool still(const Fails& fails, const Trial& t) {
     }
 }
 
-// The parts that are taken away, in turn: what is large goes first, and one string, something that moves it and its taps stay.
+// The parts that are taken away, in turn: what is large goes first, and one string and something that moves it stay.
 bool is_removal(const Reduction& r) {
     return r.part != Part::contact_stiffness && r.part != Part::footprint && r.part != Part::damping_term && r.part != Part::body &&
-           r.part != Part::tap && r.key != "string.0";
+           r.part != Part::tap;
+}
+
+// The first tap alone: what fails is judged by taps of its own.
+Scene heard_at_one_point(const Scene& scene) {
+    Scene one = listened(scene);
+    one.taps.resize(1);
+    return one;
 }
 
 bool remove_what_can_be(Trial& t, const Fails& fails) {
@@ -38,6 +45,7 @@ bool remove_what_can_be(Trial& t, const Fails& fails) {
         if (!is_removal(r)) continue;
         Trial x = t;
         r.apply(x.scene);
+        if (x.scene.taps.empty()) x.scene = heard_at_one_point(x.scene);  // they went with their string
         if (!still(fails, x)) continue;
         t = std::move(x);
         left = reductions_of(t.scene);  // the others may have changed their places
@@ -97,11 +105,10 @@ bool shorten(Trial& t, const Fails& fails) {
 Trial minimised(Trial t, const Fails& fails) {
     if (t.settings.modes == 0 && has_modes(t)) {  // the default, said aloud
         Trial explicit_modes = t;
-        explicit_modes.settings.modes = modes_for(t.scene.strings.front(), t.settings);
+        explicit_modes.settings.modes = modes_for(t.scene, t.settings);
         if (still(fails, explicit_modes)) t = std::move(explicit_modes);
     }
-    t.scene = listened(t.scene);
-    t.scene.taps.resize(1);
+    t.scene = heard_at_one_point(t.scene);
     for (bool smaller = true; smaller;) {
         smaller = remove_what_can_be(t, fails);  // while there is time and bandwidth enough to fail without
         smaller = shorten(t, fails) || smaller;

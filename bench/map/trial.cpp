@@ -20,7 +20,7 @@ Settings reference_settings(const Descriptor& reference, const Trial& t) {
     Settings s;
     s.sample_rate = reference.clock == Clock::continuous ? 0 : 8 * t.settings.sample_rate;
     s.tap_rate = t.settings.tap_rate;
-    s.modes = t.settings.modes > 0 ? t.settings.modes : modes_for(t.scene.strings.front(), t.settings);
+    s.modes = t.settings.modes > 0 ? t.settings.modes : modes_for(t.scene, t.settings);
     return s;
 }
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array all = {Verdict::sound,          Verdict::unjudged,      Verdict::inaccurate, Verdict::adhesive,
                             Verdict::energy_gaining, Verdict::not_converged, Verdict::diverged,   Verdict::refused};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int listening_points = 2, nut = 2, contact = 3;  // columns of listened(scene)
+constexpr double listening_points[] = {0.3, 0.437};  // of the length: no low mode has a node at both
 
 struct Energy {
     double budget = nan;  // E at the end: stored at the start and all that was supplied, by its size [J]
@@ -71,10 +71,13 @@ Judgement judge(const Figures& f) {
 Scene listened(Scene scene) {
     scene.taps.clear();
     scene.body.reset();
-    const double L = scene.strings.front().length;  // no low mode has a node at both points
-    scene.taps.push_back({"y", Quantity::displacement, 0, 0.3 * L});
-    scene.taps.push_back({"z", Quantity::displacement, 0, 0.437 * L});
-    scene.taps.push_back({"nut", Quantity::nut_force, 0, 0});
+    for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) {
+        const double L = scene.strings[k].length;
+        const std::string of = k == 0 ? "" : std::to_string(k);
+        scene.taps.push_back({"y" + of, Quantity::displacement, k, listening_points[0] * L});
+        scene.taps.push_back({"z" + of, Quantity::displacement, k, listening_points[1] * L});
+        scene.taps.push_back({"nut" + of, Quantity::nut_force, k, 0});
+    }
     const auto touched = [](const String& s) { return !s.barriers.empty(); };
     if (std::any_of(scene.strings.begin(), scene.strings.end(), touched))
         scene.taps.push_back({"contact", Quantity::bridge_force, std::nullopt, 0});
@@ -87,18 +90,25 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& sett
     f.balance = d.balance;
     const Energy energy = energy_of(run.trace);
     f.energy_gain = energy.gain;
-    const String& s = scene.strings.front();
-    double most = 0;
-    for (int k = 0; k < listening_points; ++k) most = std::max(most, largest(run.trace.column(k)));
-    f.displacement = std::isinf(most) ? most : energy.budget > 0 ? most / std::sqrt(energy.budget * s.length / (2 * s.tension)) : nan;
-    f.pull = f.error = nan;
-    if (const double least = compare::fact(run.facts, facts::smallest_contact_force); !std::isnan(least) && run.trace.taps() > contact) {
-        // a row is the mean over its steps: one step may have pushed as many times harder
-        const double pushed = largest(run.trace.column(contact)) * std::max(1.0, settings.sample_rate / settings.tap_rate);
-        f.pull = least < 0 ? -least / std::max(pushed, std::numeric_limits<double>::min()) : 0;
+    f.displacement = f.pull = f.error = nan;
+    const double least = compare::fact(run.facts, facts::smallest_contact_force);
+    for (int k = 0; k < run.trace.taps(); ++k) {
+        const Tap& tap = scene.taps[k];
+        if (tap.quantity == Quantity::displacement) {
+            const String& s = scene.strings[*tap.string];
+            const double most = largest(run.trace.column(k));
+            const double part = std::isinf(most)    ? most
+                                : energy.budget > 0 ? most / std::sqrt(energy.budget * s.length / (2 * s.tension))
+                                                    : nan;
+            f.displacement = std::fmax(f.displacement, part);
+        } else if (tap.quantity == Quantity::bridge_force && !std::isnan(least)) {
+            // a row is the mean over its steps: one step may have pushed as many times harder
+            const double pushed = largest(run.trace.column(k)) * std::max(1.0, settings.sample_rate / settings.tap_rate);
+            f.pull = least < 0 ? -least / std::max(pushed, std::numeric_limits<double>::min()) : 0;
+        } else if (tap.quantity == Quantity::nut_force && reference && reference->rows == run.trace.stride) {
+            f.error = std::fmax(f.error, relative_l2(run.trace.column(k), reference->column(k), run.trace.tap_rate));
+        }
     }
-    if (reference && reference->rows == run.trace.stride)
-        f.error = relative_l2(run.trace.column(nut), reference->column(nut), run.trace.tap_rate);
     return f;
 }
 

@@ -49,8 +49,8 @@ struct Judgement {
 };
 Judgement judge(const Figures&);
 
-// What maps listen to in place of the scene's own taps: the displacement of the first string at two points, its nut force, and the contact
-// force where there is a barrier.
+// What maps listen to in place of the scene's own taps: the displacement of every string at two points, its nut force, and the contact
+// force of all where there is a barrier. The worst string decides.
 Scene listened(Scene);
 
 // Of a run of listened(scene) with its energy probed. `reference`: on the same rows; nullptr where there is none.

@@ -1,14 +1,8 @@
 #include "bench/report/vega.hpp"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
+#include <strings.h>
 #include <unistd.h>
 
-#include <strings.h>
-#include <array>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -19,8 +13,7 @@
 
 #include "bench/report/page_text.hpp"
 #include "bench/store/interruption.hpp"
-
-extern char** environ;
+#include "bench/store/program.hpp"
 
 namespace jvari::bench::report {
 
@@ -58,38 +51,6 @@ private:
     }
     const store::WhenInterrupted removed_{[this] { remove(); }};
 };
-
-// Runs a program found on the PATH, its output into a file; returns its exit code, or -errno where it cannot be started.
-int spawn(std::vector<std::string> words, const fs::path& output) {
-    std::vector<char*> argv;
-    for (std::string& w : words) argv.push_back(w.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 1, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_adddup2(&actions, 1, 2);
-    posix_spawnattr_t attributes;  // Ctrl-C is for it as well: blocked in this program (interruption.hpp), not in that one
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    sigset_t held;  // and what this program holds as errors of writing (console.hpp) are signals to it
-    sigemptyset(&held);
-    sigaddset(&held, SIGPIPE);
-    sigaddset(&held, SIGXFSZ);
-    posix_spawnattr_setsigdefault(&attributes, &held);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    pid_t child = 0;
-    const int failed = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) return -failed;
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0)
-        if (errno != EINTR) return -errno;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
 }  // namespace
 
 Vega find_vega() {
@@ -134,16 +95,15 @@ std::vector<std::optional<std::string>> svgs_of(const Vega& v, const std::vector
     }
     std::error_code error;
     const fs::path modules = fs::absolute(v.folder, error);
-    const int code =
-        spawn({"env", "--chdir=" + scratch.path.string(), "NODE_PATH=" + modules.string(), "node", "draw.js", std::to_string(specs.size())},
-              file("said"));
+    const store::Said drawn = store::run_program(
+        {"env", "--chdir=" + scratch.path.string(), "NODE_PATH=" + modules.string(), "node", "draw.js", std::to_string(specs.size())},
+        store::Errors::with_the_rest);
     for (std::size_t k = 0; k < specs.size(); ++k) {
         const auto svg = whole(file(std::to_string(k) + ".svg"));
         if (svg && svg->rfind("<svg", 0) == 0) svgs[k] = svg;
-        else if (why.empty() && code == 127) why = "no picture: node is missing (Debian: apt-get install nodejs npm)";
+        else if (why.empty() && drawn.code == 127) why = "no picture: node is missing (Debian: apt-get install nodejs npm)";
         else if (why.empty())
-            why = "no picture: vega failed: " +
-                  whole(file(std::to_string(k) + ".said")).value_or(whole(file("said")).value_or("")).substr(0, 400);
+            why = "no picture: vega failed: " + whole(file(std::to_string(k) + ".said")).value_or(drawn.text).substr(0, 400);
     }
     return svgs;
 }

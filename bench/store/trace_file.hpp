@@ -1,4 +1,4 @@
-// A trace on disk, by extension: .csv (17 significant digits), .wav (libsndfile, one channel per tap), .h5 (one dataset per tap).
+// A trace on disk, by extension: .csv (17 significant digits), .h5 (one dataset per tap), .wav and .flac (its first tap, to be heard).
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@ namespace jvari::bench::store {
 
 struct TraceFile {
     std::filesystem::path path;
-    std::string wav_format;                                       // "" = "float64", "float32", "pcm24", "pcm16"
+    std::string wav_format;                                       // of .wav and .flac: "" = "pcm24", "pcm16"
     std::vector<std::pair<std::string, std::string>> attributes;  // of the run as a whole (.h5)
 };
 
 // Throws UsageError for a path that cannot be written and a trace that the format cannot hold; before the run, so that no work is lost.
 void check(const TraceFile&, const Scene&, double tap_rate);
 
-// Returns what the reader has to know of it ("" or a sentence), as that pcm channels were scaled. Throws Unwritable.
+// Returns what the reader has to know of it: "", or how loud it is. Throws Unwritable.
 std::string write(const TraceFile&, const Scene&, const Trace&);
 
 std::vector<std::string> trace_columns(const Trace&);  // time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J]

@@ -128,7 +128,7 @@ std::vector<fs::path> certificate_folders() {
 
 Trust trust_of(const Scene& scene, const std::string& reference, const Settings& settings, double until) {
     const std::string hash = timeless_hash(scene), stem = file_stem(scene.name);
-    const int modes = modes_for(scene.strings.at(0), settings);
+    const int modes = modes_for(scene, settings);
     Trust best;
     best.missing = "no certificate of this scene at these settings";
     std::error_code error;

@@ -104,8 +104,8 @@ double static_nut_force(const String& s, const Footprint& force) {
     return force.position / s.length;  // the balance of moments about the other end
 }
 
-Sites sites_of(const Scene& scene, int index, std::span<const Footprint> contacts) {
-    const String& s = scene.strings[index];
+Sites sites_of(const Scene& scene, std::span<const Footprint> contacts) {
+    const String& s = scene.strings.front();
     Sites all;
     all.forces.assign(contacts.begin(), contacts.end());
     all.contacts = static_cast<int>(contacts.size());
@@ -117,7 +117,7 @@ Sites sites_of(const Scene& scene, int index, std::span<const Footprint> contact
     for (std::size_t k = 0; k < scene.taps.size(); ++k) {
         const Tap& tap = scene.taps[k];
         const bool nut = tap.quantity == Quantity::nut_force;
-        if ((!nut && tap.quantity != Quantity::displacement) || (tap.string && *tap.string != index)) continue;
+        if (!nut && tap.quantity != Quantity::displacement) continue;
         all.readings.push_back({{tap.position, 0}, nut});
         all.tap.push_back(k);
     }
@@ -131,8 +131,8 @@ std::vector<Footprint> footprints_of(const String& s) {
     return all;
 }
 
-Sites sites_of(const Scene& scene, int index) {
-    return sites_of(scene, index, footprints_of(scene.strings[index]));
+Sites sites_of(const Scene& scene) {
+    return sites_of(scene, footprints_of(scene.strings.front()));
 }
 
 namespace {

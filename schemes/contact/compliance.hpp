@@ -48,8 +48,8 @@ struct Sites {
     std::vector<Reading> readings;
     std::vector<std::size_t> tap;  // of the scene, for each reading after the points
 };
-Sites sites_of(const Scene&, int string, std::span<const Footprint> contacts);
-Sites sites_of(const Scene&, int string);  // with one lumped barrier at most
+Sites sites_of(const Scene&, std::span<const Footprint> contacts);
+Sites sites_of(const Scene&);  // with one lumped barrier at most
 
 // own(r, f): what a scheme's string makes at reading r of 1 N of force f.
 using OwnResponse = std::function<double(int reading, int force)>;
@@ -89,7 +89,7 @@ MissingCompliance missing_compliance(const std::string& who, const String&, cons
 // touched at points of its own, in the middles of as many equal parts.
 
 constexpr int most_profile_points = 256;
-inline constexpr Option profile_points_option{"points", "16", "points that stand for a profile with compliance=matched, up to 256"};
+inline constexpr Option profile_points_option{"points", "16", "points that stand for a profile that is not touched at nodes, up to 256"};
 
 String with_profile_points(String, const Settings&);  // its profiles replaced; Refusal of a number of points that cannot be
 std::vector<Footprint> footprints_of(const String&);  // of its lumped barriers

@@ -11,6 +11,7 @@
 // hundred.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,9 @@ public:
 
     int count() const { return static_cast<int>(laws_.size()); }
     int coupled() const { return largest_; }  // of the contacts that Theta couples to each other, the most; a step costs up to their cube
+
+    // Other compliances, coupled where the first ones were. Allocates nothing.
+    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
 
     // eta [m] and b [m] in, r [m] and the mean forces [N] out; n of each. Allocates nothing.
     GramSolution solve(const double* eta, const double* b, double* r, double* force) noexcept;

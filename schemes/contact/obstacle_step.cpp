@@ -2,6 +2,7 @@
 #include "schemes/contact/obstacle_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace jvari {
 
@@ -32,6 +33,63 @@ ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const dou
     for (auto* v : {&eta_, &b_, &r_}) v->assign(n, 0.0);
 }
 
+void ObstacleStep::lose(std::span<const double> beta) {
+    const int n = contacts_, stride = points();
+    Lossy z;
+    z.beta.assign(beta.begin(), beta.end());
+    for (int a = 0; a < n; ++a)
+        for (int c = 0; c < n; ++c) z.theta.push_back(theta_[a * stride + c] - coupling_[a] * s_ * inverse_ * coupling_[c]);
+    z.damped = z.matrix = z.theta;
+    z.across.resize(z.theta.size());
+    z.drag.resize(n);
+    z.root.resize(n);
+    z.closed.resize(n);
+    lossy_ = std::move(z);
+}
+
+// Theta and b of the contacts with D: with S = D^1/2 on the closed ones and M = I + S Theta S = L L', X = L^-1 S Theta,
+// Theta - X' X and b - X' L^-1 S b. False where no lossy contact is closed.
+bool ObstacleStep::damp() noexcept {
+    Lossy& z = *lossy_;
+    const int n = contacts_;
+    int m = 0;
+    for (int a = 0; a < n; ++a) {
+        z.drag[a] = z.beta[a] * laws_[a].force(eta_[a]) / span_;
+        z.root[a] = std::sqrt(z.drag[a]);
+        if (z.drag[a] > 0) z.closed[m++] = a;
+    }
+    if (m == 0) return false;
+    for (int i = 0; i < m; ++i) {  // row by row: L, X and L^-1 S b (in r_, which the solution replaces)
+        const int a = z.closed[i];
+        double* row = z.matrix.data() + i * n;
+        double* x = z.across.data() + i * n;
+        for (int j = 0; j <= i; ++j) {
+            const double* other = z.matrix.data() + j * n;
+            double sum = z.root[a] * z.theta[a * n + z.closed[j]] * z.root[z.closed[j]] + (i == j);
+            for (int l = 0; l < j; ++l) sum -= row[l] * other[l];
+            row[j] = i == j ? std::sqrt(sum) : sum / other[j];
+        }
+        double b = z.root[a] * b_[a];
+        for (int c = 0; c < n; ++c) x[c] = z.root[a] * z.theta[a * n + c];
+        for (int l = 0; l < i; ++l) {
+            b -= row[l] * r_[l];
+            for (int c = 0; c < n; ++c) x[c] -= row[l] * z.across[l * n + c];
+        }
+        r_[i] = b / row[i];
+        for (int c = 0; c < n; ++c) x[c] /= row[i];
+    }
+    for (int a = 0; a < n; ++a)
+        for (int i = 0; i < m; ++i) b_[a] -= z.across[i * n + a] * r_[i];
+    for (int a = 0; a < n; ++a)
+        for (int c = 0; c < n; ++c) {
+            double sum = z.theta[a * n + c];
+            for (int i = 0; i < m; ++i) sum -= z.across[i * n + a] * z.across[i * n + c];
+            z.damped[a * n + c] = sum;
+        }
+    gram_.set(z.damped);
+    return true;
+}
+
 bool ObstacleStep::solve(const double* older, const double* free, double* force) noexcept {
     if (several_) return solve_several(older, free, force);
     if (series_) return solve_in_series(older, free, force);
@@ -49,9 +107,18 @@ bool ObstacleStep::solve_points(const double* older, const double* free, double*
         touching = touching || eta_[a] > 0 || eta_[a] + b_[a] > 0;
     }
     bool converged = true;
+    if (lossy_) lossy_->lost = 0;
     if (touching) {
+        const bool damped = lossy_ && damp();
         const GramSolution s = gram_.solve(eta_.data(), b_.data(), r_.data(), force);
         converged = s.converged;
+        if (damped) {
+            for (int a = 0; a < n; ++a) {
+                force[a] -= lossy_->drag[a] * r_[a];
+                lossy_->lost += lossy_->drag[a] * r_[a] * r_[a];
+            }
+            gram_.set(lossy_->theta);
+        }
         for (int a = 0; a < n; ++a) {
             thread -= s_ * inverse_ * coupling_[a] * force[a];
             tally_.smallest_force = std::min(tally_.smallest_force, force[a]);
@@ -71,7 +138,7 @@ bool ObstacleStep::solve_points(const double* older, const double* free, double*
 double ObstacleStep::loss(double r_c) const {
     if (several_) r_c = several_->thread_moved;
     if (series_) return series_->damping * moved_ * moved_ / span_;
-    return damping_ * (r_c / span_) * (r_c / span_) + (several_ ? several_->lost / span_ : 0);
+    return damping_ * (r_c / span_) * (r_c / span_) + (several_ ? several_->lost / span_ : 0) + (lossy_ ? lossy_->lost / span_ : 0);
 }
 
 double ObstacleStep::potential(const double* reading, int level) const {

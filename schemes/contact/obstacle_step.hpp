@@ -8,6 +8,10 @@
 // three-point ones, where the thread so sees the mean of the two outer levels and stays stable at any stiffness. The thread is linear and
 // eliminated: it leaves the contacts with Theta_bb' - Theta_bc s Theta_cb'/(1 + s Theta_cc), s = k_c/2 + damping/span.
 //
+// Where contacts lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), each pulls by D_a r_a more, D_a = beta_a V_a'(eta_a)/span:
+// known before the step, and never negative. Then r = (I + Theta D)^-1 (free + Theta F) is the same equation with other compliances, solved
+// so only while a lossy contact is closed. It takes sum D_a r_a^2.
+//
 // With a compliance C in series with several contacts the points are at Y = reading + C P, P the force of the last step. Of the next one
 //     r_Y = free - C P + (Theta + C) F,
 // so the same equation is solved, with Theta + C for Theta, and F >= 0. P' C P/2 is stored, (F - P)' C (F - P)/2 lost: C stands for modes
@@ -31,6 +35,8 @@ public:
     ObstacleStep(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
                  std::span<const double> theta, double span);
 
+    void lose(std::span<const double> beta);  // Hunt-Crossley beta of each contact [s/m]; with nothing in series
+
     int contacts() const { return contacts_; }
     int coupled() const { return gram_.coupled(); }
     int points() const { return contacts_ + (thread_ ? 1 : 0); }
@@ -40,7 +46,8 @@ public:
 
     // At the readings of one level [J]; level: 0 the one that the next step starts from, 1 the one after it (with something in series).
     double potential(const double* reading, int level = 0) const;
-    double loss(double r_c) const;  // of the thread, whose reading moved by r_c in the last step, and of what is in series [W]
+    double loss(
+        double r_c) const;  // of the last step [W]: of the thread, whose reading moved by r_c, of lossy contacts, of what is in series
 
     // Puts a compliance in series: with one contact at most and the thread as in series_step.hpp, with several contacts as below. levels:
     // how many of them a step spans.
@@ -67,6 +74,15 @@ private:
     Tally tally_;
 
     bool solve_points(const double* older, const double* free, double* force) noexcept;
+    struct Lossy {
+        std::vector<double> beta, drag;            // [s/m], D [N/m]
+        std::vector<double> theta, damped;         // of the contacts, the thread eliminated: as it is, and with D
+        std::vector<double> matrix, root, across;  // workspaces
+        std::vector<int> closed;
+        double lost = 0;  // in the last step [J]
+    };
+    std::optional<Lossy> lossy_;
+    bool damp() noexcept;
     bool solve_in_series(const double* older, const double* free, double* force) noexcept;
     bool solve_several(const double* older, const double* free, double* force) noexcept;
     std::optional<SeriesStep> series_;  // one contact at most, and the thread

@@ -286,8 +286,8 @@ std::vector<double> initial_shape(const String& s, const Grid& g) {
 
 namespace {
 // What the grid takes from the string's compliance (contact/compliance.hpp); its steps take none under a steady force.
-void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const String& s, int index) {
-    const Sites sites = sites_of(scene, index, footprints_of(s));
+void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const String& s) {
+    const Sites sites = sites_of(scene, footprints_of(s));
     const BandedFactor stiffness(g.grid, 0, -g.c2, g.kappa2);
     std::vector<std::vector<double>> shape;  // under 1 N of each force
     for (const Footprint& f : sites.forces) {
@@ -304,10 +304,9 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
 }
 }  // namespace
 
-GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int index, const Grid& grid,
-                   const LossFit& loss) {
+GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const Grid& grid, const LossFit& loss) {
     const bool matched = choice_option(settings, compliance_option) == "matched";
-    const String s = matched ? with_profile_points(scene.strings[index], settings) : scene.strings[index];
+    const String s = matched ? with_profile_points(scene.strings.front(), settings) : scene.strings.front();
     GridString g;
     g.grid = grid;
     g.mass = s.linear_density * grid.dx;
@@ -336,13 +335,12 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     for (std::size_t k = 0; k < scene.taps.size(); ++k) {
         const Tap& tap = scene.taps[k];
         const bool of_a_point = tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
-        if (tap.string ? *tap.string != index : of_a_point && index != 0) continue;
         GridTap t{static_cast<int>(k), tap.quantity, {}};
         if (of_a_point) t.stencil = displacement_stencil(grid, tap.position);
         if (tap.quantity == Quantity::nut_force) t.stencil = nut_force_stencil(grid, s);
         g.taps.push_back(t);
     }
-    if (matched) put_in_series(g, descriptor, scene, s, index);
+    if (matched) put_in_series(g, descriptor, scene, s);
     return g;
 }
 

@@ -116,13 +116,12 @@ struct GridString {
 GridMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);
 GridMode midpoint_mode(const GridString&, double dt, int mode);
 
-GridString on_grid(const Descriptor&, const Scene&, const Settings&, int string, const Grid&, const LossFit&);
+GridString on_grid(const Descriptor&, const Scene&, const Settings&, const Grid&, const LossFit&);
 
 // What every scheme on a grid represents.
-constexpr Features grid_features = Features(Feature::several_strings) | Feature::bending_stiffness | Feature::damping |
-                                   Feature::frequency_dependent_damping | Feature::lumped_barrier | Feature::profile_barrier |
-                                   Feature::several_barriers | Feature::power_law_contact | Feature::thread | Feature::initial_shape |
-                                   Feature::pluck;
+constexpr Features grid_features = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
+                                   Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
+                                   Feature::power_law_contact | Feature::thread | Feature::initial_shape | Feature::pluck;
 inline constexpr Approximation grid_approximates[] = {{Feature::frequency_dependent_damping, facts::loss_fit_misfit}};
 
 // ---- The symmetric band matrix a0 I + a2 D2 + a4 D4 over the interior nodes, factored L D L'.

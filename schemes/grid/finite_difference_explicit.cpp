@@ -29,17 +29,13 @@ constexpr Option options[] = {compliance_option, profile_points_option, grid_opt
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate;
-    std::vector<ThreePointString<ExplicitUpdate>> strings;
-    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
-        const String& s = scene.strings[i];
-        const LossFit loss = fit_losses(s);
-        const double limit = explicit_spacing_limit(s, loss, dt), m = loss.sigma1 * dt, m4 = -loss.sigma2 * dt,
-                     divisor = 1 + loss.sigma0 * dt;
-        const GridString g = on_grid(descriptor, scene, settings, static_cast<int>(i), grid_for(descriptor, s, settings, limit), loss);
-        strings.emplace_back(g, dt, rows, m, m4, ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
-                             std::vector<Fact>{{facts::spacing_over_limit, g.grid.dx / limit}});
-    }
-    return std::make_unique<GridScheme<ThreePointString<ExplicitUpdate>>>(std::move(strings));
+    const String& s = scene.strings.front();
+    const LossFit loss = fit_losses(s);
+    const double limit = explicit_spacing_limit(s, loss, dt), m = loss.sigma1 * dt, m4 = -loss.sigma2 * dt, divisor = 1 + loss.sigma0 * dt;
+    const GridString g = on_grid(descriptor, scene, settings, grid_for(descriptor, s, settings, limit), loss);
+    return std::make_unique<ThreePointString<ExplicitUpdate>>(g, dt, rows, m, m4,
+                                                              ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
+                                                              std::vector<Fact>{{facts::spacing_over_limit, g.grid.dx / limit}});
 }
 
 double grid_margin(const Scene& scene, const Settings& settings) {

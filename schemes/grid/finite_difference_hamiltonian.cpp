@@ -22,14 +22,10 @@ constexpr Option options[] = {compliance_option, profile_points_option, interval
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate;
-    std::vector<MidpointString<GridSolve>> strings;
-    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
-        const String& s = scene.strings[i];
-        const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
-        const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
-        strings.emplace_back(on_grid(descriptor, scene, settings, static_cast<int>(i), grid, fit_losses(s)), dt, rows);
-    }
-    return std::make_unique<GridScheme<MidpointString<GridSolve>>>(std::move(strings));
+    const String& s = scene.strings.front();
+    const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
+    const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
+    return std::make_unique<MidpointString<GridSolve>>(on_grid(descriptor, scene, settings, grid, fit_losses(s)), dt, rows);
 }
 }  // namespace
 

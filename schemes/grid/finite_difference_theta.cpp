@@ -38,18 +38,14 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate, asked = number_option(settings, theta_option, 0);
     if (asked != 0 && !(asked > 0.5)) throw Refusal("option theta: found " + std::to_string(asked) + ", expected more than 0.5");
-    std::vector<ThreePointString<ThetaUpdate>> strings;
-    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
-        const String& s = scene.strings[i];
-        const double limit = spacing_limit(s, dt, asked);
-        const Grid grid = grid_for(descriptor, s, settings, limit);
-        const GridString g = on_grid(descriptor, scene, settings, static_cast<int>(i), grid, fit_losses(s));
-        const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
-        ThetaUpdate update{FivePoint(g, dt, m, 0, 1), GridSolve(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt)};
-        strings.emplace_back(g, dt, rows, m, 0.0, std::move(update),
-                             std::vector<Fact>{{facts::spacing_over_limit, grid.dx / limit}, {facts::theta, theta}});
-    }
-    return std::make_unique<GridScheme<ThreePointString<ThetaUpdate>>>(std::move(strings));
+    const String& s = scene.strings.front();
+    const double limit = spacing_limit(s, dt, asked);
+    const Grid grid = grid_for(descriptor, s, settings, limit);
+    const GridString g = on_grid(descriptor, scene, settings, grid, fit_losses(s));
+    const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
+    ThetaUpdate update{FivePoint(g, dt, m, 0, 1), GridSolve(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt)};
+    return std::make_unique<ThreePointString<ThetaUpdate>>(
+        g, dt, rows, m, 0.0, std::move(update), std::vector<Fact>{{facts::spacing_over_limit, grid.dx / limit}, {facts::theta, theta}});
 }
 
 double grid_margin(const Scene& scene, const Settings& settings) {

@@ -1,8 +1,4 @@
-// The seam for schemes on grids, and what their strings write and sum: one stepped string per string of the scene, each adding its part to
-// the taps and the energy columns.
-//
-// OneString has reset(), Status advance(const Block&) that adds to columns, dofs(), facts(), free_modes(). Strings do not act on each
-// other, so each runs through the whole block on its own.
+// What strings on a grid write and sum, each as a scheme of its own: three_point_string.hpp, midpoint_string.hpp.
 #pragma once
 
 #include <algorithm>
@@ -13,45 +9,6 @@
 namespace jvari {
 
 constexpr long steps_on_grid_between_questions = 16;  // (Block::stopped): a step of a dense contact takes milliseconds
-
-template <class OneString>
-class GridScheme final : public Scheme {
-public:
-    explicit GridScheme(std::vector<OneString> strings) : strings_(std::move(strings)) { GridScheme::reset(); }
-
-    void reset() noexcept override {
-        for (auto& s : strings_) s.reset();
-    }
-    Status advance(const Block& out) noexcept override {
-        for (int k = 0; k < out.taps; ++k) std::fill_n(out.tap + k * out.stride, out.rows, 0.0);
-        if (out.energy)
-            for (int k = 0; k < 3; ++k) std::fill_n(out.energy + k * out.stride, out.rows, 0.0);
-        Status worst;
-        for (auto& s : strings_) {
-            const Status status = s.advance(out);
-            if (status.outcome != Outcome::ok && (worst.outcome == Outcome::ok || status.step < worst.step)) worst = status;
-        }
-        return worst;
-    }
-    int dofs() const override {
-        int sum = 0;
-        for (const auto& s : strings_) sum += s.dofs();
-        return sum;
-    }
-    std::vector<Fact> facts() const override {
-        std::vector<Fact> all;
-        for (std::size_t k = 0; k < strings_.size(); ++k)
-            for (Fact f : strings_[k].facts()) {
-                if (strings_.size() > 1) f.name = std::string("string.").append(std::to_string(k)).append(".").append(f.name);
-                all.push_back(f);
-            }
-        return all;
-    }
-    std::vector<FreeMode> free_modes() const override { return strings_.front().free_modes(); }
-
-private:
-    std::vector<OneString> strings_;
-};
 
 // Of what lies on a grid, odd about both ends: <d, d>, <d, -D2 d>, <d, D4 d>.
 struct Squares {
@@ -74,19 +31,19 @@ Squares squares(const Grid& g, At at) noexcept {
     return sum;
 }
 
-// Adds a string's part to a row of taps: u its nodes, velocity(stencil) what a stencil reads of theirs, the means of its contact forces.
+// A row of taps: u its nodes, velocity(stencil) what a stencil reads of theirs, the means of its contact forces.
 template <class Velocity>
-void add_taps(const Block& out, int row, const std::vector<GridTap>& taps, const double* u, Velocity velocity, double bridge,
-              double thread) noexcept {
+void write_taps(const Block& out, int row, const std::vector<GridTap>& taps, const double* u, Velocity velocity, double bridge,
+                double thread) noexcept {
     for (const GridTap& tap : taps) {
         double& cell = out.tap[tap.column * out.stride + row];
         switch (tap.quantity) {
             case Quantity::displacement:
-            case Quantity::nut_force: cell += tap.stencil.read(u); break;
-            case Quantity::velocity: cell += velocity(tap.stencil); break;
-            case Quantity::bridge_force: cell += bridge; break;
-            case Quantity::thread_force: cell += thread; break;
-            case Quantity::driving_force: cell -= bridge + thread; break;
+            case Quantity::nut_force: cell = tap.stencil.read(u); break;
+            case Quantity::velocity: cell = velocity(tap.stencil); break;
+            case Quantity::bridge_force: cell = bridge; break;
+            case Quantity::thread_force: cell = thread; break;
+            case Quantity::driving_force: cell = -(bridge + thread); break;
         }
     }
 }
@@ -96,10 +53,10 @@ inline void add_series_taps(const Block& out, int row, const GridString& g, cons
     for (const GridTap& tap : g.taps) out.tap[tap.column * out.stride + row] += g.series->on_tap(tap.column, force, F_e);
 }
 
-inline void add_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
-    out.energy[row] += stored;
-    out.energy[row + out.stride] += supplied;
-    out.energy[row + 2 * out.stride] += dissipated;
+inline void write_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
+    out.energy[row] = stored;
+    out.energy[row + out.stride] = supplied;
+    out.energy[row + 2 * out.stride] = dissipated;
 }
 
 // Facts that every string on a grid reports.

@@ -13,7 +13,7 @@
 namespace jvari {
 
 template <class Solve>  // as GridSolve
-class MidpointString {
+class MidpointString final : public Scheme {
 public:
     MidpointString(const GridString& string, double dt, int steps_per_row)
         : g_(string), dt_(dt), xi_(dt * dt / (2 * g_.mass)), steps_(steps_per_row) {
@@ -39,9 +39,10 @@ public:
         if (g_.series) obstacle_.put_in_series(*g_.series, 1);
         for (auto* v : {&older_, &free_, &force_, &now_}) v->assign(points, 0.0);
         for (auto* b : {&y_store_, &q_store_, &s_store_}) *b = AlignedVector(offset + g_.grid.intervals + five_point_overhang);
+        MidpointString::reset();
     }
 
-    void reset() noexcept {
+    void reset() noexcept override {
         for (auto* b : {&y_store_, &q_store_, &s_store_}) std::fill_n(b->data(), b->size(), 0.0);
         y_ = y_store_.data() + offset;
         q_ = q_store_.data() + offset;
@@ -56,7 +57,7 @@ public:
         budget_ = stored();
     }
 
-    Status advance(const Block& out) noexcept {
+    Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows && failed_.outcome == Outcome::ok; ++row) {
             write(out, row);
             for (int i = 0; i < steps_ && failed_.outcome == Outcome::ok; ++i) {
@@ -67,9 +68,9 @@ public:
         return failed_;
     }
 
-    int dofs() const { return 2 * (g_.grid.intervals - 1); }
-    std::vector<Fact> facts() const { return grid_facts(g_, obstacle_); }
-    std::vector<FreeMode> free_modes() const {
+    int dofs() const override { return 2 * (g_.grid.intervals - 1); }
+    std::vector<Fact> facts() const override { return grid_facts(g_, obstacle_); }
+    std::vector<FreeMode> free_modes() const override {
         std::vector<FreeMode> all;
         for (int i = 1; i < g_.grid.intervals; ++i) all.push_back(midpoint_mode(g_, dt_, i));
         return all;
@@ -135,13 +136,13 @@ private:
         const double bridge = bridge_ / steps_, thread = thread_ / steps_;
         bridge_ = thread_ = 0;
         const auto velocity = [&](const Stencil& at) { return at.read(q_) * 2 / dt_; };
-        add_taps(out, row, g_.taps, y_, velocity, bridge, thread);
+        write_taps(out, row, g_.taps, y_, velocity, bridge, thread);
         if (g_.series) {
             g_.read(y_, step_ * dt_, older_.data());
             obstacle_.forces(older_.data(), 0, now_.data());
             add_series_taps(out, row, g_, now_.data(), g_.pluck_at(step_ * dt_));
         }
-        if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
 

@@ -30,7 +30,7 @@ constexpr int node_offset = 7;  // of node 0 in its array: node 1 on a 64-byte b
 
 template <class Update>  // operator()(next, now, before): u+ without forces, `before` its last `now`; response(g): what a unit of dt^2/(mu
                          // dx) on g adds to u+
-class ThreePointString {
+class ThreePointString final : public Scheme {
 public:
     ThreePointString(const GridString& string, double dt, int steps_per_row, double m, double m4, Update update,
                      std::vector<Fact> facts = {})
@@ -63,9 +63,10 @@ public:
         }
         for (auto* v : {&older_, &free_, &force_, &reading_, &now_}) v->assign(points, 0.0);
         for (auto& b : buffer_) b = AlignedVector(node_offset + g_.grid.intervals + five_point_overhang);
+        ThreePointString::reset();
     }
 
-    void reset() noexcept {
+    void reset() noexcept override {
         const int N = g_.grid.intervals;
         for (int i = 0; i < 3; ++i) {
             level_[i] = buffer_[i].data() + node_offset;
@@ -98,7 +99,7 @@ public:
         budget_ = std::abs(stored());
     }
 
-    Status advance(const Block& out) noexcept {
+    Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows && failed_.outcome == Outcome::ok; ++row) {
             write(out, row);
             if (!(out.energy ? steps<true>(out) : steps<false>(out))) return {};
@@ -106,13 +107,13 @@ public:
         return failed_;
     }
 
-    int dofs() const { return 2 * (g_.grid.intervals - 1); }
-    std::vector<Fact> facts() const {
+    int dofs() const override { return 2 * (g_.grid.intervals - 1); }
+    std::vector<Fact> facts() const override {
         std::vector<Fact> all = grid_facts(g_, obstacle_);
         all.insert(all.end(), own_.begin(), own_.end());
         return all;
     }
-    std::vector<FreeMode> free_modes() const {
+    std::vector<FreeMode> free_modes() const override {
         std::vector<FreeMode> all;
         for (int i = 1; i < g_.grid.intervals; ++i) all.push_back(three_point_mode(g_, dt_, m_, m4_, i));
         return all;
@@ -219,13 +220,13 @@ private:
         bridge_ = 0.5 * last_bridge;
         thread_ = 0.5 * last_thread;
         const auto velocity = [&](const Stencil& at) { return (at.read(next) - at.read(before)) / (2 * dt_); };
-        add_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
+        write_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
         if (g_.series) {
             g_.read(level_[1], step_ * dt_, reading_.data());
             obstacle_.forces(reading_.data(), 0, now_.data());
             add_series_taps(out, row, g_, now_.data(), g_.pluck_at(step_ * dt_));
         }
-        if (out.energy) add_energy(out, row, stored(), supplied_, dissipated_);
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
 

@@ -5,7 +5,7 @@ namespace jvari {
 
 MissingCompliance modal_compliance(const Descriptor& descriptor, const Scene& scene, const ModeBasis& modes, std::span<const double> own) {
     const String& s = scene.strings.front();
-    const Sites sites = sites_of(scene, 0);
+    const Sites sites = sites_of(scene);
     std::vector<std::vector<double>> g, w;
     for (const Footprint& f : sites.forces) g.push_back(modes.footprint(f.position, f.width));
     for (const Reading& r : sites.readings) w.push_back(r.nut_force ? modes.nut_force(s) : modes.footprint(r.at.position, r.at.width));

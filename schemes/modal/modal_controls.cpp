@@ -19,7 +19,7 @@
 //   left. True energy grows by up to a_j/a_1 - 1 after a start in mode j, by a_j mean(1/a) - 1 where all modes end with equal shares of
 //   what is conserved; energy that goes the other way is lost by the same factor.
 //
-// Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+// Leaves out: contact loss, several barriers, profiles, polarisation, the body.
 #include <cmath>
 #include <limits>
 

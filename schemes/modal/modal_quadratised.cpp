@@ -3,7 +3,7 @@
 // eqs 45-47 of the first. Energy columns hold the scheme's own energy, with psi^2/2 for the contact; the facts tell how far that is from
 // the true one. Option `compliance` = own (default) | matched of the two-point form: what cut and step take from the string's compliance
 // stands in series with barrier and thread (contact/series_step.hpp), and psi = sqrt(2 Phi). Leaves out: contact loss, several barriers,
-// profiles, several strings, polarisation, the body.
+// profiles, polarisation, the body.
 #include <cmath>
 #include <functional>
 #include <optional>

@@ -7,7 +7,7 @@
 // (contact/compliance.hpp). In lasting contact it is stable below the stiffness of fact stable_stiffness_limit, 1/sum g^2 e/den, to be held
 // against 1/series_compliance, which the contact cannot pass. Beyond it the run may diverge, and then says so.
 // No energy balance is promised; the stored energy is the true one, with what is in series.
-// Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+// Leaves out: contact loss, several barriers, profiles, polarisation, the body.
 #include <cmath>
 
 #include "schemes/modal/series_force.hpp"

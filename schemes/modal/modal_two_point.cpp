@@ -8,7 +8,7 @@
 // n adds n modes for those cut off (effective_modes.hpp), stepped by the coefficients of eq 32: exact under a steady force, stable above
 // half the rate.
 // `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
-// Leaves out: contact loss, several barriers, profiles, several strings, polarisation, the body.
+// Profiles, several barriers and contact loss: modal_two_point_points.cpp. Leaves out: polarisation, the body.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -22,15 +22,14 @@
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal/modal_two_point_kernel.hpp"
+#include "schemes/modal/modal_two_point_points.hpp"
 
 namespace jvari {
 
 namespace {
 
-struct Coefficients {
-    double A, B;
-};
-using Law = Coefficients (*)(double omega0, double sigma, double dt);
+using Coefficients = TwoPointCoefficients;
+using Law = TwoPointLaw;
 
 Coefficients exact(double omega0, double sigma, double dt) {  // (33)
     const ModeStep m = exact_step(omega0, sigma, dt);
@@ -43,7 +42,7 @@ Coefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i 
 constexpr Option effective_option{
     "effective_modes", "0",
     "modes that stand for all those cut off as bridge and thread see them, with compliance=matched; 0: a spring alone"};
-constexpr Option two_point_options[] = {compliance_option, effective_option};
+constexpr Option two_point_options[] = {compliance_option, profile_points_option, effective_option};
 
 class ModalTwoPoint final : public Scheme {
 public:
@@ -249,25 +248,37 @@ private:
 
 template <Law law>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    return std::make_unique<ModalTwoPoint>(descriptor, scene, settings, law);
+    const auto& barriers = scene.strings.front().barriers;
+    const auto* lumped = barriers.empty() ? nullptr : std::get_if<LumpedBarrier>(&barriers.front());
+    if (barriers.empty() || (barriers.size() == 1 && lumped && lumped->contact_loss == 0))
+        return std::make_unique<ModalTwoPoint>(descriptor, scene, settings, law);
+    if (number_option(settings, effective_option) != 0)
+        throw Refusal(std::string(descriptor.name) + ": option effective_modes goes with one lumped barrier without contact loss");
+    return modal_two_point_points(descriptor, scene, settings, law);
 }
+
+constexpr Features two_point_features =
+    modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss);
+constexpr Approximation two_point_approximates[] = {{Feature::profile_barrier, facts::contact_points}};
 }  // namespace
 
 extern const Descriptor modal_two_point = {.name = "modal_two_point",
                                            .source = "van Walstijn et al. 2016, eqs 16-52",
-                                           .represents = modal_features,
+                                           .represents = two_point_features,
                                            .balance = Balance::exact,
                                            .clock = Clock::stepped,
                                            .make = made<exact>,
                                            .options = two_point_options,
+                                           .approximates = two_point_approximates,
                                            .stand_in_rank = 2};
 extern const Descriptor modal_two_point_trapezoidal = {
     .name = "modal_two_point_trapezoidal",
     .source = "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
-    .represents = modal_features,
+    .represents = two_point_features,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = made<trapezoidal>,
-    .options = two_point_options};
+    .options = two_point_options,
+    .approximates = two_point_approximates};
 
 }  // namespace jvari

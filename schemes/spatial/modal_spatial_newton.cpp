@@ -3,7 +3,7 @@
 //
 // Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights; the thread's force is the average of the
 // outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ - u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al.
-// 2016, eqs 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two polarisations, several strings.
+// 2016, eqs 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two polarisations.
 //
 // Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from the string's compliance stands in series
 // with contacts and thread (contact/compliance.hpp, obstacle_step.hpp), which may then be coupled; profiles are touched at points of their
@@ -277,7 +277,7 @@ constexpr Option options[] = {compliance_option, profile_points_option, form_opt
 // What cut and step take from the string's compliance: a constant force on a mode moves it by gain/kappa (14).
 MissingMatrix missing_of(const Descriptor& descriptor, const Problem& p) {
     const String& s = p.string();
-    const Sites sites = sites_of(p.scene, 0, footprints_of(s));
+    const Sites sites = sites_of(p.scene, footprints_of(s));
     std::vector<std::vector<double>> w;
     for (const Reading& r : sites.readings)
         w.push_back(r.nut_force ? nut_force_weights(p.modes, s) : footprint_weights(p.modes, r.at.position, r.at.width));

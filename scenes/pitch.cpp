@@ -1,0 +1,40 @@
+#include "scenes/pitch.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace jvari {
+
+std::optional<double> frequency_of_note(std::string_view note) {
+    constexpr std::string_view letters = "CDEFGAB";
+    constexpr int above_c[] = {0, 2, 4, 5, 7, 9, 11};  // [semitones]
+    const auto take = [&note](char c) {
+        const bool there = !note.empty() && note.front() == c;
+        if (there) note.remove_prefix(1);
+        return there;
+    };
+    const std::size_t letter = note.empty() ? letters.npos : letters.find(note.front());
+    if (letter == letters.npos) return {};
+    note.remove_prefix(1);
+    int semitone = above_c[letter];
+    if (take('#')) ++semitone;
+    else if (take('b')) --semitone;
+    const bool below_zero = take('-');
+    if (note.size() != 1 || note.front() < '0' || note.front() > '9') return {};
+    const int octave = note.front() - '0';
+    if (below_zero && octave != 1) return {};
+    const int above_a4 = semitone - 9 + 12 * ((below_zero ? -1 : octave) - 4);
+    return 440 * std::exp2(above_a4 / 12.0);
+}
+
+double tension_for(const String& s, double hertz) {
+    const double beta = std::numbers::pi / s.length, omega = 2 * std::numbers::pi * hertz;
+    return s.linear_density * (omega / beta) * (omega / beta) - s.bending_stiffness * beta * beta;
+}
+
+double slack_pitch(const String& s) {
+    const double beta = std::numbers::pi / s.length;
+    return beta * beta / (2 * std::numbers::pi) * std::sqrt(s.bending_stiffness / s.linear_density);
+}
+
+}  // namespace jvari

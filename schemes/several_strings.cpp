@@ -1,0 +1,154 @@
+#include "schemes/several_strings.hpp"
+
+#include <algorithm>
+
+namespace jvari {
+
+namespace {
+constexpr int rows_at_a_time = 64;  // of one string after the other
+
+struct Listened {  // a tap of one string
+    int column;    // in the whole scene
+    bool first;    // the first string that is heard there, so that nothing is added to nothing
+};
+
+struct OneOfSeveral {
+    std::unique_ptr<Scheme> scheme;
+    std::vector<Listened> taps;
+};
+
+void put(double* to, const double* from, int rows, bool first) noexcept {
+    if (first) std::copy_n(from, rows, to);
+    else
+        for (int n = 0; n < rows; ++n) to[n] += from[n];
+}
+
+class SeveralStrings final : public Scheme {
+public:
+    SeveralStrings(std::vector<OneOfSeveral> strings, double steps_per_row) : strings_(std::move(strings)), steps_per_row_(steps_per_row) {
+        std::size_t most = 0;
+        for (const OneOfSeveral& s : strings_) most = std::max(most, s.taps.size());
+        tap_.resize(rows_at_a_time * most);
+        energy_.resize(3 * rows_at_a_time);
+        went_.resize(strings_.size());
+    }
+
+    void reset() noexcept override {
+        for (auto& s : strings_) s.scheme->reset();
+        done_ = 0;
+    }
+    Status advance(const Block& out) noexcept override {
+        for (int from = 0; from < out.rows; from += rows_at_a_time) {
+            Block part = out;
+            part.rows = std::min(rows_at_a_time, out.rows - from);
+            part.tap = out.tap + from;
+            part.energy = out.energy ? out.energy + from : nullptr;
+            const Status status = advance_part(part);
+            if (status.outcome != Outcome::ok || out.stopped()) return status;
+        }
+        return {};
+    }
+    int dofs() const override {
+        int sum = 0;
+        for (const auto& s : strings_) sum += s.scheme->dofs();
+        return sum;
+    }
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> all;
+        for (std::size_t k = 0; k < strings_.size(); ++k)
+            for (Fact f : strings_[k].scheme->facts()) {
+                f.name.insert(0, "string." + std::to_string(k) + ".");
+                all.push_back(std::move(f));
+            }
+        return all;
+    }
+    std::vector<FreeMode> free_modes() const override { return strings_.front().scheme->free_modes(); }
+
+private:
+    Block own_block(const Block& out, const OneOfSeveral& s, int rows) noexcept {
+        Block own = out;
+        own.rows = rows;
+        own.taps = static_cast<int>(s.taps.size());
+        own.stride = rows_at_a_time;
+        own.tap = tap_.data();
+        own.energy = out.energy ? energy_.data() : nullptr;
+        return own;
+    }
+
+    Status advance_part(const Block& out) noexcept {  // of no more than rows_at_a_time
+        Status failed;
+        int rows = out.rows;  // to the row of the first failure
+        for (std::size_t k = 0; k < strings_.size(); ++k) {
+            OneOfSeveral& s = strings_[k];
+            const Block own = own_block(out, s, rows);
+            const Status status = s.scheme->advance(own);
+            if (out.stopped()) return {};
+            went_[k] = rows;
+            if (status.outcome != Outcome::ok && (failed.outcome == Outcome::ok || status.step < failed.step)) {
+                failed = status;
+                rows = std::clamp(static_cast<int>(static_cast<long>(status.step / steps_per_row_) + 1 - done_), 0, rows);
+            }
+            for (std::size_t t = 0; t < s.taps.size(); ++t)
+                put(out.tap + s.taps[t].column * out.stride, own.tap + t * own.stride, rows, s.taps[t].first);
+            for (int c = 0; own.energy && c < 3; ++c) put(out.energy + c * out.stride, own.energy + c * own.stride, rows, k == 0);
+        }
+        done_ += rows;
+        if (failed.outcome != Outcome::ok)
+            for (std::size_t k = 0; k < strings_.size(); ++k)
+                if (went_[k] > rows) step_anew(out, strings_[k]);
+        return failed;
+    }
+
+    // To the end of the rows that count: what a string went on to do beyond the failure of another is in none of its facts.
+    void step_anew(const Block& out, OneOfSeveral& s) noexcept {
+        s.scheme->reset();
+        for (long row = 0; row < done_; row += rows_at_a_time) {
+            s.scheme->advance(own_block(out, s, static_cast<int>(std::min<long>(rows_at_a_time, done_ - row))));
+            if (out.stopped()) return;
+        }
+    }
+
+    std::vector<OneOfSeveral> strings_;
+    double steps_per_row_;
+    long done_ = 0;  // rows since the start
+    std::vector<double> tap_, energy_;
+    std::vector<int> went_;  // rows of this part that a string was asked for
+};
+
+std::string of_string(int k) {
+    return "string." + std::to_string(k);
+}
+
+std::string renamed(const std::string& key, int k) {  // of the one string a scheme was made for: "string.0.tension", "string.damping.file"
+    for (const std::string own : {"string.0.", "string."})
+        if (key.starts_with(own)) return of_string(k) + "." + key.substr(own.size());
+    return key;
+}
+
+std::unique_ptr<Scheme> one_of_several(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int k) {
+    try {
+        return make_scheme(descriptor, alone(scene, k), settings);
+    } catch (const BadScene& e) {
+        throw BadScene(renamed(e.key, k), e.found, e.expected);
+    } catch (const Refusal& e) {
+        throw Refusal(of_string(k) + ": " + e.what());
+    }
+}
+}  // namespace
+
+std::unique_ptr<Scheme> several_strings(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    std::vector<OneOfSeveral> strings;
+    std::vector<bool> heard_already(scene.taps.size(), false);
+    for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) {
+        OneOfSeveral& s = strings.emplace_back(OneOfSeveral{one_of_several(descriptor, scene, settings, k), {}});
+        for (int t = 0; t < static_cast<int>(scene.taps.size()); ++t) {
+            if (!hears(scene.taps[t], scene, k)) continue;
+            s.taps.push_back({t, !heard_already[t]});
+            heard_already[t] = true;
+        }
+    }
+    const bool continuous = descriptor.clock == Clock::continuous;
+    return std::make_unique<SeveralStrings>(std::move(strings), continuous ? 1 : settings.sample_rate / settings.tap_rate);
+}
+
+}  // namespace jvari

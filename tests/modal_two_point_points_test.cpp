@@ -1,0 +1,142 @@
+// The modal two-point scheme on several contact points: one point of many is the scheme of one, the energy ledger closes in every step, and
+// the error against the exact solution of the same points falls with the rate.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/references.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
+#include "tests/c3.hpp"
+
+namespace jvari {
+namespace {
+
+const Descriptor& named(const std::string& name) {
+    for (const auto& table : {schemes(), references()})
+        for (const Descriptor& d : table)
+            if (name == d.name) return d;
+    throw std::runtime_error(name);
+}
+
+double difference(std::span<const double> a, std::span<const double> b) {
+    return relative_difference(a, b);
+}
+
+double fact(const jvari::Run& r, const std::string& name) {
+    for (const Fact& f : r.facts)
+        if (f.name == name) return f.value;
+    return std::nan("");
+}
+
+Scene with_a_barrier_out_of_reach(Scene scene) {
+    scene.strings.front().barriers.push_back(LumpedBarrier{0.6, 0, -1, {1e8}, 1, 0});
+    return scene;
+}
+
+Scene lasting(Scene scene, double seconds) {
+    scene.duration = seconds;
+    return scene;
+}
+
+TEST(SeveralPoints, OnePointThatIsInReachIsTheSchemeOfOnePoint) {
+    const Scene release = lasting(c3_release(), 0.01), pluck = lasting(c3_pluck(), 0.01);
+    for (const Scene& scene : {release, pluck})
+        for (const double exponent : {1.0, 1.5}) {
+            Scene one = scene;
+            std::get<LumpedBarrier>(one.strings[0].barriers[0]).exponent = exponent;
+            for (const char* name : {"modal_two_point", "modal_two_point_trapezoidal"}) {
+                const Settings settings{88200, 44100, 60, {}};
+                const jvari::Run a = run(named(name), one, settings, {.energy = true}),
+                                 b = run(named(name), with_a_barrier_out_of_reach(one), settings, {.energy = true});
+                EXPECT_EQ(fact(b, "contact_points"), 2);
+                EXPECT_TRUE(std::isnan(fact(a, "contact_points")));
+                for (int k = 0; k < a.trace.taps(); ++k)
+                    EXPECT_LT(difference(b.trace.column(k), a.trace.column(k)), 1e-7) << name << " " << k;
+                EXPECT_LT(difference(b.trace.energy_column(0), a.trace.energy_column(0)), 1e-12) << name;
+            }
+        }
+}
+
+double largest_residual(const jvari::Run& r) {  // of one step, relative to the largest stored energy
+    const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1), dissipated = r.trace.energy_column(2);
+    double worst = 0, most = 0;
+    for (long n = 1; n < r.trace.rows; ++n) worst = std::max(worst, std::abs(stored[n] - stored[n - 1] - supplied[n] + dissipated[n]));
+    for (const double E : stored) most = std::max(most, E);
+    return worst / most;
+}
+
+Scene with_loss(Scene scene, double beta) {
+    for (Barrier& b : scene.strings.front().barriers) std::visit([beta](auto& x) { x.contact_loss = beta; }, b);
+    return scene;
+}
+
+TEST(SeveralPoints, TheEnergyLedgerClosesInEveryStep) {
+    for (const char* scene : {"sitar_parabola", "two_point_bridge"})
+        for (const double beta : {0.0, 5.0}) {
+            const Scene s = with_loss(lasting(read_scene(scene), 0.02), beta);
+            const jvari::Run r = run(named("modal_two_point"), s, {128e3, 128e3, 80, {}}, {.energy = true});
+            ASSERT_EQ(r.status.outcome, Outcome::ok) << scene;
+            EXPECT_LE(largest_residual(r), 1e-13) << scene << " " << beta;
+            EXPECT_GT(fact(r, "deepest_penetration"), 0) << scene;
+            double lost = 0;
+            for (const double d : r.trace.energy_column(2)) {
+                EXPECT_GE(d, -1e-16);
+                lost += d;
+            }
+            EXPECT_GT(lost, 0);
+        }
+}
+
+TEST(SeveralPoints, AContactThatLosesEnergyTakesEnergy) {
+    const auto left = [](double beta) {
+        const Scene s = lossless(with_loss(lasting(read_scene("two_point_bridge"), 0.02), beta));
+        const jvari::Run r = run(named("modal_two_point"), s, {128e3, 128e3, 80, {}}, {.energy = true});
+        return r.trace.energy_column(0)[r.trace.rows - 1] / r.trace.energy_column(0)[0];
+    };
+    EXPECT_NEAR(left(0), 1, 1e-11);
+    EXPECT_LT(left(5), 1 - 1e-3);
+}
+
+// As many points as the reference has, and as many modes: the same problem.
+void converges(const Scene& scene, int modes, const std::string& points, double most) {
+    const Settings exact{0, 44100, modes, {{"nodes", points}}};
+    const jvari::Run truth = run(named("sundials"), scene, exact);
+    ASSERT_EQ(truth.status.outcome, Outcome::ok);
+    double last = HUGE_VAL;
+    for (const int rate : {4, 16, 64}) {
+        const jvari::Run r = run(named("modal_two_point"), scene, {44100.0 * rate, 44100, modes, {{"points", points}}});
+        ASSERT_EQ(r.status.outcome, Outcome::ok);
+        const double error = difference(r.trace.column(0), truth.trace.column(0));
+        EXPECT_LT(error, 0.5 * last) << scene.name << " at " << rate;
+        last = error;
+    }
+    EXPECT_LT(last, most) << scene.name;
+}
+
+TEST(SeveralPoints, TheErrorAgainstTheSamePointsFallsWithTheRate) {
+    Scene scene = lasting(read_scene("sitar_parabola"), 2e-3);
+    const double L = scene.strings.front().length;
+    scene.taps = {{"y", Quantity::displacement, 0, 0.1 * L}};
+    scene.strings.front().initial = TriangleInitial{0.12 * L, 1.8e-3, 0.1 * L};  // it meets the obstacle within 2 ms
+    converges(scene, 30, "4", 1e-3);
+    converges(with_loss(scene, 5), 30, "4", 1e-3);
+}
+
+TEST(SeveralPoints, MatchedComplianceKeepsItsLedgerAndRefusesLoss) {
+    const Scene s = lasting(read_scene("sitar_parabola"), 0.01);
+    const Settings matched{128e3, 128e3, 80, {{"compliance", "matched"}, {"points", "8"}}};
+    const jvari::Run r = run(named("modal_two_point"), s, matched, {.energy = true});
+    ASSERT_EQ(r.status.outcome, Outcome::ok);
+    EXPECT_LE(largest_residual(r), 1e-12);
+    EXPECT_GE(fact(r, "smallest_contact_force"), 0);
+    EXPECT_THROW(make_scheme(named("modal_two_point"), with_loss(s, 1), matched), Refusal);
+    Settings effective = matched;
+    effective.options.emplace_back("effective_modes", "4");
+    EXPECT_THROW(make_scheme(named("modal_two_point"), s, effective), Refusal);
+}
+
+}  // namespace
+}  // namespace jvari
