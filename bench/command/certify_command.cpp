@@ -114,12 +114,12 @@ bool covers_more(const trust::KeptCertificate& there, const trust::KeptCertifica
     const Certificate &old = there.certificate, &fresh = asked.certificate;
     if (there.scene_hash != asked.scene_hash || old.modes != fresh.modes || old.tap_rate != fresh.tap_rate) return false;
     if (old.duration < fresh.duration * (1 - 1e-9)) return false;
-    const auto missing = [&fresh](const Certificate::Entry& e) {  // of what runs still: a stand-in gives way to what represents the scene
-        const auto same = [&e](const Certificate::Entry& f) { return e.reference == f.reference; };
-        return std::any_of(fresh.entries.begin(), fresh.entries.end(), same) &&
-               std::none_of(fresh.entries.begin(), fresh.entries.end(), [&](const Certificate::Entry& f) {
-                   return same(f) && e.options == f.options && e.sample_rate == f.sample_rate && e.doubled == f.doubled;
-               });
+    const auto is_stand_in = [](const Certificate& c) { return c.entries.front().reference.starts_with("oversampled "); };
+    if (is_stand_in(old) && !is_stand_in(fresh)) return false;  // the scene has become representable
+    const auto missing = [&fresh](const Certificate::Entry& e) {
+        return std::none_of(fresh.entries.begin(), fresh.entries.end(), [&e](const Certificate::Entry& f) {
+            return e.reference == f.reference && e.options == f.options && e.sample_rate == f.sample_rate && e.doubled == f.doubled;
+        });
     };
     return old.duration > fresh.duration * (1 + 1e-9) || std::any_of(old.entries.begin(), old.entries.end(), missing);
 }
