@@ -66,7 +66,6 @@ const char* name_of(Feature f) {
         case Feature::initial_shape: return "initial shape";
         case Feature::pluck: return "pluck";
         case Feature::polarisation: return "two polarisations";
-        case Feature::body: return "body";
     }
     return "?";
 }
@@ -118,7 +117,6 @@ Features needed_by(const Scene& scene) {
         if (s.pluck) f = f | Feature::pluck;
         if (s.polarisation) f = f | Feature::polarisation;
     }
-    if (scene.body) f = f | Feature::body;
     return f;
 }
 

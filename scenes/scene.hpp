@@ -154,8 +154,9 @@ struct Tap {
     double position = 0;        // [m], displacement and velocity only
     bool operator==(const Tap&) const = default;
 };
-struct Body {  // radiation filters on driving_force and nut_force
-    std::string bridge, nut;
+struct Body {                 // filters of what is heard of driving_force and nut_force: nothing to a scheme
+    std::string bridge, nut;  // files of impulse responses; "": none
+    int sections = 0;         // second-order sections in place of a response; 0: the response itself
     bool operator==(const Body&) const = default;
 };
 
@@ -175,7 +176,7 @@ const char* lacks(const String&, Quantity);
 Scene alone(const Scene&, int string);
 bool hears(const Tap&, const Scene&, int string);
 
-// ---- What a scene asks of a scheme of its strings one by one: that there are several asks nothing.
+// ---- What a scene asks of a scheme of its strings one by one: that there are several asks nothing, and a body asks nothing.
 
 enum class Feature : unsigned {
     bending_stiffness = 1u << 0,
@@ -191,9 +192,8 @@ enum class Feature : unsigned {
     initial_shape = 1u << 10,
     pluck = 1u << 11,
     polarisation = 1u << 12,
-    body = 1u << 13,
 };
-constexpr int feature_count = 14;
+constexpr int feature_count = 13;
 const char* name_of(Feature);
 
 struct Features {

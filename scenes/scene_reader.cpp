@@ -48,6 +48,8 @@ struct Names {
         for (const char* key : tension_keys) add(key);
     }
     void count(const char* key, auto&) { add(key); }
+    void optional_count(const char* key, auto&) { add(key); }
+    void file(const char* key, auto&) { add(key); }
     void text(const char* key, auto&) { add(key); }
     void optional_text(const char* key, auto&) { add(key); }
     void choice(const char* key, auto&&...) { add(key); }
@@ -127,6 +129,9 @@ public:
                  "a pitch that a tension gives: the bending stiffness alone gives " + number_text(slack_pitch(s)) + " Hz");
     }
     void count(const char* key, int& n) { n = integer(*required(key, "a whole number >= 1"), key, 1); }
+    void optional_count(const char* key, int& n) {
+        if (const Value* v = table_.find(key)) n = integer(*v, key, 0);
+    }
     void string_index(const char* key, std::optional<int>& n) {
         if (const Value* v = table_.find(key)) n = integer(*v, key, 0);
     }
@@ -141,6 +146,10 @@ public:
         if (!found || found->empty()) fail(*v, at(key), v->found(), "a text");
         s = *found;
     }
+    void file(const char* key, std::string& s) {
+        optional_text(key, s);
+        if (!s.empty()) s = beside(s);
+    }
     template <class Enum>
     void choice(const char* key, Enum& e, std::span<const char* const> names) {
         e = static_cast<Enum>(index_of(key, names));
@@ -151,7 +160,7 @@ public:
     void columns(const char* key, std::string& file, const Column& first, std::vector<double>& a, const Column& second,
                  std::vector<double>& b) {
         text(key, file);
-        const std::string path = (std::filesystem::path(document_.file).parent_path() / file).string();
+        const std::string path = beside(file);
         const std::string expected = "a CSV file with the columns " + list_of({first.name, second.name});
         std::error_code error;
         if (file.find('\0') != std::string::npos || !std::filesystem::is_regular_file(path, error))
@@ -198,6 +207,7 @@ private:
         if (!v) fail(table_, at(key), "nothing", expected);
         return v;
     }
+    std::string beside(const std::string& file) const { return (std::filesystem::path(document_.file).parent_path() / file).string(); }
     int integer(const Value& v, const char* key, int least) const {
         const auto* i = std::get_if<std::int64_t>(&v.content);
         if (!i || *i < least || *i > std::numeric_limits<int>::max())

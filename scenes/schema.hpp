@@ -2,8 +2,9 @@
 // its range and, where it may be absent, the value it then has. Four passes walk it: naming the keys, reading, writing, and checking
 // ranges. What no single value can tell (a bridge beyond the end of the string) is checked in validate.cpp.
 //
-// A pass has: number, count, text, optional_text, choice, string_index, refused (a key that has no meaning here), columns (a CSV file),
-// one_of (a variant and the key that chooses), tension (or the pitch that it gives), part (a table), parts (an array of tables).
+// A pass has: number, count, optional_count (0 where it is absent), text, optional_text, file (a text, beside the scene), choice,
+// string_index, refused (a key that has no meaning here), columns (a CSV file), one_of (a variant and the key that chooses), tension (or
+// the pitch that it gives), part (a table), parts (an array of tables).
 #pragma once
 
 #include <concepts>
@@ -163,8 +164,9 @@ void fields(auto& pass, Is<Tap> auto& t) {
     else pass.refused("position", "no position, which only displacement and velocity have");
 }
 void fields(auto& pass, Is<Body> auto& b) {
-    pass.optional_text("bridge", b.bridge);
-    pass.optional_text("nut", b.nut);
+    pass.file("bridge", b.bridge);
+    pass.file("nut", b.nut);
+    pass.optional_count("sections", b.sections);
 }
 void fields(auto& pass, Is<Scene> auto& s) {
     pass.text("name", s.name);

@@ -64,7 +64,7 @@ constexpr std::uint32_t plugin_abi = layout_hash({
         JVARI_LAYOUT(String, JVARI_AT(length), JVARI_AT(linear_density), JVARI_AT(tension), JVARI_AT(bending_stiffness), JVARI_AT(damping),
                      JVARI_AT(barriers), JVARI_AT(thread), JVARI_AT(initial), JVARI_AT(pluck), JVARI_AT(polarisation)),
         JVARI_LAYOUT(Tap, JVARI_AT(name), JVARI_AT(quantity), JVARI_AT(string), JVARI_AT(position)),
-        JVARI_LAYOUT(Body, JVARI_AT(bridge), JVARI_AT(nut)),
+        JVARI_LAYOUT(Body, JVARI_AT(bridge), JVARI_AT(nut), JVARI_AT(sections)),
         JVARI_LAYOUT(Scene, JVARI_AT(name), JVARI_AT(source), JVARI_AT(duration), JVARI_AT(strings), JVARI_AT(taps), JVARI_AT(body)),
         JVARI_LAYOUT(Block, JVARI_AT(rows), JVARI_AT(taps), JVARI_AT(stride), JVARI_AT(tap), JVARI_AT(energy)),
         JVARI_LAYOUT(Status, JVARI_AT(outcome), JVARI_AT(step)), JVARI_LAYOUT(Fact, JVARI_AT(name), JVARI_AT(value), JVARI_AT(unit)),

@@ -23,14 +23,14 @@ forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(gr
 forbid "grids see contacts and the seam" '#include "schemes/(modal|spatial|sitar)/' $(files schemes/grid)
 forbid "sitars see contacts and the seam" '#include "schemes/(modal|spatial|grid)/' $(files schemes/sitar)
 above=
-for room in command report trim check suite map diff compare trust store; do  # each room of bench sees itself and those after it here
+for room in command report trim check suite map diff compare trust sound store; do  # each room of bench sees itself and those after it here
     [ -z "$above" ] || forbid "bench/$room sees nothing of the rooms above it" "#include \"bench/($above)/" $(files bench/$room)
     above=${above:+$above|}$room
     forbid "bench/$room opens the namespace of its room" "^namespace jvari(::bench::[a-z]+)? \\{$" \
         $(grep -LE "^namespace jvari::bench::$room \\{$" $(files bench/$room))
 done
 forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
-    $(files scenes schemes reference analysis bench/store bench/trust bench/compare bench/diff bench/map bench/suite bench/check bench/report)
+    $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/compare bench/diff bench/map bench/suite bench/check bench/report)
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
 forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
 # Libraries, as the table of CONTRIBUTING.md says. The benchmarks of bench/kernels and the tests compare with any of them.
@@ -42,13 +42,15 @@ only "toml++" 'toml' 'scenes/document'
 only GSL 'gsl/' 'scenes/|schemes/|reference/|analysis/'
 only Eigen 'Eigen/' 'schemes/|reference/(touching_set|collocated_contact)|analysis/'
 only Highway 'hwy/' 'schemes/|reference/modal_sweep'
-only FFTW 'fftw' 'analysis/spectrum|schemes/spatial/sine_transform'
+only FFTW 'fftw' 'analysis/(spectrum|convolution)|schemes/spatial/sine_transform'
 only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'
 only CLI11 'CLI/' 'bench/command/'
 only JSON 'nlohmann/' 'bench/'
 only fmt 'fmt/' 'bench/'
 only xxHash 'xxhash' 'bench/store/checksum'
-only "libsndfile and HDF5" '(sndfile|hdf5)' 'bench/store/'
+only libsndfile 'sndfile' 'bench/(store|sound)/'
+only HDF5 'hdf5' 'bench/store/'
+only libsamplerate 'samplerate' 'bench/sound/'
 forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp')
 forbid "-ffast-math is forbidden" 'ffast-math' CMakeLists.txt tests/CMakeLists.txt CMakePresets.json

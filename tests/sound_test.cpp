@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "bench/store/audio_file.hpp"
+#include "bench/sound/audio_file.hpp"
 #include "bench/store/base64.hpp"
 #include "tests/c3.hpp"
 
@@ -20,6 +20,10 @@ std::vector<double> sine(double amplitude, double offset, int count) {
     std::vector<double> signal;
     for (int n = 0; n < count; ++n) signal.push_back(offset + amplitude * std::sin(2 * M_PI * 441.0 * n / 44100));
     return signal;
+}
+
+bench::sound::Played played(const std::vector<double>& force, double rate) {
+    return bench::sound::levelled({bench::sound::without_body(force, rate)});
 }
 
 double rms_of(const bench::store::Sound& s) {
@@ -34,9 +38,9 @@ double rms_of(const bench::store::Sound& s) {
 double gain_at(double hertz) {  // of what is played, at 44.1 kHz
     std::vector<double> force;
     for (int n = 0; n < 44100; ++n) force.push_back(3 * std::sin(2 * M_PI * hertz * n / 44100));
-    const bench::store::Played p = bench::store::played(force, 44100);
+    const bench::sound::Played p = played(force, 44100);
     double most = 0;
-    for (int n = 22050; n < 44100; ++n) most = std::max(most, std::abs(p.samples[n]));
+    for (int n = 22050; n < 44100; ++n) most = std::max(most, std::abs(p.channels[0][n]));
     return 20 * std::log10(most * p.full_scale / 3);  // [dB]
 }
 
@@ -45,34 +49,33 @@ TEST(Played, TakesTheSteadyPartAwayAndLowersTheHighs) {
     EXPECT_NEAR(gain_at(3183), 10 * std::log10(0.5), 0.2);  // 1/(2 pi 50 us)
     EXPECT_NEAR(gain_at(300), -0.06, 0.03);
     EXPECT_LT(gain_at(15000), -10);
-    const bench::store::Played still = bench::store::played(std::vector<double>(1000, 5.0), 44100);
-    EXPECT_EQ(bench::store::level_text(still), "silence");
-    EXPECT_EQ(still.samples, std::vector<double>(1000, 0.0));
-    const bench::store::Played beside =
-        bench::store::played(sine(1, 100, 44100), 44100);  // on a steady 100 N, which is there from the start
-    EXPECT_NEAR(beside.full_scale, bench::store::played(sine(1, 0, 44100), 44100).full_scale, 1e-9);
+    const bench::sound::Played still = played(std::vector<double>(1000, 5.0), 44100);
+    EXPECT_EQ(bench::sound::level_text(still), "silence");
+    EXPECT_EQ(still.channels[0], std::vector<double>(1000, 0.0));
+    const bench::sound::Played beside = played(sine(1, 100, 44100), 44100);  // on a steady 100 N, which is there from the start
+    EXPECT_NEAR(beside.full_scale, played(sine(1, 0, 44100), 44100).full_scale, 1e-9);
 }
 
 TEST(Played, StandsOneDecibelBelowFullScaleWhateverItsForce) {
-    const bench::store::Played p = bench::store::played(sine(1, 0, 4410), 44100), loud = bench::store::played(sine(1e3, 0, 4410), 44100);
+    const bench::sound::Played p = played(sine(1, 0, 4410), 44100), loud = played(sine(1e3, 0, 4410), 44100);
     EXPECT_NEAR(p.peak, std::pow(10, -1 / 20.0), 1e-15);
     EXPECT_NEAR(p.rms * p.full_scale, std::sqrt(0.5), 0.02);
     EXPECT_EQ(p.clipped, 0);
     EXPECT_NEAR(loud.full_scale, 1e3 * p.full_scale, 1e-9);
-    for (std::size_t n = 0; n < p.samples.size(); ++n) ASSERT_NEAR(loud.samples[n], p.samples[n], 1e-12);
-    bench::store::Played over = p;
+    for (std::size_t n = 0; n < p.channels[0].size(); ++n) ASSERT_NEAR(loud.channels[0][n], p.channels[0][n], 1e-12);
+    bench::sound::Played over = p;
     over.clipped = 3;
-    EXPECT_NE(bench::store::level_text(over).find("3 samples clipped"), std::string::npos);
+    EXPECT_NE(bench::sound::level_text(over).find("3 samples clipped"), std::string::npos);
 }
 
 TEST(Played, ReadsBackToTheLastBitOfItsFormat) {
-    const bench::store::Played p = bench::store::played(sine(1, 0, 4410), 48000);
+    const bench::sound::Played p = played(sine(1, 0, 4410), 48000);
     const auto folder = std::filesystem::temp_directory_path() / ("jvari-played-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     for (const std::string extension : {".wav", ".flac"})
         for (const int bits : {24, 16}) {
             const auto path = folder / ("x" + extension);
-            bench::store::write_audio(path, extension, bits, 48000, p);
+            bench::sound::write_audio(path, extension, bits, 48000, p);
             SF_INFO info{};
             SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
             ASSERT_TRUE(file) << extension;
@@ -82,16 +85,16 @@ TEST(Played, ReadsBackToTheLastBitOfItsFormat) {
             std::vector<double> back(5000);
             EXPECT_EQ(sf_readf_double(file, back.data(), 5000), 4410);
             sf_close(file);
-            for (int n = 0; n < 4410; ++n) ASSERT_NEAR(back[n], p.samples[n], std::exp2(1 - bits)) << extension << bits;
+            for (int n = 0; n < 4410; ++n) ASSERT_NEAR(back[n], p.channels[0][n], std::exp2(1 - bits)) << extension << bits;
         }
     std::filesystem::remove_all(folder);
 }
 
 TEST(Played, IsTheDrivingForceWhereSomethingIsDrivenElseTheForceOnTheNut) {
-    EXPECT_EQ(bench::store::audible(c3_pluck()).taps.at(0).quantity, Quantity::driving_force);
-    EXPECT_EQ(bench::store::audible(c3_free()).taps.at(0).quantity, Quantity::nut_force);
-    EXPECT_EQ(bench::store::audible(c3_pluck()).taps.size(), 1u);
-    EXPECT_FALSE(bench::store::audible(c3_pluck()).taps.at(0).string);
+    EXPECT_EQ(bench::sound::audible(c3_pluck()).taps.at(0).quantity, Quantity::driving_force);
+    EXPECT_EQ(bench::sound::audible(c3_free()).taps.at(0).quantity, Quantity::nut_force);
+    EXPECT_EQ(bench::sound::audible(c3_pluck()).taps.size(), 1u);
+    EXPECT_FALSE(bench::sound::audible(c3_pluck()).taps.at(0).string);
 }
 
 TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10

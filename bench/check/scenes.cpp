@@ -66,7 +66,6 @@ Scene with(Feature feature, Scene scene) {
         case Feature::polarisation: s.polarisation = Polarisation{0.1, 0.3}; break;
         case Feature::initial_shape: s.initial = ModeInitial{1, 1.9e-3 * s.length}; break;
         case Feature::pluck: s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5 * s.length, 0.1 * s.length}; break;
-        case Feature::body: scene.body = Body{"bridge.wav", "nut.wav"}; break;
     }
     return scene;
 }
@@ -174,7 +173,6 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::initial_shape: add([](Change& c) { return c.initial_shape(); }); break;
         case Feature::pluck: add([](Change& c) { return c.pluck(); }); break;
         case Feature::polarisation: add([](Change& c) { return c.polarisation(); }); break;
-        case Feature::body: break;
     }
     return all;
 }

@@ -107,7 +107,9 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
 
     NewRequest fresh;
     auto* new_verb = app.add_subcommand("new", "a commented scene to begin with: writes NAME.toml here");
-    new_verb->add_option("instrument", fresh.instrument, "guitar, tanpura, sitar, bass or piano")->required()->type_name("INSTRUMENT");
+    new_verb->add_option("instrument", fresh.instrument, "guitar, tanpura, sitar, bass or piano; or body: a made-up pair of responses")
+        ->required()
+        ->type_name("INSTRUMENT");
     new_verb->add_option("name", fresh.name, "of the scene and, with .toml, of its file")->required()->type_name("NAME");
     new_verb->footer("Example: jvari new guitar my_guitar");
     add_common(*new_verb, fresh);
@@ -140,6 +142,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->add_option("--plot", run.plot,
                      "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)")
         ->type_name("FILE");
+    run_verb->add_flag("--mono", run.mono, "one channel where a body gives two");
     run_verb->add_option("--wav-format", run.wav_format, "of a .wav or .flac: pcm24 (default) or pcm16")
         ->check(CLI::IsMember({"pcm24", "pcm16"}))
         ->type_name("FORMAT")
@@ -347,7 +350,6 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     must_be_assignments(trim.set);
     run.options = scheme_options(run_options);
     compare.options = scheme_options(compare_options);
-    if (!run.wav_format.empty() && run.out.empty()) throw store::UsageError("--wav-format: there is no --out FILE.wav or FILE.flac");
     if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts")
         throw store::UsageError("--markdown goes with `jvari list schemes`, `jvari list options` or `jvari list facts`");
 

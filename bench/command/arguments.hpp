@@ -36,6 +36,7 @@ struct RunRequest : Common {
     std::vector<std::string> set;
     std::vector<compare::SchemeOption> options;
     std::string out, wav_format, plot;
+    bool mono = false;
 };
 
 struct CompareCall : Common, compare::CompareRequest {

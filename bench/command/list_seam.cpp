@@ -66,7 +66,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
     Json json = Json::array();
     std::size_t width = 0;
     for (const Descriptor* d : list) width = std::max(width, std::string(d->name).size());
-    std::string text = fmt::format("{}\n", title), head = "| scheme | several strings |", rule = "|---|:-:|", body, notes;
+    std::string text = fmt::format("{}\n", title), head = "| scheme | several strings | body |", rule = "|---|:-:|:-:|", body, notes;
     for (int i = 0; i < feature_count; ++i) {
         head += fmt::format(" {} |", jvari::name_of(static_cast<Feature>(1u << i)));
         rule += ":-:|";
@@ -94,7 +94,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
         if (!not_quite.empty()) text += fmt::format("  {:<{}}  approximates {}\n", "", width, joined(approximations_of(*d, "")));
         if (!note.empty()) text += fmt::format("  {:<{}}  {}\n", "", width, note);
 
-        body += fmt::format("| `{}` | ● |", d->name);  // each string is a scheme of its own
+        body += fmt::format("| `{}` | ● | ● |", d->name);  // each string is a scheme of its own, a body filters what they give
         for (int i = 0; i < feature_count; ++i) {
             const auto feature = static_cast<Feature>(1u << i);
             body += not_quite.has(feature) ? " ◐ |" : d->represents.has(feature) ? " ● |" : "  |";

@@ -8,6 +8,7 @@
 
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/sound/synthetic_body.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/usage.hpp"
@@ -61,6 +62,7 @@ constexpr const char* what_else = R"(
 std::vector<std::string> instruments() {
     std::vector<std::string> names;
     for (const Template& t : templates) names.emplace_back(t.instrument);
+    names.emplace_back("body");
     return names;
 }
 
@@ -74,21 +76,38 @@ std::string renamed(std::string text, const std::string& name) {
     const auto key = text.find("\nname = ");
     return text.replace(key + 1, text.find('\n', key + 1) - key - 1, fmt::format("name = \"{}\"", name));
 }
+void must_be_free(const fs::path& file) {
+    std::error_code error;
+    if (fs::exists(file, error)) throw store::UsageError(fmt::format("{} is there already; choose another name", file.string()));
+    store::must_be_writable(file);
+}
+
+int new_body(const std::string& name, const Console& console) {
+    const fs::path bridge = name + "_bridge.wav", nut = name + "_nut.wav";
+    must_be_free(bridge);
+    must_be_free(nut);
+    sound::write_response(bridge, sound::synthetic_response(sound::BodyEnd::bridge), sound::synthetic_rate);
+    sound::write_response(nut, sound::synthetic_response(sound::BodyEnd::nut), sound::synthetic_rate);
+    console.print(fmt::format(
+        "written: {} and {}, synthetic: no instrument has them. In a scene beside them:\n\n[body]\nbridge = \"{}\"\nnut = \"{}\"",
+        bridge.string(), nut.string(), bridge.string(), nut.string()));
+    console.print_json(store::indented({{"status", "ok"}, {"bridge", bridge.string()}, {"nut", nut.string()}}));
+    return exit_code::done;
+}
 }  // namespace
 
 int new_command(const NewRequest& r) {
     const Console console(r.json, r.quiet);
-    const Template* chosen =
-        std::find_if(std::begin(templates), std::end(templates), [&r](const Template& t) { return r.instrument == t.instrument; });
-    if (chosen == std::end(templates)) throw store::UsageError(store::unknown("instrument", r.instrument, instruments()));
     const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
     if (r.name.empty() || !std::all_of(r.name.begin(), r.name.end(), plain))
         throw store::UsageError(
             fmt::format("new: found the name {}, expected letters, digits, _ and -: it becomes NAME.toml here", found_text(r.name)));
+    if (r.instrument == "body") return new_body(r.name, console);
+    const Template* chosen =
+        std::find_if(std::begin(templates), std::end(templates), [&r](const Template& t) { return r.instrument == t.instrument; });
+    if (chosen == std::end(templates)) throw store::UsageError(store::unknown("instrument", r.instrument, instruments()));
     const fs::path file = r.name + ".toml";
-    std::error_code error;
-    if (fs::exists(file, error)) throw store::UsageError(fmt::format("{} is there already; choose another name", file.string()));
-    store::must_be_writable(file);
+    must_be_free(file);
     const std::string end = replaced(replaced(what_else, "@FILE@", file.string()), "@NAME@", r.name);
     const std::string text = renamed(library_text(chosen->scene), r.name) + end;
     parse_scene(text, file.string());

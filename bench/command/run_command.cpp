@@ -13,7 +13,7 @@
 #include "bench/compare/summary.hpp"
 #include "bench/report/run_chart.hpp"
 #include "bench/report/vega.hpp"
-#include "bench/store/audio_file.hpp"
+#include "bench/sound/audio_file.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
@@ -56,7 +56,7 @@ std::string dearest(const std::vector<Fact>& facts) {
 
 std::string text_for(const compare::Summary& s) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
-    const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<28}{}", name, value); };
+    const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<27} {}", name, value); };
     if (s.status.outcome == Outcome::ok) line("status", "ok");
     else line("status", fmt::format("{} at step {}", name_of(s.status.outcome), s.status.step));
     line("rate", std::isnan(s.rate) ? "continuous time" : fmt::format("{} Hz", s.rate));
@@ -97,7 +97,6 @@ Json json_of(const compare::Summary& s) {
 
 store::TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene, const Settings& s) {
     store::TraceFile file{r.out,
-                          r.wav_format,
                           {{"scene", scene.name},
                            {"source", scene.source},
                            {"scene_hash", scene_hash(scene)},
@@ -130,6 +129,20 @@ void add_attributes(store::TraceFile& file, const compare::Summary& s) {
     fact(facts::deepest_penetration.name, s.deepest_penetration);
     for (const Fact& f : s.facts) fact(f.name, f.value);
 }
+
+// Before a long run: that what it gives can be written. The sound of it where --out names one.
+std::optional<sound::AudioFile> checked_output(const RunRequest& r, const store::TraceFile& file, const Scene& scene, double tap_rate) {
+    if (sound::is_audio(r.out)) {
+        const sound::AudioFile audio{r.out, r.wav_format, r.mono};
+        sound::check(audio, scene, tap_rate);
+        return audio;
+    }
+    if (!r.wav_format.empty() || r.mono)
+        throw store::UsageError(fmt::format("{} goes with --out FILE.wav or FILE.flac", r.mono ? "--mono" : "--wav-format"));
+    if (!r.out.empty()) store::check(file, scene);
+    return std::nullopt;
+}
+
 // Before a long run: that its picture can be drawn.
 std::optional<report::Vega> vega_for(const RunRequest& r) {
     if (r.plot.empty()) return std::nullopt;
@@ -157,12 +170,12 @@ int run_command(const RunRequest& r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
-    const Scene own = compare::load_scene(r.scene, r.set, r.duration), scene = store::is_audio(r.out) ? store::audible(own) : own;
+    const Scene own = compare::load_scene(r.scene, r.set, r.duration), scene = sound::is_audio(r.out) ? sound::audible(own) : own;
     compare::note_silent_strings(scene, console);
     const Settings settings = settings_for(r, d);
     store::TraceFile file = file_for(r, d, scene, settings);
     const std::optional<report::Vega> vega = vega_for(r);
-    if (!r.out.empty()) store::check(file, scene, settings.tap_rate);
+    const std::optional<sound::AudioFile> audio = checked_output(r, file, scene, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
@@ -183,7 +196,9 @@ int run_command(const RunRequest& r) {
     std::string text = text_for(summary);
     if (!r.out.empty()) {
         add_attributes(file, summary);
-        const std::string said = store::write(file, scene, result.trace);
+        std::string said;
+        if (audio) said = sound::write(*audio, scene, result.trace);
+        else store::write(file, scene, result.trace);
         json["out"] = r.out;
         if (!said.empty()) json["level"] = said;
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "bench/store/audio_file.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/trace_hdf5.hpp"
@@ -44,17 +43,6 @@ void write_csv(const std::filesystem::path& path, const Trace& trace) {
     stream.close();
     if (!stream) throw std::runtime_error(std::strerror(errno));
 }
-
-void check_audio(const std::string& out, const std::string& extension, const std::string& format, const Scene& scene, double tap_rate) {
-    constexpr double most_bytes = 4e9;  // a .wav counts its bytes in 32 bits
-    if (tap_rate != std::round(tap_rate) || tap_rate < slowest_played || tap_rate > fastest_played)
-        throw UsageError(fmt::format("{}: players take a whole number of rows per second from {} to {}, not {}: say --tap-rate", out,
-                                     slowest_played, fastest_played, tap_rate));
-    const double bytes = scene.duration * tap_rate * (format == "pcm16" ? 2 : 3);
-    if (bytes > most_bytes)
-        throw UsageError(fmt::format("{}: a {} holds at most {:.0e} bytes, this would be {:.1e}. A .csv or .h5 holds them", out, extension,
-                                     most_bytes, bytes));
-}
 }  // namespace
 
 std::vector<std::string> trace_columns(const Trace& trace) {
@@ -64,35 +52,25 @@ std::vector<std::string> trace_columns(const Trace& trace) {
     return columns;
 }
 
-void check(const TraceFile& file, const Scene& scene, double tap_rate) {
+void check(const TraceFile& file, const Scene& scene) {
     const std::string extension = file.path.extension().string(), out = "--out " + file.path.string();
-    const bool audio = is_audio(file.path);
-    if (extension != ".csv" && !audio && extension != ".h5")
+    if (extension != ".csv" && extension != ".h5")
         throw UsageError(fmt::format("{}: found the extension \"{}\", expected .csv, .wav, .flac or .h5", out, extension));
-    if (!audio && !file.wav_format.empty()) throw UsageError("--wav-format goes with --out FILE.wav or .flac, not with " + extension);
-    if (audio) check_audio(out, extension, file.wav_format, scene, tap_rate);
     for (const Tap& tap : scene.taps)
         if (extension == ".h5" && tap.name == ".")
             throw UsageError(out + ": a .h5 has a dataset per tap, and none can be named \".\". A .csv holds it");
     must_be_writable(file.path);
 }
 
-std::string write(const TraceFile& file, const Scene& scene, const Trace& trace) {
+void write(const TraceFile& file, const Scene& scene, const Trace& trace) {
     FreshFile fresh(file.path);
-    std::string said;
-    const std::string extension = file.path.extension().string();
     try {
-        if (extension == ".csv") write_csv(fresh.path(), trace);
-        else if (is_audio(file.path)) {
-            const Played p = played(trace.column(0), trace.tap_rate);
-            write_audio(fresh.path(), extension, file.wav_format == "pcm16" ? 16 : 24, trace.tap_rate, p);
-            said = level_text(p);
-        } else write_hdf5(fresh.path(), file.attributes, scene, trace);
+        if (file.path.extension() == ".csv") write_csv(fresh.path(), trace);
+        else write_hdf5(fresh.path(), file.attributes, scene, trace);
     } catch (const std::runtime_error& why) {
         throw Unwritable(fmt::format("cannot write {}: {}", file.path.string(), why.what()));
     }
     fresh.keep();
-    return said;
 }
 
 }  // namespace jvari::bench::store

@@ -1,4 +1,4 @@
-// A trace on disk, by extension: .csv (17 significant digits), .h5 (one dataset per tap), .wav and .flac (its first tap, to be heard).
+// A trace on disk, by extension: .csv (17 significant digits), .h5 (one dataset per tap).
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,14 @@ namespace jvari::bench::store {
 
 struct TraceFile {
     std::filesystem::path path;
-    std::string wav_format;                                       // of .wav and .flac: "" = "pcm24", "pcm16"
     std::vector<std::pair<std::string, std::string>> attributes;  // of the run as a whole (.h5)
 };
 
 // Throws UsageError for a path that cannot be written and a trace that the format cannot hold; before the run, so that no work is lost.
-void check(const TraceFile&, const Scene&, double tap_rate);
+void check(const TraceFile&, const Scene&);
 
-// Returns what the reader has to know of it: "", or how loud it is. Throws Unwritable.
-std::string write(const TraceFile&, const Scene&, const Trace&);
+// Throws Unwritable.
+void write(const TraceFile&, const Scene&, const Trace&);
 
 std::vector<std::string> trace_columns(const Trace&);  // time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J]
 

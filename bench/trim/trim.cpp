@@ -20,12 +20,13 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
         fmt::format("rates below {:g} Hz, at which rows are compared, and rates other than 1, 2, 4, 8, 16, 32 times it", r.tap_rate),
         "references as models, and modes above 20 kHz",
         "several parts left out at once where each alone is beyond the tolerance",
-        "other values of a part than those named: widths between, stiffness by factors other than 10 and 100, a body's filters",
+        "other values of a part than those named: widths between, stiffness by factors other than 10 and 100",
         fmt::format("what happens after {:g} s, and other starts than those named", judge.scene().duration),
         "models that need more than 10 s of computing, or ten times what serves already, for one judged run"};
     if (r.scheme != "any") left.push_back("schemes other than " + r.scheme);
     if (judge.scene().strings.front().pluck || judge.scene().strings.front().initial)
         left.emplace_back("plainer excitations: they are the question");
+    if (judge.scene().body) left.emplace_back("the body: no tap is heard through it");
     std::string names;
     for (const std::string& name : path.tried) names += (names.empty() ? "" : ", ") + name;
     left.push_back("schemes that do not represent the scene or what is left of it; those that do: " + names);

@@ -1,0 +1,174 @@
+#include "bench/sound/audio_file.hpp"
+
+#include <fmt/core.h>
+#include <sndfile.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <stdexcept>
+
+#include "bench/sound/radiation.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/usage.hpp"
+
+namespace jvari::bench::sound {
+
+namespace {
+constexpr double slowest_played = 3000, fastest_played = 384000;  // [Hz], a whole number: what players take
+constexpr double most_bytes = 4e9;                                // a .wav counts its bytes in 32 bits
+constexpr double steady = 20;                                     // [Hz]
+constexpr double de_emphasis = 50e-6;                             // [s]
+constexpr double peak_of_full_scale = -1;                         // [dB]
+
+double decibels(double ratio) {
+    return 20 * std::log10(ratio);
+}
+
+bool is_driven(const Scene& scene) {
+    return std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return !lacks(s, Quantity::driving_force); });
+}
+
+// The body's response for each tap of audible(scene).
+std::vector<Radiation> radiations(const Scene& scene, double rate) {
+    std::vector<Radiation> all;
+    for (const Tap& tap : scene.taps) {
+        const bool bridge = tap.quantity == Quantity::driving_force;
+        const std::string key = bridge ? "body.bridge" : "body.nut";
+        std::vector<double> response = impulse_response(bridge ? scene.body->bridge : scene.body->nut, rate, key);
+        try {
+            all.emplace_back(std::move(response), rate, scene.body->sections);
+        } catch (const std::invalid_argument& e) {
+            throw store::UsageError(fmt::format("body.sections: found {} for {}; {}", scene.body->sections, key, e.what()));
+        }
+    }
+    return all;
+}
+}  // namespace
+
+bool is_audio(const std::filesystem::path& path) {
+    return path.extension() == ".wav" || path.extension() == ".flac";
+}
+
+Scene audible(Scene scene) {
+    const Tap bridge{"bridge", Quantity::driving_force, {}, 0}, nut{"nut", Quantity::nut_force, {}, 0};
+    scene.taps.clear();
+    if (scene.body && !scene.body->bridge.empty() && is_driven(scene)) scene.taps.push_back(bridge);
+    if (scene.body && !scene.body->nut.empty()) scene.taps.push_back(nut);
+    if (!scene.taps.empty()) return scene;
+    scene.body.reset();  // its one response is of a bridge that nothing touches
+    scene.taps = {is_driven(scene) ? bridge : nut};
+    return scene;
+}
+
+void check(const AudioFile& file, const Scene& scene, double tap_rate) {
+    const std::string out = "--out " + file.path.string();
+    if (tap_rate != std::round(tap_rate) || tap_rate < slowest_played || tap_rate > fastest_played)
+        throw store::UsageError(fmt::format("{}: players take a whole number of rows per second from {} to {}, not {}: say --tap-rate", out,
+                                            slowest_played, fastest_played, tap_rate));
+    const double bytes = scene.duration * tap_rate * static_cast<double>(scene.taps.size()) * (file.format == "pcm16" ? 2 : 3);
+    if (bytes > most_bytes)
+        throw store::UsageError(fmt::format("{}: a {} holds at most {:.0e} bytes, this would be {:.1e}. A .csv or .h5 holds them", out,
+                                            file.path.extension().string(), most_bytes, bytes));
+    if (scene.body) radiations(scene, tap_rate);
+    store::must_be_writable(file.path);
+}
+
+std::vector<double> without_steady(std::span<const double> force, double rate) {
+    const double keep = std::exp(-2 * std::numbers::pi * steady / rate);
+    std::vector<double> out;
+    double moving = 0;
+    for (std::size_t n = 0; n < force.size(); ++n) out.push_back(moving = keep * (moving + (n > 0 ? force[n] - force[n - 1] : 0)));
+    return out;
+}
+
+std::vector<double> without_body(std::span<const double> force, double rate) {
+    const double low = std::exp(-1 / (de_emphasis * rate));
+    std::vector<double> out = without_steady(force, rate);
+    double heard = 0;
+    for (double& v : out) v = heard = low * heard + (1 - low) * v;
+    return out;
+}
+
+Played levelled(std::vector<std::vector<double>> channels) {
+    Played p{std::move(channels)};
+    long samples = 0;
+    for (const auto& channel : p.channels)
+        for (const double v : channel) p.peak = std::isfinite(v) ? std::max(p.peak, std::abs(v)) : HUGE_VAL;
+    if (!(p.peak > 0) || std::isinf(p.peak)) {
+        for (auto& channel : p.channels) std::ranges::fill(channel, 0.0);
+        return {std::move(p.channels)};
+    }
+    p.full_scale = p.peak / std::pow(10, peak_of_full_scale / 20);
+    p.peak = 0;
+    for (auto& channel : p.channels)
+        for (double& v : channel) {
+            v /= p.full_scale;
+            p.peak = std::max(p.peak, std::abs(v));
+            p.rms += v * v;
+            p.clipped += std::abs(v) > 1;
+            ++samples;
+        }
+    p.rms = std::sqrt(p.rms / static_cast<double>(samples));
+    return p;
+}
+
+std::string level_text(const Played& p) {
+    if (!(p.full_scale > 0)) return "silence";
+    return fmt::format("full scale {:.3g} N, peak {:.1f} dB, rms {:.1f} dB, {} samples clipped", p.full_scale, decibels(p.peak),
+                       decibels(p.rms), p.clipped);
+}
+
+void write_audio(const std::filesystem::path& path, const std::string& extension, int bits, double rate, const Played& p) {
+    SF_INFO info{};
+    info.samplerate = static_cast<int>(std::lround(rate));
+    info.channels = static_cast<int>(p.channels.size());
+    info.format = (extension == ".flac" ? SF_FORMAT_FLAC : SF_FORMAT_WAV) | (bits == 16 ? SF_FORMAT_PCM_16 : SF_FORMAT_PCM_24);
+    SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
+    if (!file) throw std::runtime_error(sf_strerror(nullptr));
+    sf_command(file, SFC_SET_CLIPPING, nullptr, SF_TRUE);
+    const std::size_t rows = p.channels.front().size();
+    std::vector<double> frames;
+    for (std::size_t n = 0; n < rows; ++n)
+        for (const auto& channel : p.channels) frames.push_back(channel[n]);
+    errno = 0;
+    const bool good = sf_writef_double(file, frames.data(), static_cast<sf_count_t>(rows)) == static_cast<sf_count_t>(rows);
+    const int reason = errno;
+    if (sf_close(file) != 0 || !good) {
+        const int why = good ? errno : reason;
+        throw std::runtime_error(why != 0 ? std::strerror(why) : "libsndfile refuses");
+    }
+}
+
+std::string write(const AudioFile& file, const Scene& scene, const Trace& trace) {
+    std::vector<std::vector<double>> channels;
+    std::string body;
+    if (scene.body) {
+        const std::vector<Radiation> by = radiations(scene, trace.tap_rate);
+        for (std::size_t k = 0; k < by.size(); ++k) {
+            channels.push_back(by[k](without_steady(trace.column(static_cast<int>(k)), trace.tap_rate)));
+            if (scene.body->sections > 0)
+                body += fmt::format("; {} sections leave an error of {:.1f} dB in body.{}", scene.body->sections, by[k].misfit(),
+                                    scene.taps[k].name);
+        }
+        if (file.mono && channels.size() > 1) {
+            for (std::size_t n = 0; n < channels[0].size(); ++n) channels[0][n] += channels[1][n];
+            channels.resize(1);
+        }
+    } else {
+        channels.push_back(without_body(trace.column(0), trace.tap_rate));
+    }
+    const Played p = levelled(std::move(channels));
+    store::FreshFile fresh(file.path);
+    try {
+        write_audio(fresh.path(), file.path.extension().string(), file.format == "pcm16" ? 16 : 24, trace.tap_rate, p);
+    } catch (const std::runtime_error& why) {
+        throw store::Unwritable(fmt::format("cannot write {}: {}", file.path.string(), why.what()));
+    }
+    fresh.keep();
+    return level_text(p) + body;
+}
+
+}  // namespace jvari::bench::sound

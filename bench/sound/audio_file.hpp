@@ -1,0 +1,49 @@
+// What a player plays of a run, .wav or .flac: 24 or 16 bit, the largest sample 1 dB below full scale.
+//
+// Through the body where the scene has one: the driving force of all strings by its response at the bridge on the left, the force on the
+// nut by that at the nut on the right (van Walstijn et al. 2016, Section 4.4); a body of one response gives one channel. Without a body:
+// the driving force where a string has a barrier or a thread, else the force on the nut, its highs lowered as radio lowers them (a low pass
+// of first order at 3183 Hz, the de-emphasis of 50 us), for a force that is flat to 20 kHz is no sound that a body lets out. In both the
+// steady part is taken away (a high pass of first order at 20 Hz). Left out: dither. The signals as they are go to .csv and .h5.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "schemes/trace.hpp"
+
+namespace jvari::bench::sound {
+
+struct AudioFile {
+    std::filesystem::path path;
+    std::string format;  // "" = "pcm24", "pcm16"
+    bool mono = false;   // the sum of what a body has on two channels
+};
+bool is_audio(const std::filesystem::path&);  // by its extension
+
+Scene audible(Scene);  // with the taps that are heard in place of its own
+
+// Throws UsageError for a path that cannot be written, what the format cannot hold and a body that cannot be read; before the run.
+void check(const AudioFile&, const Scene&, double tap_rate);
+
+// Of a run of audible(scene). Returns how loud it is and what stands for the body. Throws Unwritable.
+std::string write(const AudioFile&, const Scene&, const Trace&);
+
+// ---- In parts.
+
+struct Played {
+    std::vector<std::vector<double>> channels;  // of full scale 1
+    double full_scale = 0;                      // what 1 stands for [N], with a body by its response; 0: silence
+    double peak = 0, rms = 0;                   // of full scale, over all channels
+    long clipped = 0;                           // samples beyond it
+};
+std::vector<double> without_body(std::span<const double> force, double rate);
+std::vector<double> without_steady(std::span<const double> force, double rate);
+Played levelled(std::vector<std::vector<double>> channels);
+std::string level_text(const Played&);  // "full scale 1.2 N, peak -1.0 dB, rms -20.3 dB, 0 samples clipped"
+void write_audio(const std::filesystem::path&, const std::string& extension, int bits, double rate, const Played&);  // std::runtime_error
+
+}  // namespace jvari::bench::sound

@@ -1,0 +1,76 @@
+#include "bench/sound/radiation.hpp"
+
+#include <fmt/core.h>
+#include <samplerate.h>
+#include <sndfile.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "analysis/convolution.hpp"
+#include "bench/store/usage.hpp"
+
+namespace jvari::bench::sound {
+
+namespace {
+constexpr double longest = 10;  // [s]
+constexpr int margin = 64;      // rows of silence at both ends, for what the resampler rings ahead of a response that begins at once
+
+struct Close {
+    void operator()(SNDFILE* f) const { sf_close(f); }
+};
+
+std::vector<float> resampled(std::vector<float> x, double ratio) {
+    x.insert(x.begin(), margin, 0.0f);
+    x.insert(x.end(), margin, 0.0f);
+    std::vector<float> y(static_cast<std::size_t>(std::ceil(static_cast<double>(x.size()) * ratio)) + 1);
+    SRC_DATA data{};
+    data.data_in = x.data();
+    data.data_out = y.data();
+    data.input_frames = static_cast<long>(x.size());
+    data.output_frames = static_cast<long>(y.size());
+    data.src_ratio = ratio;
+    if (const int error = src_simple(&data, SRC_SINC_BEST_QUALITY, 1); error != 0) throw std::runtime_error(src_strerror(error));
+    y.resize(static_cast<std::size_t>(data.output_frames_gen));
+    return y;
+}
+}  // namespace
+
+std::vector<double> impulse_response(const std::string& file, double rate, const std::string& key) {
+    const auto refuse = [&](const std::string& why) {
+        throw store::UsageError(
+            fmt::format("{}: found \"{}\", {}; expected a .wav or .flac of one channel and at most {:g} s", key, file, why, longest));
+    };
+    SF_INFO info{};
+    const std::unique_ptr<SNDFILE, Close> sound(sf_open(file.c_str(), SFM_READ, &info));
+    if (!sound) refuse(sf_strerror(nullptr));
+    if (info.channels != 1) refuse(fmt::format("which has {} channels", info.channels));
+    if (info.frames < 1) refuse("which is empty");
+    if (static_cast<double>(info.frames) > longest * info.samplerate) refuse("which is longer");
+    std::vector<float> samples(static_cast<std::size_t>(info.frames));
+    if (sf_readf_float(sound.get(), samples.data(), info.frames) != info.frames) refuse("which ends before its time");
+    const double ratio = rate / info.samplerate;
+    if (ratio != 1) {
+        if (!src_is_valid_ratio(ratio)) refuse(fmt::format("whose {} Hz cannot become {:g} Hz", info.samplerate, rate));
+        samples = resampled(samples, ratio);
+    }
+    std::vector<double> response;
+    for (const float v : samples) {
+        if (!std::isfinite(v)) refuse("which holds a value that is not finite");
+        response.push_back(v / ratio);
+    }
+    return response;
+}
+
+Radiation::Radiation(std::vector<double> response, double rate, int sections) : response_(std::move(response)) {
+    if (sections == 0) return;
+    sections_ = resonators_for(response_, rate, sections);
+    misfit_ = misfit_db(*sections_, response_);
+}
+
+std::vector<double> Radiation::operator()(std::span<const double> force) const {
+    return sections_ ? filtered(*sections_, force) : convolved(force, response_);
+}
+
+}  // namespace jvari::bench::sound

@@ -1,0 +1,100 @@
+#include "bench/sound/synthetic_body.hpp"
+
+#include <fmt/core.h>
+#include <sndfile.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <numbers>
+
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/usage.hpp"
+
+namespace jvari::bench::sound {
+
+namespace {
+constexpr double pi = std::numbers::pi;
+constexpr int rows = 2048, fading = rows / 8;
+constexpr double lowest = 200, highest = 18e3;  // modes [Hz]
+constexpr double quality = 30;
+constexpr double ratio = 1.31;  // of the plate's sides
+
+struct Place {
+    double x, y;  // of each side
+};
+constexpr Place bridge{0.37, 0.42}, nut{0.11, 0.23}, listener{0.29, 0.19};
+
+double shape(int m, int n, const Place& p) {
+    return std::sin(m * pi * p.x) * std::sin(n * pi * p.y);
+}
+
+std::vector<double> plate(const Place& driven) {
+    std::vector<double> h(rows, 0.0);
+    for (int m = 1;; ++m) {
+        const auto frequency = [m](int n) { return lowest * (m * m * ratio * ratio + n * n) / (ratio * ratio + 1); };
+        if (frequency(1) > highest) return h;
+        for (int n = 1; frequency(n) <= highest; ++n) {
+            const double w = 2 * pi * frequency(n) / synthetic_rate, decay = w / (2 * quality);
+            const double strength = w * shape(m, n, driven) * shape(m, n, listener) / (m * n);  // large waves are heard best
+            for (int k = 0; k < rows; ++k) h[k] += strength * std::exp(-decay * k) * std::sin(w * k);
+        }
+    }
+}
+
+// Butterworth of second order by the bilinear transform.
+void high_pass(std::vector<double>& x, double corner) {
+    const double k = std::tan(pi * corner / synthetic_rate), a0 = 1 + std::numbers::sqrt2 * k + k * k;
+    const double a1 = 2 * (k * k - 1) / a0, a2 = (1 - std::numbers::sqrt2 * k + k * k) / a0;
+    double x1 = 0, x2 = 0, y1 = 0, y2 = 0;
+    for (double& v : x) {
+        const double y = (v - 2 * x1 + x2) / a0 - a1 * y1 - a2 * y2;
+        x2 = x1, x1 = v, y2 = y1, y1 = y;
+        v = y;
+    }
+}
+
+double largest_gain(const std::vector<double>& h) {
+    double most = 0;
+    for (int bin = 0; bin <= rows; ++bin) {
+        std::complex<double> sum = 0;
+        const std::complex<double> turn = std::polar(1.0, -pi * bin / rows);
+        for (auto v = h.rbegin(); v != h.rend(); ++v) sum = sum * turn + *v;  // Horner
+        most = std::max(most, std::abs(sum));
+    }
+    return most;
+}
+
+std::vector<double> unscaled(const Place& driven) {
+    std::vector<double> h = plate(driven);
+    high_pass(h, lowest);
+    for (int k = 0; k < fading; ++k) h[rows - 1 - k] *= 0.5 - 0.5 * std::cos(pi * k / fading);
+    return h;
+}
+}  // namespace
+
+std::vector<double> synthetic_response(BodyEnd end) {
+    const double scale = 1 / largest_gain(unscaled(bridge));
+    std::vector<double> h = unscaled(end == BodyEnd::bridge ? bridge : nut);
+    for (double& v : h) v *= scale;
+    return h;
+}
+
+void write_response(const std::filesystem::path& path, std::span<const double> response, double rate) {
+    store::FreshFile fresh(path);
+    SF_INFO info{};
+    info.samplerate = static_cast<int>(std::lround(rate));
+    info.channels = 1;
+    info.format = SF_FORMAT_WAV | SF_FORMAT_FLOAT;
+    SNDFILE* file = sf_open(fresh.path().c_str(), SFM_WRITE, &info);
+    if (!file) throw store::Unwritable(fmt::format("cannot write {}: {}", path.string(), sf_strerror(nullptr)));
+    sf_command(file, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);  // it holds the time of writing
+    const std::vector<float> samples(response.begin(), response.end());
+    const auto count = static_cast<sf_count_t>(samples.size());
+    const bool good = sf_writef_float(file, samples.data(), count) == count;
+    if (sf_close(file) != 0 || !good) throw store::Unwritable(fmt::format("cannot write {}: libsndfile refuses", path.string()));
+    fresh.keep();
+}
+
+}  // namespace jvari::bench::sound
