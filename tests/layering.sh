@@ -31,10 +31,12 @@ for room in command report trim check suite map diff compare trust store; do  # 
 done
 forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
     $(files scenes schemes reference analysis bench/store bench/trust bench/compare bench/diff bench/map bench/suite bench/check bench/report)
+forbid "the Python module sees the engine, not the command line" '#include "bench/command/' $(files python)
+forbid "the engine sees no Python" '#include "python/' $(files scenes schemes reference analysis bench)
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
 forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
 # Libraries, as the table of CONTRIBUTING.md says. The benchmarks of bench/kernels and the tests compare with any of them.
-product=$(files scenes schemes reference analysis bench | grep -v '^bench/kernels/')
+product=$(files scenes schemes reference analysis bench python | grep -v '^bench/kernels/')
 only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin with PLACES alone include PATTERN
     forbid "$1 belongs to $3" "#include <$2" $(echo "$product" | grep -vE "^($3)")
 }
@@ -48,6 +50,7 @@ only CLI11 'CLI/' 'bench/command/'
 only JSON 'nlohmann/' 'bench/'
 only fmt 'fmt/' 'bench/'
 only xxHash 'xxhash' 'bench/store/checksum'
+only pybind11 'pybind11/' 'python/'
 only "libsndfile and HDF5" '(sndfile|hdf5)' 'bench/store/'
 forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp')
