@@ -7,6 +7,7 @@
 
 #include "scenes/columns.hpp"
 #include "scenes/document.hpp"
+#include "scenes/installed.hpp"
 #include "scenes/scene_reader.hpp"
 #include "scenes/wording.hpp"
 
@@ -20,8 +21,9 @@ constexpr std::size_t largest_scene = 1u << 20;  // bytes
 fs::path library() {
     const char* set = std::getenv("JVARI_SCENES");
     std::error_code error;
-    for (const char* directory : {set, JVARI_SOURCE_SCENES, JVARI_INSTALLED_SCENES})
-        if (directory && *directory && fs::is_directory(directory, error)) return directory;
+    for (const fs::path& directory :
+         {fs::path(set ? set : ""), installed("scenes"), fs::path(JVARI_SOURCE_SCENES), fs::path(JVARI_INSTALLED_SCENES)})
+        if (!directory.empty() && fs::is_directory(directory, error)) return directory;
     return {};
 }
 

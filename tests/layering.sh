@@ -31,10 +31,12 @@ for room in command report trim check suite map diff compare trust sound store; 
 done
 forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
     $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/compare bench/diff bench/map bench/suite bench/check bench/report)
+forbid "the Python module sees the engine, not the command line" '#include "bench/command/' $(files python)
+forbid "the engine sees no Python" '#include "python/' $(files scenes schemes reference analysis bench)
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
 forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
 # Libraries, as the table of CONTRIBUTING.md says. The benchmarks of bench/kernels and the tests compare with any of them.
-product=$(files scenes schemes reference analysis bench | grep -v '^bench/kernels/')
+product=$(files scenes schemes reference analysis bench python | grep -v '^bench/kernels/')
 only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin with PLACES alone include PATTERN
     forbid "$1 belongs to $3" "#include <$2" $(echo "$product" | grep -vE "^($3)")
 }
@@ -51,6 +53,7 @@ only xxHash 'xxhash' 'bench/store/checksum'
 only libsndfile 'sndfile' 'bench/(store|sound)/'
 only HDF5 'hdf5' 'bench/store/'
 only libsamplerate 'samplerate' 'bench/sound/'
+only pybind11 'pybind11/' 'python/'
 forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp')
 forbid "-ffast-math is forbidden" 'ffast-math' CMakeLists.txt tests/CMakeLists.txt CMakePresets.json

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/store/records.hpp"
@@ -20,7 +21,8 @@ Json json_of(const Table& table) {
             else if (name == "pareto") j[name] = row[k] == "1";
             else if (row[k].find_first_not_of("0123456789") == std::string::npos && !row[k].empty() && row[k].size() < 18)
                 j[name] = std::stol(row[k]);
-            else j[name] = number_of(row[k]);  // "" and infinities become null
+            else if (const double x = number_of(row[k]); std::isnan(x) && !row[k].empty()) j[name] = row[k];
+            else j[name] = x;  // "" and infinities become null
         }
         rows.push_back(std::move(j));
     }

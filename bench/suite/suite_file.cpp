@@ -11,6 +11,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/table_reader.hpp"
 #include "bench/store/usage.hpp"
+#include "scenes/installed.hpp"
 
 namespace jvari::bench::suite {
 
@@ -92,6 +93,7 @@ CellSet set_of(const store::SuiteReader& read, const Value& v, const std::string
 fs::path library() {
     if (const char* set = std::getenv("JVARI_SUITES"); set && *set) return set;
     std::error_code error;
+    if (const fs::path own = installed("suites"); !own.empty()) return own;
     return fs::is_directory(JVARI_SOURCE_SUITES, error) ? JVARI_SOURCE_SUITES : JVARI_INSTALLED_SUITES;
 }
 }  // namespace

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "bench/store/records.hpp"
+#include "scenes/installed.hpp"
 
 namespace jvari::bench::trust {
 
@@ -118,7 +119,7 @@ std::vector<fs::path> certificate_folders() {
     const char* set = std::getenv("JVARI_CERTIFICATES");
     if (set && *set) return {set};
     if (fs::is_directory("results/certificates", error)) folders.emplace_back("results/certificates");
-    for (const char* folder : {JVARI_SOURCE_CERTIFICATES, JVARI_INSTALLED_CERTIFICATES})
+    for (const fs::path& folder : {installed("certificates"), fs::path(JVARI_SOURCE_CERTIFICATES), fs::path(JVARI_INSTALLED_CERTIFICATES)})
         if (fs::is_directory(folder, error)) {
             folders.emplace_back(folder);
             break;

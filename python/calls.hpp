@@ -1,0 +1,181 @@
+// What the module does: run, run_many, compare, suite, trim. Each hands its arguments to the engine and its result back.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/compare/bound.hpp"
+#include "bench/compare/compare.hpp"
+#include "bench/compare/compare_record.hpp"
+#include "bench/compare/silence.hpp"
+#include "bench/store/rates.hpp"
+#include "bench/store/side_by_side.hpp"
+#include "bench/suite/suite_run.hpp"
+#include "bench/trim/trim_record.hpp"
+#include "python/listening.hpp"
+#include "python/values.hpp"
+
+namespace jvari::python {
+
+using namespace bench;
+
+inline std::vector<std::string>& plugins() {  // files; read and written by who has the interpreter's lock
+    static std::vector<std::string> paths;
+    return paths;
+}
+
+inline void add_plugin(const std::string& path) {
+    const std::string file = std::filesystem::absolute(path);
+    std::vector<std::string> all = plugins();
+    if (std::ranges::find(all, file) != all.end()) return;
+    all.push_back(file);
+    const compare::Catalogue loaded(all);
+    plugins() = all;
+    compare::note_slow_plugins(Ear());
+}
+
+inline std::vector<std::string> scheme_names() {
+    std::vector<std::string> names;
+    const compare::Catalogue catalogue(plugins());
+    for (const auto* list : {&catalogue.schemes, &catalogue.references})
+        for (const Descriptor* d : *list) names.emplace_back(d->name);
+    return names;
+}
+
+struct Job {  // what a run is asked for, its scene aside
+    const Descriptor* scheme;
+    Settings settings;
+};
+inline Job job_of(const std::string& scheme, double rate, std::optional<double> tap_rate, int modes, const py::dict& options) {
+    const Descriptor& d = compare::Catalogue(plugins()).find(scheme);
+    const bool continuous = d.clock == Clock::continuous;
+    Settings s;
+    s.sample_rate = continuous ? 0 : rate;
+    s.tap_rate = tap_rate.value_or(continuous || store::whole_multiple(rate, 44100) ? 44100 : rate);
+    s.modes = modes;
+    if (!continuous && !store::whole_multiple(rate, s.tap_rate))
+        throw store::UsageError("tap_rate " + store::text_of(s.tap_rate) + ": the rate of " + store::text_of(rate) +
+                                " Hz is no whole multiple of it");
+    for (const compare::SchemeOption& o : options_of(options)) {
+        if (!o.scheme.empty() && o.scheme != d.name)
+            throw store::UsageError("option " + o.scheme + ":" + o.name + ": this run is of " + d.name);
+        s.options.emplace_back(o.name, o.value);
+    }
+    return {&d, s};
+}
+
+inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string& scheme, double rate, int modes,
+                                         std::optional<double> duration, std::optional<double> tap_rate, bool energy,
+                                         const py::dict& options) {
+    Scene scene = NamedScene::of(of).scene;
+    if (duration) scene.duration = *duration;
+    compare::note_silent_strings(scene, Ear());
+    const Job job = job_of(scheme, rate, tap_rate, modes, options);
+    return unlocked([&] {
+        RunOptions o;
+        o.energy = energy;
+        o.progress = [](long, long) { look_for_signals(); };
+        return std::make_shared<TakenRun>(run(*job.scheme, scene, job.settings, o), scene);
+    });
+}
+
+inline Column run_many(const std::vector<py::object>& scenes, const std::string& scheme, double rate, int modes,
+                       std::optional<double> duration, std::optional<double> tap_rate, const py::dict& options, int jobs) {
+    const Job job = job_of(scheme, rate, tap_rate, modes, options);
+    std::vector<Scene> all;
+    for (const py::object& o : scenes) {
+        all.push_back(NamedScene::of(o).scene);
+        if (duration) all.back().duration = *duration;
+        if (all.back().duration != all.front().duration || all.back().taps.size() != all.front().taps.size())
+            throw store::UsageError("run_many: scene " + std::to_string(all.size() - 1) +
+                                    " lasts another time or has other taps than the first; duration=... sets one for all");
+    }
+    const long rows = all.empty() ? 0 : std::lround(all.front().duration * job.settings.tap_rate) + 1;
+    const long taps = all.empty() ? 0 : static_cast<long>(all.front().taps.size());
+    Column out({static_cast<py::ssize_t>(all.size()), static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(taps)});
+    double* to = out.mutable_data();
+    unlocked([&] {
+        store::side_by_side(std::vector<double>(all.size(), 1), jobs, Ear(), "runs", [&](std::size_t i, store::Done& done) {
+            RunOptions o;
+            o.progress = [&done](long n, long of) { done = static_cast<double>(n) / static_cast<double>(of); };
+            const Run r = run(*job.scheme, all[i], job.settings, o);
+            double* own = to + static_cast<long>(i) * rows * taps;
+            std::fill_n(own, rows * taps, std::numeric_limits<double>::quiet_NaN());
+            for (int k = 0; k < r.trace.taps(); ++k) {
+                const std::span<const double> values = r.trace.column(k);
+                for (std::size_t n = 0; n < values.size(); ++n) own[static_cast<long>(n) * taps + k] = values[n];
+            }
+        });
+    });
+    return out;
+}
+
+inline py::object compare_rows(const py::object& scene, const std::vector<std::string>& schemes, const std::vector<double>& rates,
+                               int modes, const std::string& reference, std::optional<int> reference_modes, bool controls,
+                               std::optional<double> duration, std::optional<double> tap_rate, const py::dict& options, int repeats,
+                               int jobs) {
+    const NamedScene s = NamedScene::of(scene);
+    compare::CompareRequest r;
+    r.scene = s.name;
+    r.set = s.set;
+    r.schemes = schemes;
+    r.rates = rates;
+    r.modes = modes;
+    r.reference = reference;
+    r.reference_modes = reference_modes;
+    r.controls = controls;
+    r.duration = duration;
+    r.tap_rate = tap_rate;
+    r.options = options_of(options);
+    r.repeats = repeats;
+    r.jobs = jobs;
+    const compare::Catalogue catalogue(plugins());
+    return rows_of(unlocked([&] { return compare::with_bounds(compare::cells_of(compare::compare(r, catalogue, Ear()))); }));
+}
+
+inline py::object suite_rows(const std::string& file, const std::string& out, bool resume, int jobs) {
+    const suite::Suite suite = suite::read_suite(file);
+    const std::vector<std::string> files = plugins();
+    const compare::Catalogue catalogue(files);
+    return rows_of(unlocked([&] {
+        const suite::SuitePlan plan = suite::plan_of(suite, catalogue, files);
+        for (const std::string& note : plan.notes) Ear().note(note);
+        const std::filesystem::path folder = out.empty() ? "" : std::filesystem::path(out) / "cells";
+        if (!folder.empty()) std::filesystem::create_directories(folder);
+        return compare::with_bounds(suite::table_of(plan, suite::run_suite(plan, folder, resume, jobs, Ear()).records));
+    }));
+}
+
+struct TrimmedRows {
+    bool found;
+    py::object path, needs;
+    std::string toml;
+};
+inline TrimmedRows trim_rows(const py::object& scene, const std::string& within, const std::string& of, const std::string& tap,
+                             const std::string& scheme, double duration, double tap_rate, const std::string& reference, int reference_modes,
+                             const std::string& out, int jobs) {
+    const NamedScene s = NamedScene::of(scene);
+    const trim::Request r{s.name, of, within, tap, scheme, reference, out, s.set, plugins(), duration, tap_rate, reference_modes, jobs};
+    const compare::Catalogue catalogue(plugins());
+    store::Table path, needs;
+    std::string toml;
+    const bool found = unlocked([&] {
+        trim::Judge judge(r, catalogue, Ear());
+        const trim::Trimmed t = trim::trimmed(judge, r, catalogue, Ear());
+        path = trim::path_table(t, judge);
+        needs = trim::needs_table(t, judge);
+        if (t.path.found) toml = trim::trimmed_toml(t, judge);
+        return t.path.found;
+    });
+    return {found, rows_of(path), rows_of(needs), toml};
+}
+
+}  // namespace jvari::python

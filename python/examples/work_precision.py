@@ -1,0 +1,42 @@
+"""Draws error against cost of a few schemes: python3 work_precision.py [FILE.svg]
+
+Each line is a scheme, each point a rate. Down is more accurate, left is cheaper.
+"""
+
+import sys
+
+import jvari
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+file = sys.argv[1] if len(sys.argv) > 1 else "work_precision.svg"
+scene = jvari.scene("tanpura_c3_release")
+
+# %% One run, to look at
+run = jvari.run(scene, scheme="modal_two_point", duration=0.05, energy=True)
+print(f"{run.status}: {len(run.time)} rows of {', '.join(run.keys())}; largest nut force {abs(run['nut']).max():.3g} {run.units['nut']}")
+
+# %% Schemes and rates against the exact solution, as the suite work-precision has it
+rows = jvari.compare(
+    scene,
+    schemes=["modal_two_point", "modal_quadratised_three_point", "finite_difference_theta"],
+    rates=[44100, 88200, 176400],
+    reference="exact_contact",
+    reference_modes=1064,
+    duration=0.05,
+    repeats=2,
+)
+
+# %% The picture
+figure, axes = pyplot.subplots(figsize=(6, 4), layout="constrained")
+for scheme in dict.fromkeys(row["scheme"] for row in rows):
+    own = [row for row in rows if row["scheme"] == scheme and row["status"] == "ok"]
+    axes.loglog([row["cost_s_per_s"] for row in own], [row["error_l2_50ms"] for row in own], marker="o", label=scheme)
+axes.set_xlabel("computing time per second of sound [s/s]")
+axes.set_ylabel("relative error of the nut force over 50 ms")
+axes.set_title(scene.name)
+axes.legend()
+figure.savefig(file)
+print(f"written: {file}")

@@ -1,0 +1,93 @@
+"""Numerical schemes for strings against obstacles, compared by speed and accuracy on the same scenes. SI units."""
+
+from typing import Any, Mapping, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Value = Union[bool, int, float, str, Sequence["_Value"]]
+_Row = dict[str, Any]  # its keys are columns; numbers as numbers, None where nothing is known
+
+__version__: str
+
+class Refusal(RuntimeError):
+    """The scheme cannot represent the scene; the sentence says what is missing."""
+
+class SceneError(ValueError):
+    """A scene that is none: file, line, key and what was expected."""
+
+class UsageError(ValueError):
+    """A name or a number that cannot be; the sentence says what was expected."""
+
+class Scene:
+    """What vibrates. A value: set() gives another."""
+
+    def set(self, key: str, value: _Value) -> Scene: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def duration(self) -> float: ...  # s
+    @property
+    def taps(self) -> list[str]: ...
+    def toml(self) -> str: ...
+
+class Run:
+    """What a run produced. run["nut"]: shape (rows,), in units["nut"]; the engine's memory, read-only."""
+
+    def __getitem__(self, tap: str) -> NDArray[np.float64]: ...
+    def keys(self) -> list[str]: ...
+    @property
+    def units(self) -> dict[str, str]: ...
+    @property
+    def time(self) -> NDArray[np.float64]: ...  # s, shape (rows,)
+    @property
+    def tap_rate(self) -> float: ...  # Hz
+    @property
+    def status(self) -> str: ...  # "ok", "diverged", "not_converged"
+    @property
+    def failed_step(self) -> int: ...
+    @property
+    def facts(self) -> dict[str, float]: ...
+    @property
+    def dofs(self) -> int: ...
+    @property
+    def steps(self) -> int: ...
+    @property
+    def wall_seconds(self) -> float: ...  # s
+    def to_xarray(self) -> Any: ...  # xarray.Dataset
+
+class Trimmed:
+    """The cheapest model of a scene within a tolerance, and how it was found."""
+
+    @property
+    def found(self) -> bool: ...
+    @property
+    def path(self) -> list[_Row]: ...
+    @property
+    def needs(self) -> list[_Row]: ...
+    @property
+    def toml(self) -> str: ...
+
+def scene(name: str) -> Scene: ...
+def run(
+    scene: Scene | str, scheme: str, rate: float = 44100, modes: int = 0, duration: float | None = None, tap_rate: float | None = None,
+    energy: bool = False, options: Mapping[str, _Value] = {},
+) -> Run: ...
+def run_many(
+    scenes: Sequence[Scene | str], scheme: str, rate: float = 44100, modes: int = 0, duration: float | None = None,
+    tap_rate: float | None = None, options: Mapping[str, _Value] = {}, jobs: int = 0,
+) -> NDArray[np.float64]: ...  # shape (run, time, tap); NaN after a failure
+def compare(
+    scene: Scene | str, schemes: Sequence[str] = [], rates: Sequence[float] = [], modes: int = 0, reference: str = "",
+    reference_modes: int | None = None, controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
+    options: Mapping[str, _Value] = {}, repeats: int = 5, jobs: int = 0,
+) -> list[_Row]: ...
+def suite(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> list[_Row]: ...
+def trim(
+    scene: Scene | str, within: str, of: str = "l2_50ms", tap: str = "", scheme: str = "any", duration: float = 0.05,
+    tap_rate: float = 44100, reference: str = "", reference_modes: int = 0, out: str = "", jobs: int = 0,
+) -> Trimmed: ...
+def plugin(path: str) -> None: ...
+def schemes() -> list[str]: ...
+def scenes() -> list[str]: ...
+def made_by() -> dict[str, Any]: ...

@@ -1,0 +1,156 @@
+// The Python module: scenes, runs, comparisons, suites and trims as values. jvari.pyi has the types; shapes and units stand in the
+// docstrings. What the engine refuses is an exception with its sentence.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "bench/store/machine.hpp"
+#include "python/calls.hpp"
+
+namespace py = pybind11;
+using namespace jvari;
+
+namespace {
+void raise_as(const py::handle& type, const std::exception& e) {
+    PyErr_SetString(type.ptr(), e.what());
+}
+
+// The types lie in the module, which outlives whoever calls it.
+void translate_exceptions(py::module_& m) {
+    static const py::handle usage = py::exception<bench::store::UsageError>(m, "UsageError", PyExc_ValueError).release();
+    static const py::handle scene = py::exception<SceneFileError>(m, "SceneError", PyExc_ValueError).release();
+    static const py::handle refusal = py::exception<Refusal>(m, "Refusal", PyExc_RuntimeError).release();
+    usage.attr("__doc__") = "A name or a number that cannot be; the sentence says what was expected.";
+    scene.attr("__doc__") = "A scene that is none: file, line, key and what was expected.";
+    refusal.attr("__doc__") = "The scheme cannot represent the scene; the sentence says what is missing.";
+    py::register_exception_translator([](std::exception_ptr p) {
+        try {
+            if (p) std::rethrow_exception(p);
+        } catch (const python::Raised& e) {
+            py::error_already_set(e.error).restore();
+        } catch (const bench::store::UsageError& e) {
+            raise_as(usage, e);
+        } catch (const UnknownOption& e) {
+            raise_as(usage, e);
+        } catch (const SceneFileError& e) {
+            raise_as(scene, e);
+        } catch (const BadScene& e) {
+            raise_as(scene, e);
+        } catch (const Refusal& e) {
+            raise_as(refusal, e);
+        }
+    });
+}
+
+void add_scene(py::module_& m) {
+    using python::NamedScene;
+    py::class_<NamedScene>(m, "Scene", "What vibrates: a scene of the library or a file, with its overrides. A value: set() gives another.")
+        .def("set", &NamedScene::with, py::arg("key"), py::arg("value"),
+             "Another scene, with this key changed: set(\"string.0.tension\", 40) [N].")
+        .def_property_readonly(
+            "name", [](const NamedScene& s) { return s.scene.name; }, "As the file has it.")
+        .def_property_readonly(
+            "duration", [](const NamedScene& s) { return s.scene.duration; }, "How long it lasts [s].")
+        .def_property_readonly(
+            "taps",
+            [](const NamedScene& s) {
+                std::vector<std::string> names;
+                for (const Tap& t : s.scene.taps) names.push_back(t.name);
+                return names;
+            },
+            "Names of what is listened to, in the order of a run's columns.")
+        .def(
+            "toml", [](const NamedScene& s) { return write_scene(s.scene); }, "The scene as a file that reads back as the same.")
+        .def("__repr__", &NamedScene::said);
+    m.def(
+        "scene", [](const std::string& name) { return NamedScene::of(name, {}); }, py::arg("name"),
+        "A scene file, or a scene of the library. Raises SceneError.");
+    m.def("scenes", &library_scenes, "Names of the scenes in the library.");
+}
+
+void add_run(py::module_& m) {
+    using python::TakenRun;
+    py::class_<TakenRun, std::shared_ptr<TakenRun>>(
+        m, "Run",
+        "What a run produced. run[\"nut\"] is the column of a tap, shape (rows,), in units[\"nut\"]: the engine's memory, not a copy, and "
+        "not to be written.")
+        .def("__getitem__", &python::column, py::arg("tap"), "A column, shape (rows,).")
+        .def(
+            "keys",
+            [](const TakenRun& r) {
+                std::vector<std::string> names;
+                for (const auto& [name, unit] : r.units) names.push_back(name);
+                return names;
+            },
+            "Names of the columns: taps, then energy_stored_J, energy_supplied_J and energy_dissipated_J where they were probed.")
+        .def_property_readonly(
+            "units",
+            [](const TakenRun& r) {
+                py::dict units;
+                for (const auto& [name, unit] : r.units) units[py::str(name)] = unit;
+                return units;
+            },
+            "Of each column, by name: \"m\", \"m/s\", \"N\", \"J\".")
+        .def_property_readonly("time", &python::time_of, "Instants of the rows, shape (rows,) [s].")
+        .def_property_readonly(
+            "tap_rate", [](const TakenRun& r) { return r.run.trace.tap_rate; }, "Rows per second [Hz].")
+        .def_property_readonly(
+            "status", [](const TakenRun& r) { return name_of(r.run.status.outcome); }, "\"ok\", \"diverged\" or \"not_converged\".")
+        .def_property_readonly(
+            "failed_step", [](const TakenRun& r) { return r.run.status.step; }, "Where it failed; the rows up to there are valid.")
+        .def_property_readonly("facts", &python::facts_of,
+                               "What the scheme says of its run, by name; `jvari list facts` has meanings and units.")
+        .def_property_readonly(
+            "dofs", [](const TakenRun& r) { return r.run.dofs; }, "Doubles of state.")
+        .def_property_readonly(
+            "steps", [](const TakenRun& r) { return r.run.steps; }, "0 of a reference in continuous time.")
+        .def_property_readonly(
+            "wall_seconds", [](const TakenRun& r) { return r.run.wall_seconds; }, "Of the stepping alone [s].")
+        .def("to_xarray", &python::to_xarray,
+             "xarray.Dataset: a variable per column over `time` [s], each with its units, and the facts as attributes. Needs xarray.");
+    m.def("run", &python::run_one, py::arg("scene"), py::arg("scheme"), py::arg("rate") = 44100.0, py::arg("modes") = 0,
+          py::arg("duration") = py::none(), py::arg("tap_rate") = py::none(), py::arg("energy") = false, py::arg("options") = py::dict(),
+          "One scheme on one scene. rate, tap_rate [Hz]; duration [s]; energy=True adds the energy columns; options {\"compliance\": "
+          "\"matched\"}. Raises Refusal, SceneError or UsageError.");
+    m.def("run_many", &python::run_many, py::arg("scenes"), py::arg("scheme"), py::arg("rate") = 44100.0, py::arg("modes") = 0,
+          py::arg("duration") = py::none(), py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("jobs") = 0,
+          "All scenes, `jobs` at a time (0: one per core). Shape (run, time, tap), in the units of the taps; NaN after a failure.");
+}
+
+void add_studies(py::module_& m) {
+    using python::TrimmedRows;
+    m.def("compare", &python::compare_rows, py::arg("scene"), py::arg("schemes") = std::vector<std::string>(),
+          py::arg("rates") = std::vector<double>(), py::arg("modes") = 0, py::arg("reference") = "",
+          py::arg("reference_modes") = py::none(), py::arg("controls") = false, py::arg("duration") = py::none(),
+          py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("repeats") = 5, py::arg("jobs") = 0,
+          "Schemes x rates [Hz] against a reference, as `jvari compare`: a dict per cell, its keys the columns of cells.csv and the bounds "
+          "of the errors. None where nothing is known.");
+    m.def("suite", &python::suite_rows, py::arg("file"), py::arg("out") = "", py::arg("resume") = false, py::arg("jobs") = 0,
+          "The cells of a suite, a dict each, its maps aside. out: the folder that keeps them, as `jvari suite --out` does.");
+    py::class_<TrimmedRows>(m, "Trimmed", "The cheapest model of a scene within a tolerance, and how it was found.")
+        .def_readonly("found", &TrimmedRows::found, "Whether there is one.")
+        .def_readonly("path", &TrimmedRows::path,
+                      "A dict per step from the whole scene to the trimmed one, which is the last: the columns of path.csv.")
+        .def_readonly("needs", &TrimmedRows::needs, "A dict per part of the scene, what it is needed for: the columns of needs.csv.")
+        .def_readonly("toml", &TrimmedRows::toml, "The trimmed scene as a file; \"\" where there is none.");
+    m.def("trim", &python::trim_rows, py::arg("scene"), py::arg("within"), py::arg("of") = "l2_50ms", py::arg("tap") = "",
+          py::arg("scheme") = "any", py::arg("duration") = 50e-3, py::arg("tap_rate") = 44100.0, py::arg("reference") = "",
+          py::arg("reference_modes") = 0, py::arg("out") = "", py::arg("jobs") = 0,
+          "No more than a scene needs, as `jvari trim`: trim(\"tanpura_c3_release\", \"1%\", scheme=\"modal_two_point\"). duration [s], "
+          "tap_rate [Hz]; out: the folder that keeps what was judged.");
+}
+}  // namespace
+
+PYBIND11_MODULE(jvari, m) {
+    m.doc() = "Numerical schemes for strings against obstacles, compared by speed and accuracy on the same scenes. SI units.";
+    m.attr("__version__") = bench::store::machine().version;
+    translate_exceptions(m);
+    add_scene(m);
+    add_run(m);
+    add_studies(m);
+    m.def("plugin", &python::add_plugin, py::arg("path"), "Loads schemes from a shared object; their names are known from then on.");
+    m.def("schemes", &python::scheme_names, "Names of schemes and references, plugins' among them.");
+    m.def(
+        "made_by", [] { return python::parsed(bench::store::made_by()); },
+        "What results depend on: program, compiler, flags, vector instructions, machine, plugins; as a manifest begins.");
+}

@@ -1,0 +1,123 @@
+// Python's values and the engine's: keys and options as text, scenes, tables as rows, columns of a trace as arrays on its memory.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/compare/request.hpp"
+#include "bench/store/records.hpp"
+#include "bench/store/usage.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari::python {
+
+namespace py = pybind11;
+
+inline std::string text_of(const py::handle& value) {  // as an override or an option has it
+    if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+    if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+    if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+        std::string text;
+        for (const py::handle& item : value) text += (text.empty() ? "" : ", ") + text_of(item);
+        return "[" + text + "]";
+    }
+    return py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>() : bench::store::text_of(value.cast<double>());
+}
+
+inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& options) {  // {"[SCHEME:]NAME": value}
+    std::vector<bench::compare::SchemeOption> all;
+    for (const auto& [key, value] : options) {
+        const auto name = key.cast<std::string>();
+        const auto colon = name.find(':');
+        all.push_back({colon == std::string::npos ? "" : name.substr(0, colon), name.substr(colon + 1), text_of(value)});
+    }
+    return all;
+}
+
+struct NamedScene {  // a scene as it was asked for, and what that is
+    std::string name;
+    std::vector<std::string> set;  // "key.path=value"
+    Scene scene;
+
+    static NamedScene of(const std::string& name, std::vector<std::string> set) {
+        Scene scene = read_scene(name, set);
+        return {name, std::move(set), std::move(scene)};
+    }
+    static NamedScene of(const py::object& o) { return py::isinstance<py::str>(o) ? of(o.cast<std::string>(), {}) : o.cast<NamedScene>(); }
+    NamedScene with(const std::string& key, const py::object& to) const {
+        auto all = set;
+        all.push_back(key + "=" + text_of(to));
+        return of(name, std::move(all));
+    }
+    std::string said() const {
+        std::string text = "jvari.scene('" + name + "')";
+        for (const std::string& o : set) text += ".set('" + o.substr(0, o.find('=')) + "', '" + o.substr(o.find('=') + 1) + "')";
+        return text;
+    }
+};
+
+inline py::object parsed(const std::string& json) {
+    return py::module_::import("json").attr("loads")(json);
+}
+inline py::object rows_of(const bench::store::Table& t) {
+    return parsed(bench::store::rows_json(t));
+}
+
+using Column = py::array_t<double>;
+
+struct TakenRun {  // a run, and what its columns are in
+    Run run;
+    std::vector<std::pair<std::string, std::string>> units;  // of each column: taps, then what of the energy was probed
+
+    TakenRun(Run r, const Scene& scene) : run(std::move(r)) {
+        for (const Tap& t : scene.taps) units.emplace_back(t.name, unit_of(t.quantity));
+        if (!run.trace.energy.empty())
+            for (const char* name : {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"}) units.emplace_back(name, "J");
+    }
+};
+
+// A column as it lies in the trace: the array keeps the run alive.
+inline Column column(const py::object& self, const std::string& name) {
+    const auto& taken = self.cast<const TakenRun&>();
+    const Trace& trace = taken.run.trace;
+    std::vector<std::string> names;
+    for (const auto& [column_name, unit] : taken.units) {
+        const int k = static_cast<int>(names.size());
+        names.push_back(column_name);
+        if (column_name != name) continue;
+        const auto values = k < trace.taps() ? trace.column(k) : trace.energy_column(k - trace.taps());
+        Column a(static_cast<py::ssize_t>(values.size()), values.data(), self);
+        a.attr("setflags")(py::arg("write") = false);
+        return a;
+    }
+    throw py::key_error(bench::store::unknown("tap", name, names));
+}
+
+inline Column time_of(const TakenRun& r) {
+    Column t(r.run.trace.rows);
+    for (long n = 0; n < r.run.trace.rows; ++n) t.mutable_data()[n] = static_cast<double>(n) / r.run.trace.tap_rate;
+    return t;
+}
+
+inline py::dict facts_of(const TakenRun& r) {
+    py::dict facts;
+    for (const Fact& f : r.run.facts) facts[py::str(f.name)] = f.value;
+    return facts;
+}
+
+inline py::object to_xarray(const py::object& self) {
+    const auto& r = self.cast<const TakenRun&>();
+    const py::module_ xarray = py::module_::import("xarray");
+    py::dict columns, coordinates;
+    for (const auto& [name, unit] : r.units)
+        columns[py::str(name)] = py::make_tuple("time", column(self, name), py::dict(py::arg("units") = unit));
+    coordinates["time"] = py::make_tuple("time", time_of(r), py::dict(py::arg("units") = "s"));
+    return xarray.attr("Dataset")(columns, coordinates, facts_of(r));
+}
+
+}  // namespace jvari::python

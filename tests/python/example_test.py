@@ -1,0 +1,48 @@
+"""The example draws its picture, and its cells are those of the committed study.
+
+example_test.py SOURCE: one of its schemes has three cells in results/work-precision/errors.csv. They come out to the last digit where the
+compiler and the vector instructions are those of the study, else to what rounding leaves.
+"""
+
+import csv
+import importlib.util
+import json
+import os
+import runpy
+import sys
+import tempfile
+import warnings
+import xml.etree.ElementTree
+
+if importlib.util.find_spec("matplotlib") is None:
+    print("skipped: matplotlib is not installed (Debian: python3-matplotlib)")
+    sys.exit(77)
+import jvari
+
+source = sys.argv[1]
+warnings.simplefilter("ignore")  # what is said of certificates
+with tempfile.TemporaryDirectory() as folder:
+    sys.argv = ["work_precision.py", os.path.join(folder, "picture.svg")]
+    rows = runpy.run_path(os.path.join(source, "python", "examples", "work_precision.py"))["rows"]
+    drawing = xml.etree.ElementTree.parse(sys.argv[1]).getroot()
+lines = [e for e in drawing.iter() if e.get("id", "").startswith("line2d_") and len(list(e.iter("{http://www.w3.org/2000/svg}use"))) == 3]
+assert len(lines) >= 3, f"{len(lines)} lines of three points are drawn"
+
+with open(os.path.join(source, "results", "work-precision", "errors.csv")) as file:
+    study = {(row["scheme"], float(row["rate"])): row for row in csv.DictReader(file) if row["options"] in ("", "compliance=own") and row["rate"]}
+with open(os.path.join(source, "results", "work-precision", "manifest.json")) as file:
+    made_by = json.load(file)
+here = jvari.made_by()
+same = all(here[key] == made_by[key] for key in ("compiler", "flags", "vectors"))
+
+checked = 0
+for row in rows:
+    if row["scheme"] != "modal_two_point":
+        continue
+    committed = study[row["scheme"], row["rate"]]
+    for column in ("error_l2_10ms", "error_l2_50ms", "error_in_model_l2_10ms", "error_in_model_l2_50ms", "floor_error_l2_50ms"):
+        found, expected = row[column], float(committed[column])
+        assert found == expected if same else abs(found - expected) <= 1e-6 * expected, f"{row['rate']} Hz: {column} is {found}, not {expected}"
+    checked += 1
+assert checked == 3, f"{checked} cells"
+print("three cells to the last digit" if same else f"three cells to 1e-6: the study was made by {made_by['compiler']}, {made_by['vectors']}")

@@ -1,0 +1,256 @@
+"""The Python module: the same numbers as the program, its memory without a copy, refusals as exceptions, Ctrl-C.
+
+module_test.py PROGRAM PLUGIN
+"""
+
+import ast
+import csv
+import gc
+import importlib.util
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+import jvari
+import numpy as np
+
+PROGRAM, PLUGIN = sys.argv[1:3]
+SHORT = {"duration": 0.01}
+
+
+def rows_of(file):
+    with open(file) as stream:
+        return list(csv.DictReader(stream))
+
+
+class Module(unittest.TestCase):
+    def setUp(self):
+        warnings.simplefilter("ignore", UserWarning)  # what is said of certificates
+
+    def test_a_run_is_the_programs_to_the_last_bit(self):
+        scene = jvari.scene("tanpura_c3_release").set("string.0.tension", 40)
+        run = jvari.run(scene, scheme="modal_two_point", rate=88200, energy=True, options={"compliance": "matched"}, **SHORT)
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/a.csv"
+            subprocess.run(
+                [PROGRAM, "run", "tanpura_c3_release", "--set", "string.0.tension=40", "--scheme", "modal_two_point", "--rate", "88200",
+                 "--option", "compliance=matched", "--duration", "0.01", "--energy", "--quiet", "--out", file], check=True)
+            rows = rows_of(file)
+        self.assertEqual(run.status, "ok")
+        self.assertEqual(len(rows), 442)
+        self.assertEqual(run.keys()[-3:], ["energy_stored_J", "energy_supplied_J", "energy_dissipated_J"])
+        for name in run.keys():
+            self.assertEqual([float(row[name]) for row in rows], list(run[name]), name)
+        self.assertEqual([float(row["time_s"]) for row in rows], list(run.time))
+        self.assertEqual(run.units["nut"], "N")
+        self.assertEqual(run.units["y03"], "m")
+        self.assertTrue(all(isinstance(value, float) for value in run.facts.values()) and run.facts)
+        self.assertEqual(run.steps, 884)
+
+    def test_arrays_are_the_engines_memory_and_keep_it(self):
+        run = jvari.run("tanpura_c3_release", "modal_two_point", **SHORT)
+        a, b = run["nut"], run["nut"]
+        self.assertTrue(np.shares_memory(a, b))
+        self.assertFalse(a.flags.writeable)
+        self.assertFalse(a.flags.owndata)
+        before = a.copy()
+        del run, b
+        gc.collect()
+        for _ in range(20):
+            jvari.run("free_string", "modal_two_point", **SHORT)
+        self.assertTrue(np.array_equal(a, before))
+
+    def test_refusals_are_exceptions_with_the_sentence(self):
+        with self.assertRaisesRegex(jvari.UsageError, 'unknown scheme or reference "modal_two_pont"; did you mean "modal_two_point"'):
+            jvari.run("tanpura_c3", "modal_two_pont")
+        with self.assertRaisesRegex(jvari.Refusal, "sitar_waveguide|represent"):
+            jvari.run("tanpura_c3", "sitar_waveguide")
+        with self.assertRaisesRegex(jvari.UsageError, "option"):
+            jvari.run("tanpura_c3", "modal_two_point", options={"complience": "own"})
+        with self.assertRaisesRegex(jvari.UsageError, "modal_strang:compliance: this run is of modal_two_point"):
+            jvari.run("tanpura_c3", "modal_two_point", options={"modal_strang:compliance": "own"})
+        with self.assertRaisesRegex(jvari.SceneError, "string.0.tension.*expected"):
+            jvari.scene("tanpura_c3").set("string.0.tension", -3)
+        with self.assertRaisesRegex(jvari.SceneError, "did you mean"):
+            jvari.scene("tanpura_c4")
+        with self.assertRaisesRegex(ValueError, "no whole multiple"):
+            jvari.run("tanpura_c3", "modal_two_point", rate=48000, tap_rate=44100)
+        with self.assertRaisesRegex(jvari.Refusal, "-1.* s at 44100"):
+            jvari.run("tanpura_c3", "modal_two_point", duration=-1)
+        with self.assertRaisesRegex(KeyError, 'did you mean .*nut'):
+            jvari.run("tanpura_c3_release", "modal_two_point", **SHORT)["nutt"]
+
+    def test_a_scene_is_a_value(self):
+        a = jvari.scene("tanpura_c3")
+        b = a.set("string.0.tension", 40)
+        self.assertNotEqual(a.toml(), b.toml())
+        self.assertEqual(a.toml(), jvari.scene("tanpura_c3").toml())
+        self.assertEqual(repr(b), "jvari.scene('tanpura_c3').set('string.0.tension', '40')")
+        self.assertEqual(eval(repr(b)).toml(), b.toml())
+        self.assertIn("nut", b.taps)
+        self.assertIn("tanpura_c3", jvari.scenes())
+
+    def test_a_failed_run_says_so_and_keeps_its_valid_rows(self):
+        run = jvari.run("tanpura_c3_release", "modal_explicit_penalty", **SHORT)
+        self.assertEqual(run.status, "diverged")
+        self.assertGreater(run.failed_step, 0)
+        self.assertLess(len(run.time), 442)
+        self.assertEqual(len(run["nut"]), len(run.time))
+        many = jvari.run_many(["tanpura_c3_release"], "modal_explicit_penalty", **SHORT)
+        self.assertTrue(np.array_equal(many[0, :len(run.time), 0], run[run.keys()[0]]))
+        self.assertTrue(np.isnan(many[0, len(run.time):]).all())
+
+    def test_run_many_is_run_one_by_one(self):
+        scenes = [jvari.scene("tanpura_c3_release").set("string.0.tension", t) for t in (30, 33.5, 38)]
+        many = jvari.run_many(scenes, "modal_two_point", jobs=2, **SHORT)
+        self.assertEqual(many.shape, (3, 442, len(scenes[0].taps)))
+        for k, scene in enumerate(scenes):
+            run = jvari.run(scene, "modal_two_point", **SHORT)
+            for j, name in enumerate(scene.taps):
+                self.assertTrue(np.array_equal(many[k, :, j], run[name]), name)
+        self.assertFalse(np.array_equal(many[0], many[1]))
+        with self.assertRaisesRegex(jvari.UsageError, "scene 1 lasts another time"):
+            jvari.run_many(["tanpura_c3_release", jvari.scene("tanpura_c3_release").set("duration", 2)], "modal_two_point")
+        with self.assertRaises(jvari.Refusal):
+            jvari.run_many(["tanpura_c3"] * 3, "sitar_waveguide", **SHORT)
+        self.assertEqual(jvari.run_many([], "modal_two_point").shape, (0, 0, 0))
+
+    def test_the_interpreter_goes_on_while_the_engine_computes(self):
+        counted, done = [0], threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0.001)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        before = counted[0]
+        jvari.run("tanpura_c3", "modal_two_point", rate=705600, duration=0.5)
+        after = counted[0]
+        done.set()
+        thread.join()
+        self.assertGreater(after - before, 5)
+
+    def test_ctrl_c_ends_whatever_computes(self):
+        rate = 44100 * 64
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/long.toml"
+            with open(file, "w") as f:
+                f.write(f'[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [{rate}]\nduration = 1\nrepeats = 50\nmeasure = ["errors", "cost"]\n')
+            for name, call in {
+                "run": lambda: jvari.run("tanpura_c3", "modal_two_point", rate=rate, duration=60),
+                "run_many": lambda: jvari.run_many(["tanpura_c3"] * 4, "modal_two_point", rate=rate, duration=60),
+                "compare": lambda: jvari.compare("tanpura_c3", schemes=["modal_two_point"], rates=[rate], duration=60),
+                "suite": lambda: jvari.suite(file),
+                "trim": lambda: jvari.trim("tanpura_c3", "0.0001%", duration=1),
+            }.items():
+                with self.subTest(name):
+                    timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
+                    timer.start()
+                    start = time.monotonic()
+                    with self.assertRaises(KeyboardInterrupt):
+                        call()
+                    self.assertLess(time.monotonic() - start, 30)  # of what would take minutes
+                    timer.join()
+
+    def test_a_note_that_the_caller_wants_as_an_error_is_one(self):
+        warnings.simplefilter("error", UserWarning)
+        with self.assertRaisesRegex(UserWarning, "string"):
+            jvari.run(jvari.scene("free_string").set("string.0.initial.amplitude", 0), "modal_two_point", **SHORT)
+
+    def test_a_plugin_brings_its_schemes(self):
+        before = set(jvari.schemes())
+        there = os.getcwd()
+        os.chdir(os.path.dirname(PLUGIN))
+        try:
+            jvari.plugin(os.path.basename(PLUGIN))
+        finally:
+            os.chdir(there)
+        brought = set(jvari.schemes()) - before
+        self.assertEqual(len(brought), 1)
+        self.assertEqual(jvari.run("free_string", brought.pop(), **SHORT).status, "ok")
+        jvari.plugin(PLUGIN)  # once more is none the worse
+        with self.assertRaisesRegex(jvari.UsageError, "no/such/plugin.so"):
+            jvari.plugin("/no/such/plugin.so")
+
+    def test_a_comparison_is_the_programs_rows(self):
+        rows = jvari.compare("tanpura_c3_release", schemes=["modal_two_point", "modal_quadratised"], rates=[44100, 88200], repeats=1, **SHORT)
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(
+                [PROGRAM, "compare", "tanpura_c3_release", "--schemes", "modal_two_point", "modal_quadratised", "--rates", "44100", "88200",
+                 "--repeats", "1", "--duration", "0.01", "--quiet", "--out", folder], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
+            kept = rows_of(folder + "/errors.csv")
+        self.assertEqual(len(rows), 4)
+        for row, old in zip(rows, kept):
+            for column in old:
+                if column.startswith("error_"):
+                    self.assertEqual(row[column], float(old[column]) if old[column] else None, column)
+            self.assertGreater(row["cost_s_per_s"], 0)
+            self.assertIn("bound_l2_10ms", row)
+
+    def test_a_suite_is_its_rows(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/a.toml"
+            with open(file, "w") as f:
+                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nduration = 0.01\n')
+            rows = jvari.suite(file, out=folder + "/out")
+            self.assertEqual([row["rate"] for row in rows], [44100, 88200])
+            self.assertEqual(len(os.listdir(folder + "/out/cells")), 2)
+            self.assertEqual(jvari.suite(file, out=folder + "/out", resume=True), rows)
+
+    def test_a_trim_is_its_path_and_its_needs(self):
+        trimmed = jvari.trim("free_string", "10%", scheme="modal_two_point", duration=0.01, reference="exact_linear")
+        self.assertTrue(trimmed.found)
+        self.assertLess(trimmed.path[-1]["error"], 0.1)
+        self.assertLess(trimmed.path[-1]["modes"], trimmed.path[0]["modes"] or 133)
+        self.assertIn("bending_stiffness", " ".join(row["part"] for row in trimmed.needs))
+        with tempfile.TemporaryDirectory() as folder:
+            with open(folder + "/trimmed.toml", "w") as f:
+                f.write(trimmed.toml)
+            self.assertEqual(jvari.scene(folder + "/trimmed.toml").name, "free_string_trimmed")
+        with self.assertRaisesRegex(jvari.UsageError, "within"):
+            jvari.trim("free_string", "ten")
+
+    def test_a_run_is_a_dataset(self):
+        if importlib.util.find_spec("xarray") is None:
+            self.skipTest("xarray is not installed (Debian: python3-xarray)")
+        run = jvari.run("tanpura_c3_release", "modal_two_point", energy=True, **SHORT)
+        data = run.to_xarray()
+        self.assertEqual(list(data.data_vars), run.keys())
+        self.assertEqual(data["nut"].dims, ("time",))
+        self.assertEqual(data["nut"].attrs["units"], "N")
+        self.assertTrue(np.shares_memory(data["nut"].values, run["nut"]))
+        self.assertTrue(np.array_equal(data["time"].values, run.time))
+        self.assertEqual(data.attrs, run.facts)
+
+    def test_the_stubs_name_what_there_is(self):
+        with open(os.path.join(os.path.dirname(jvari.__file__), "jvari.pyi")) as f:
+            stubs = ast.parse(f.read())
+        functions = (ast.FunctionDef, ast.ClassDef)
+        names = {n.name: n for n in stubs.body if isinstance(n, functions)}
+        public = {name for name in dir(jvari) if not name.startswith("_")}
+        self.assertEqual(set(names), public)
+        for name, node in names.items():
+            there = getattr(jvari, name)
+            self.assertTrue(there.__doc__, name)
+            if isinstance(node, ast.ClassDef):
+                stubbed = {n.name for n in node.body if isinstance(n, functions)}
+                own = {member for member in vars(there) if not member.startswith("_") or member == "__getitem__"} if stubbed else set()
+                self.assertEqual(stubbed, own, name)
+                for member in own:
+                    self.assertTrue(getattr(there, member).__doc__, f"{name}.{member}")
+            else:  # pybind11 writes the signature into the docstring
+                signature = there.__doc__.split("\n")[0]
+                self.assertEqual([argument.arg for argument in node.args.args], re.findall(r"(\w+): ", signature), name)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
