@@ -3,6 +3,7 @@
 #pragma once
 
 #include <dlfcn.h>
+#include <sys/auxv.h>
 
 #include <filesystem>
 
@@ -12,10 +13,10 @@ namespace jvari {
 inline std::filesystem::path installed(const char* what) {
     std::error_code error;
     Dl_info in{};
-    std::filesystem::path file = dladdr(reinterpret_cast<const void*>(&installed), &in) && in.dli_fname ? in.dli_fname : "";
-    if (!file.is_absolute()) file = std::filesystem::read_symlink("/proc/self/exe", error);  // a program, as it was called
-    for (; file.has_relative_path(); file = file.parent_path())
-        if (auto place = file.parent_path() / "share" / "jvari" / what; std::filesystem::exists(place, error)) return place;
+    const char* file = dladdr(reinterpret_cast<const void*>(&installed), &in) ? in.dli_fname : nullptr;
+    if (!file || *file != '/') file = reinterpret_cast<const char*>(getauxval(AT_EXECFN));  // a program, as it was called
+    for (auto at = std::filesystem::canonical(file, error); at.has_relative_path(); at = at.parent_path())
+        if (auto place = at.parent_path() / "share" / "jvari" / what; std::filesystem::exists(place, error)) return place;
     return {};
 }
 
