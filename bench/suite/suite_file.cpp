@@ -133,8 +133,10 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
 Suite read_suite(const std::string& name) {
     std::error_code error;
     const fs::path shelved = library() / (name + ".toml");
-    const bool file = fs::is_regular_file(name, error);
-    if (!file && (name.find('/') != std::string::npos || !fs::is_regular_file(shelved, error)))
+    // a bare name is the library's where it has it, whatever lies where the program runs: ./NAME is a file
+    const bool known = name.find('/') == std::string::npos && fs::is_regular_file(shelved, error);
+    const bool file = !known && fs::is_regular_file(name, error);
+    if (!file && !known)
         throw store::UsageError(store::unknown("suite", name, library_suites()) + " (neither a file nor a suite of the library)");
     const std::string path = file ? name : shelved.string();
     Suite suite = parse_suite(store::read_whole(path), path);
