@@ -144,6 +144,19 @@ TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
     EXPECT_NE(bench::compare::cheapest_text(t).find("perhaps for less a"), std::string::npos) << bench::compare::cheapest_text(t);
 }
 
+TEST(Cheapest, AControlIsNamedOnlyWhereItCompetes) {
+    const bench::store::Table cells = cells_of({{"modal_two_point_trapezoidal", "100", "", "0.0005", "", "0.5", 1},
+                                                {"modal_two_point", "100", "", "0.005", "", "2", 2},
+                                                {"modal_explicit_penalty", "100", "", "0.005", "", "2", 2}});
+    const bench::store::Table t = bench::compare::cheapest_of(cells);
+    EXPECT_EQ(t.at(0, "scheme"), "modal_two_point");  // 10 %
+    EXPECT_EQ(t.at(0, "ties"), "");
+    EXPECT_EQ(t.at(2, "status"), "none");  // 0.1 %
+    const bench::store::Table all = bench::compare::cheapest_of(cells, "", bench::compare::Controls::compete);
+    EXPECT_EQ(all.at(0, "scheme"), "modal_two_point_trapezoidal");
+    EXPECT_EQ(all.at(2, "scheme"), "modal_two_point_trapezoidal");
+}
+
 std::vector<bool> front_of(const std::vector<Sample>& samples) {
     const bench::store::Table t = cells_of(samples);
     return bench::compare::pareto_front(t, bench::store::all_rows(t), "error_l2_50ms", "cost_s_per_s");

@@ -1,6 +1,8 @@
 // The report of a folder: a section where there is data and none where there is not, each with what its files say. The folder is made up.
 #include "bench/report/report.hpp"
 
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -188,6 +190,63 @@ TEST(Report, TheVerdictNamesSchemeRateErrorCostAndCertaintyOfEachScene) {
     EXPECT_NE(verdicts[0].sentences.at(0).find("Truth: truth"), std::string::npos) << verdicts[0].sentences.at(0);
 }
 
+TEST(Report, AControlIsInTheVerdictOnlyWhereTheManifestSaysThatControlsCompete) {
+    const MadeUp folder(every_file);
+    std::string cells = content(folder / "cells.csv");
+    for (auto at = cells.find(",one,"); at != std::string::npos; at = cells.find(",one,")) cells.replace(at, 5, ",modal_explicit_penalty,");
+    std::ofstream(folder / "cells.csv", std::ios::binary) << cells;
+    const auto verdict = [&folder] { return verdicts_of(bench::report::read_results(folder.path)).at(0).table.rows.at(0); };
+    EXPECT_EQ(verdict()[1], "three <b>");
+    std::ofstream(folder / "manifest.json") << R"({"suite": "made up", "controls": true})";
+    EXPECT_EQ(verdict()[1], "modal_explicit_penalty");
+}
+
+// What a record keeps of a suite: errors and costs, each in a file of its own.
+struct Record : MadeUp {
+    Record() : MadeUp({"manifest.json", "cells.csv"}) {
+        const bench::store::Table cells = bench::store::read_csv(content(*this / "cells.csv"));
+        const std::vector<std::string> clocked{"cost_s_per_s", "cost_lower", "cost_upper", "ns_per_step"};
+        std::vector<std::string> rest;
+        for (const std::string& name : cells.columns)
+            if (std::find(clocked.begin(), clocked.end(), name) == clocked.end()) rest.push_back(name);
+        std::vector<std::string> cost{"cell", "scene", "scheme", "rate"};
+        cost.insert(cost.end(), clocked.begin(), clocked.end());
+        std::ofstream(*this / "errors.csv", std::ios::binary) << bench::store::csv(cells.only(rest));
+        std::ofstream(*this / "cost.csv", std::ios::binary) << bench::store::csv(cells.only(cost));
+        fs::remove(path / "cells.csv");
+    }
+};
+
+TEST(Report, IsMadeOfARecordsErrorsAndCostsAsOfItsCells) {
+    const Record record;
+    const MadeUp whole({"manifest.json", "cells.csv"});
+    const auto drawn = [](const fs::path& folder) {
+        const bench::report::Results r = bench::report::read_results(folder);
+        return work_precision_section(r).charts.at(0).spec + verdicts_of(r).at(0).table.rows.at(0).at(2);
+    };
+    EXPECT_EQ(drawn(record.path), drawn(whole.path));
+    std::string cost = content(record / "cost.csv");
+    cost.replace(cost.find("88200"), 5, "88300");
+    std::ofstream(record / "cost.csv", std::ios::binary) << cost;
+    const Outcome o = jvari(record, "report " + record.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("cost.csv: its rows are not those of errors.csv"), std::string::npos) << o.err;
+}
+
+TEST(Report, WhatIsSweptHasAChartOfErrorAlongIt) {
+    const MadeUp folder(every_file);
+    const bench::report::Section s = bench::report::sweep_section(bench::report::read_results(folder.path));
+    ASSERT_EQ(s.charts.size(), 1u);
+    EXPECT_EQ(choices_of(s.charts[0], "base_field"), (std::vector<std::string>{"a", "b"}));
+    const Json spec = Json::parse(s.charts[0].spec);
+    EXPECT_EQ(spec.at("encoding").at("x").at("axis").at("title"), "tension [N]");
+    std::set<double> places;
+    for (const Json& row : spec.at("datasets").at("rows")) places.insert(row.at("at").get<double>());
+    EXPECT_EQ(places, (std::set<double>{30, 31}));
+    ASSERT_EQ(s.charts[0].twins.size(), 2u);
+    EXPECT_EQ(s.charts[0].twins[0].file, "sweep-string.0.tension-a.svg");
+}
+
 TEST(Report, ABusyMachineIsSaid) {
     bench::store::Table cells{{"cost_s_per_s", "cost_lower", "cost_upper"},
                               {{"1", "0.9", "1.1"}, {"1", "0.5", "1.1"}, {"1", "0.75", "1.25"}, {"", "", ""}}};
@@ -253,6 +312,16 @@ TEST(Report, MapsHoldTheirBoundariesAndTheory) {
     EXPECT_EQ(spec.at("encoding").at("x").at("scale").at("type"), "log");
     EXPECT_EQ(Json::parse(s.charts[1].spec).at("encoding").at("x").at("scale").at("type"), "linear");
     int boundaries = 0;
+    std::map<double, std::pair<double, double>> tiles;  // of each place their edges
+    for (const Json& row : spec.at("datasets").at("rows"))
+        if (row.at("kind") == "cell") tiles[row.at("x")] = {row.at("left"), row.at("right")};
+    for (auto tile = tiles.begin(); std::next(tile) != tiles.end(); ++tile) {
+        const auto& [x, edges] = *tile;
+        EXPECT_NEAR(edges.second / std::sqrt(x * std::next(tile)->first), 1, 1e-12) << x;  // half-way on a logarithmic axis
+        EXPECT_NEAR(edges.second / std::next(tile)->second.first, 1, 1e-12) << x;
+    }
+    EXPECT_LT(tiles.begin()->second.first, tiles.begin()->first);
+    EXPECT_NE(spec.at("encoding").at("y").at("axis").at("title").get<std::string>().find("[Hz]"), std::string::npos);
     for (const Json& row : spec.at("datasets").at("rows")) {
         if (row.at("kind") != "boundary") continue;
         ++boundaries;

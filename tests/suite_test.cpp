@@ -466,5 +466,23 @@ TEST(Spectrograms, OneScaleForAllAndNoMoreRectanglesThanAsked) {
     EXPECT_EQ(highest, 0);
 }
 
+TEST(Spectrograms, ADifferenceIsThatOfTheLevelsWhereEitherIsHeard) {
+    const bench::suite::Levels truth{2, 2, 0, 0.016, 80, {0, -100, -900, -200}};
+    bench::suite::Levels louder = truth;
+    for (int& level : louder.level) level += 60;
+    bench::report::Panel compared{"s", "x", "ok", louder, truth};
+    const auto spec = nlohmann::json::parse(bench::report::spectrogram_spec("a", "b", {{"truth", "x", "ok", truth}, compared}));
+    EXPECT_EQ(spec.at("params").at(0).at("name"), "shown_field");
+    const auto& grid = spec.at("concat");
+    for (const auto& r : grid[0].at("data").at("values")) EXPECT_EQ(r.at("d"), 0);  // the truth differs from nothing
+    int differences = 0;
+    for (const auto& r : grid[1].at("data").at("values"))
+        if (r.at("d") == 1) {
+            ++differences;
+            EXPECT_EQ(r.at("l"), 6);
+        }
+    EXPECT_EQ(differences, 2);  // the rows of both frames; what is background in both is none
+}
+
 }  // namespace
 }  // namespace jvari::test

@@ -104,7 +104,8 @@ int compare_command(const CompareCall& r) {
     const store::Table cells = compare::cells_of(c);
     const std::string manifest = compare::manifest_of(c, r);
 
-    const store::Table cheapest = compare::cheapest_of(cells, c.scene.name);
+    const store::Table cheapest =
+        compare::cheapest_of(cells, c.scene.name, r.controls ? compare::Controls::compete : compare::Controls::stand_beside);
     Json files = Json::array();
     if (!r.out.empty()) {
         const fs::path folder = r.out;

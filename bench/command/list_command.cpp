@@ -61,9 +61,21 @@ Json matrix_json(const Shelf& shelf) {
     return all;
 }
 
+const char* meaning_of(Quantity q) {
+    switch (q) {
+        case Quantity::displacement: return "of the string at a place, positive away from the barrier";
+        case Quantity::velocity: return "of the string at a place";
+        case Quantity::nut_force: return "of the string on its end at x = length, which on a guitar is the saddle";
+        case Quantity::bridge_force: return "of the barriers on the string, the mean over a row";
+        case Quantity::thread_force: return "of the thread on the string, the mean over a row";
+        case Quantity::driving_force: return "-(bridge_force + thread_force): of the string on what it touches";
+    }
+    return "";
+}
+
 Json taps_json() {
     Json all = Json::array();
-    for (Quantity q : quantities) all.push_back({{"name", name_of(q)}, {"unit", unit_of(q)}});
+    for (Quantity q : quantities) all.push_back({{"name", name_of(q)}, {"unit", unit_of(q)}, {"meaning", meaning_of(q)}});
     return all;
 }
 
@@ -99,7 +111,7 @@ std::string matrix_text(const Shelf& shelf) {  // schemes down, scenes across
 
 std::string taps_text() {
     std::string text = "taps\n";
-    for (Quantity q : quantities) text += fmt::format("  {:<14}{}\n", name_of(q), unit_of(q));
+    for (Quantity q : quantities) text += fmt::format("  {:<14}{:<5}{}\n", name_of(q), unit_of(q), meaning_of(q));
     return text;
 }
 

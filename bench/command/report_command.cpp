@@ -4,7 +4,9 @@
 
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/report/figure_chart.hpp"
 #include "bench/report/report.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 
 namespace jvari::bench::command {
@@ -17,10 +19,15 @@ namespace fs = std::filesystem;
 int report_command(const ReportRequest& r) {
     const Console console(r.json, r.quiet);
     Json files = Json::array();
-    for (const std::string& name : report::write_report(r.folder, console)) {
+    const auto tell = [&](const std::string& name) {
         files.push_back((fs::path(r.folder) / name).string());
         console.print("written: " + (fs::path(r.folder) / name).string());
+    };
+    for (const report::DrawnFigure& f : report::redraw_figures(r.folder, console)) {
+        store::write_fresh(fs::path(r.folder) / f.file, f.svg);
+        tell(f.file);
     }
+    for (const std::string& name : report::write_report(r.folder, console)) tell(name);
     console.print_json(store::indented({{"folder", r.folder}, {"files", files}}));
     return exit_code::done;
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -27,6 +28,7 @@
 #include "bench/store/machine.hpp"
 #include "bench/suite/row_facet.hpp"
 #include "bench/suite/suite_run.hpp"
+#include "scenes/scene_file.hpp"
 
 namespace jvari::bench::command {
 
@@ -44,35 +46,45 @@ store::Table clock_only(const store::Table& cells) {  // what errors_only leaves
 
 std::string manifest_of(const suite::Suite& suite, const suite::SuitePlan& plan) {
     std::map<std::string, std::string> sources;
-    for (const suite::PlannedCell& c : plan.cells) sources[c.cell.scheme->name] = c.cell.scheme->source;
+    std::map<std::string, std::string> scenes;  // of what is swept the first
+    for (const suite::PlannedCell& c : plan.cells) {
+        sources[c.cell.scheme->name] = c.cell.scheme->source;
+        if (!scenes.contains(c.point->scene.name)) scenes[c.point->scene.name] = write_scene(suite::without_profile_taps(c.point->scene));
+    }
     Json manifest = Json::parse(store::made_by());
-    manifest.update(
-        {{"suite", suite.name}, {"source", suite.source}, {"cells", plan.cells.size()}, {"maps", suite.maps.size()}, {"schemes", sources}});
+    manifest.update({{"suite", suite.name},
+                     {"source", suite.source},
+                     {"cells", plan.cells.size()},
+                     {"maps", suite.maps.size()},
+                     {"schemes", sources},
+                     {"scenes", scenes}});
     return store::indented(manifest);
 }
 
-std::string table_text(const suite::SuitePlan& plan, const suite::SuiteRun& run) {
-    std::string text;
+std::string table_text(const suite::SuitePlan& plan, const suite::SuiteRun& run, const store::Table& cells) {
+    const std::string headline = compare::headline_error(cells, store::all_rows(cells));
+    std::vector<std::array<std::string, 8>> rows{{"scene", "scheme", "rate", "modes", "status", headline.substr(6), "s per s", ""}};
     std::map<std::string, int> statuses;
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
         const store::Table& row = run.records[i].row;
         const suite::PlannedCell& c = plan.cells[i];
-        const auto short_text = [&row](const char* column, const char* format) {
-            const double x = row.number(0, column);
-            return std::isnan(x) ? std::string() : fmt::format(fmt::runtime(format), x);
-        };
         ++statuses[row.at(0, "status")];
         std::string what = c.point->scene.name;
         for (const auto& [key, value] : c.point->swept) what += " " + key + "=" + value;
         const std::string options = store::options_text(c.cell.settings.options);
-        text += fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}  {}\n", what,
-                            c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
-                            row.at(0, "status"), compare::error_text(compare::bound_of(row, 0, "error_l2_50ms"), "{:.2e}"),
-                            short_text("cost_s_per_s", "{:.3g}"), row.at(0, "reason"));
+        const double cost = row.number(0, "cost_s_per_s");
+        rows.push_back({what, c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
+                        row.at(0, "status"), compare::error_text(compare::bound_of(row, 0, headline), "{:.2e}"),
+                        std::isnan(cost) ? "" : fmt::format("{:.3g}", cost), row.at(0, "reason")});
     }
-    text = fmt::format("  {:<36} {:<28} {:>8} {:>6}  {:<15} {:>9} {:>9}\n", "scene", "scheme", "rate", "modes", "status", "L2 50ms",
-                       "s per s") +
-           text + fmt::format("{} cells, {} run, {} timed, {} read back:", plan.cells.size(), run.ran, run.timed, run.read_back);
+    std::array<std::size_t, 8> widths{};
+    for (const auto& row : rows)
+        for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+    std::string text;
+    for (const auto& r : rows)
+        text += fmt::format("  {:<{}} {:<{}} {:>{}} {:>{}}  {:<{}} {:>{}} {:>{}}  {}\n", r[0], widths[0], r[1], widths[1], r[2], widths[2],
+                            r[3], widths[3], r[4], widths[4], r[5], widths[5], r[6], widths[6], r[7]);
+    text += fmt::format("{} cells, {} run, {} timed, {} read back:", plan.cells.size(), run.ran, run.timed, run.read_back);
     for (const auto& [status, count] : statuses) text += fmt::format(" {} {}", count, status);
     return text;
 }
@@ -172,7 +184,7 @@ int suite_command(const SuiteRequest& r) {
     }
     // Files first: nothing is lost where nobody reads this.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
-    if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
+    if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + folder.string());

@@ -10,6 +10,8 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"
 #include "bench/store/cell_rows.hpp"
+#include "schemes/controls.hpp"
+#include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {
 
@@ -94,7 +96,13 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
 }
 }  // namespace
 
-store::Table cheapest_of(const store::Table& cells, const std::string& scene) {
+bool may_win(const store::Table& cells, std::size_t row, Controls controls) {
+    const std::string& scheme = cells.at(row, "scheme");
+    const auto is_this = [&scheme](const Descriptor& d) { return d.name == scheme && is_control(d); };
+    return trusted(cells, row) && (controls == Controls::compete || std::ranges::none_of(schemes(), is_this));
+}
+
+store::Table cheapest_of(const store::Table& cells, const std::string& scene, Controls controls) {
     const std::vector<std::string> swept = store::with_machine(cells, store::swept_keys(cells));
     store::Table t;
     t.columns = {"scene"};
@@ -107,7 +115,7 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene) {
     for (const store::Rows& group : store::alike(cells, store::all_rows(cells), naming)) {
         store::Rows rows;
         for (const std::size_t i : group)
-            if (trusted(cells, i) && cells.number(i, "cost_s_per_s") > 0) rows.push_back(i);
+            if (may_win(cells, i, controls) && cells.number(i, "cost_s_per_s") > 0) rows.push_back(i);
         if (rows.empty()) continue;  // nothing was timed, or this is the group of those that were not
         std::vector<std::string> key{cells.column("scene") < 0 ? scene : cells.at(rows.front(), "scene")};
         for (const std::string& name : swept) key.push_back(cells.at(rows.front(), name));

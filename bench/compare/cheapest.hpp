@@ -13,8 +13,11 @@ namespace jvari::bench::compare {
 //   cell of each. perhaps: other schemes with a cheaper cell (not_known: any cell) of which it is not certain.
 //   why:     of none, for a waveform: what stands in the way and what can be judged instead (diagnosis.hpp).
 // Where cells were timed on several machines there is a row for each of them, and a column `machine` before `measure`.
-// Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene.
-store::Table cheapest_of(const store::Table& cells, const std::string& scene = "");
+// Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene. A control is known to be wrong
+// somewhere: it is named only where it was asked to compete.
+enum class Controls { stand_beside, compete };
+store::Table cheapest_of(const store::Table& cells, const std::string& scene = "", Controls = Controls::stand_beside);
+bool may_win(const store::Table& cells, std::size_t row, Controls);  // trusted, and no control that stands beside
 
 std::string goal_name(const store::Table& cheapest, std::size_t row);  // "10 %", "3 dB"
 std::string ties_text(const store::Table& cheapest, std::size_t row);  // "a at 44.1 kHz, b at 88.2 kHz"

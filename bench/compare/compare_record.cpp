@@ -240,7 +240,7 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                    {"certificate", certificate_json(c)},
                    {"facts", facts}};
     const Json scene{{"name", c.scene.name},        {"asked_as", r.scene},          {"set", r.set}, {"source", c.scene.source},
-                     {"hash", scene_hash(c.scene)}, {"duration", c.scene.duration}, {"taps", taps}};
+                     {"hash", scene_hash(c.scene)}, {"duration", c.scene.duration}, {"taps", taps}, {"text", write_scene(c.scene)}};
     Json manifest = Json::parse(store::made_by());
     manifest.update({{"scene", scene},
                      {"tap_rate", c.reference_settings.tap_rate},
@@ -250,7 +250,8 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                       {{"nut", c.scene.taps.at(c.headline.nut).name},
                        {"bridge", c.scene.taps.at(c.headline.bridge).name},
                        {"error", headline_error(cells, store::all_rows(cells))}}},
-                     {"noise_floor", floor}});
+                     {"noise_floor", floor},
+                     {"controls", r.controls}});
     return store::indented(manifest);
 }
 

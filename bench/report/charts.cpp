@@ -150,7 +150,7 @@ void add_schemes(Json& layers, const Encodings& e) {
     labelled.push_back({{"lookup", "key"},
                         {"from", {{"data", {{"name", "fronts"}}}, {"key", "key"}, {"fields", Json::array({"key", "name"})}}},
                         {"as", Json::array({"front", "name"})}});
-    labelled.push_back({{"filter", "isValid(datum.front)"}});
+    labelled.push_back({{"filter", "isValid(datum.front) && !datum.control"}});
     labelled.push_back({{"calculate", "(datum.name && width > 500 ? datum.name + ', ' : '') + datum.label"}, {"as", "text"}});
     layers.push_back({{"transform", labelled},
                       {"mark", {{"type", "text"}, {"align", "left"}, {"dx", 8}, {"dy", -7}, {"fontSize", 10}}},

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report/identity.hpp"
+#include "bench/report/results.hpp"
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/suite/row_facet.hpp"
@@ -82,6 +83,21 @@ Json axis(const suite::FigureAxis& a, const char* field, bool free) {
     return encoded;
 }
 
+// "; error_l2_50ms is empty in all rows, error_l2_10ms and error_l2_whole are not".
+std::string why_none(const store::Table& t, const std::string& column) {
+    const auto is_empty = [&t](const std::string& name) {
+        for (std::size_t i = 0; i < t.rows.size(); ++i)
+            if (!t.at(i, name).empty()) return false;
+        return true;
+    };
+    if (t.rows.empty() || !is_empty(column)) return "";
+    std::string others;
+    const std::string family = column.substr(0, column.find('_'));
+    for (const std::string& name : t.columns)
+        if (name.starts_with(family) && !is_empty(name)) others += (others.empty() ? "; with numbers: " : ", ") + name;
+    return fmt::format("; {} is empty in all rows{}", column, others);
+}
+
 const Json config = {{"font", "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif"},
                      {"axis", {{"gridOpacity", 0.45}, {"labelFontSize", 11}, {"titleFontSize", 12}}},
                      {"title", {{"fontSize", 16}, {"subtitleFontSize", 12}}},
@@ -131,7 +147,7 @@ std::string figure_spec(const suite::Figure& f, const store::Table& t) {
         if (!f.panels.empty()) add_once(panels, row["p"] = name_in(f, t, i, f.panels));
         values.push_back(std::move(row));
     }
-    if (values.empty()) throw store::UsageError(fmt::format("table {}: no row is left to draw", f.table));
+    if (values.empty()) throw store::UsageError(fmt::format("table {}: no row is left to draw{}", f.table, why_none(t, f.y.column)));
 
     Json mark{{"type", f.kind == suite::FigureKind::band ? "area" : "line"}, {"clip", true}, {"tooltip", nullptr}, {"aria", false}};
     if (f.kind == suite::FigureKind::band) mark["opacity"] = colours.size() > 1 ? 0.6 : 0.9;
@@ -172,32 +188,49 @@ std::string figure_spec(const suite::Figure& f, const store::Table& t) {
     return spec.dump();
 }
 
-std::vector<DrawnFigure> draw_figures(const suite::Suite& suite, const suite::SuitePlan& plan,
-                                      const std::vector<suite::SuiteRecord>& records, const store::Table& cells,
-                                      const store::Listener& listener) {
+namespace {
+template <class SpecOf>  // throws UsageError where a figure cannot be drawn
+std::vector<DrawnFigure> drawn(const std::vector<suite::Figure>& figures, const store::Listener& listener, SpecOf spec_of) {
     std::vector<DrawnFigure> drawn;
-    if (suite.figures.empty()) return drawn;
     const Vega vega = find_vega();
     if (!vega.missing.empty()) {
         listener.note(vega.missing);
         return drawn;
     }
-    for (const suite::Figure& f : suite.figures) {
+    for (const suite::Figure& f : figures) {
         const std::string file = "figure-" + f.name + ".svg";
         std::string why;
         try {
-            store::Table rows = cells;
-            for (const suite::RowFacet& facet : suite::row_facets())
-                if (f.table == suite::name_of(facet.facet)) rows = suite::rows_of(facet.facet, plan, records);
-            const bool levels = f.kind == suite::FigureKind::spectrogram;
-            if (const auto svg = svg_of(vega, levels ? spectrogram_figure(f, plan, records, cells) : figure_spec(f, rows), why))
-                drawn.push_back({file, *svg});
+            if (const auto svg = svg_of(vega, spec_of(f), why)) drawn.push_back({file, *svg});
         } catch (const store::UsageError& e) {
             why = e.what();
         }
         if (!why.empty()) listener.note(file + ": " + why);
     }
     return drawn;
+}
+}  // namespace
+
+std::vector<DrawnFigure> draw_figures(const suite::Suite& suite, const suite::SuitePlan& plan,
+                                      const std::vector<suite::SuiteRecord>& records, const store::Table& cells,
+                                      const store::Listener& listener) {
+    if (suite.figures.empty()) return {};
+    return drawn(suite.figures, listener, [&](const suite::Figure& f) {
+        if (f.kind == suite::FigureKind::spectrogram) return spectrogram_figure(f, plan, records, cells);
+        for (const suite::RowFacet& facet : suite::row_facets())
+            if (f.table == suite::name_of(facet.facet)) return figure_spec(f, suite::rows_of(facet.facet, plan, records));
+        return figure_spec(f, cells);
+    });
+}
+
+std::vector<DrawnFigure> redraw_figures(const std::filesystem::path& folder, const store::Listener& listener) {
+    const std::string name = read_results(folder).suite;
+    const auto known = suite::library_suites();
+    if (std::find(known.begin(), known.end(), name) == known.end()) return {};
+    std::vector<suite::Figure> figures = suite::read_suite(name).figures;
+    std::erase_if(figures, [](const suite::Figure& f) { return f.kind == suite::FigureKind::spectrogram; });
+    if (figures.empty()) return {};
+    return drawn(figures, listener, [&](const suite::Figure& f) { return figure_spec(f, table_of(folder, f.table)); });
 }
 
 }  // namespace jvari::bench::report

@@ -1,6 +1,7 @@
 // Figures of a suite as Vega-Lite specifications, and as the SVG files that a suite writes: figure-NAME.svg.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,7 @@ struct DrawnFigure {
 // What cannot be drawn is said as a note, with the reason, and left out.
 std::vector<DrawnFigure> draw_figures(const suite::Suite&, const suite::SuitePlan&, const std::vector<suite::SuiteRecord>&,
                                       const store::Table& cells, const store::Listener&);
+// Of a folder whose manifest names a suite of the library: its figures again, of the tables that lie there. Spectrograms have none.
+std::vector<DrawnFigure> redraw_figures(const std::filesystem::path& folder, const store::Listener&);
 
 }  // namespace jvari::bench::report

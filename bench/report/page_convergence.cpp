@@ -82,7 +82,7 @@ Filling filling_of(const WorkPrecision& w, const Json& orders, const std::string
     Json titles = Json::object();
     for (const Axis& a : w.errors) titles[a.column] = a.title;
     return {problem + ": convergence",
-            "error against sample rate; at the lines' ends the observed order",
+            "error against sample rate; at the lines' ends the observed order, at the lower left those of 1 and 2",
             drawn_series(w.cells),
             {},
             {{"cells", chart_cells(w)}},
@@ -123,7 +123,7 @@ Section convergence_section(const Results& r) {
     s.notes = {
         "The number at a line's end is the observed order p of error \u221d rate^\u2212p over the rates drawn; hover for its 95 % "
         "interval. "
-        "Near contact the order is about 1, and late windows saturate."};
+        "The triangles at the lower left fall as orders 1 and 2 do. Near contact the order is about 1, and late windows saturate."};
     s.table = r.convergence.rows.empty() ? table_of(observed, w.errors.front().column, problems.size() > 1) : r.convergence;
     if (!r.convergence.rows.empty()) {
         s.table.columns.erase(s.table.columns.begin(), s.table.columns.begin() + 2);

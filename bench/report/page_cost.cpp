@@ -67,7 +67,7 @@ Chart element_chart(const store::Table& t) {
     const auto filling = [](const store::Table& rows, const std::string& problem) {
         return Filling{
             problem + ": what each element adds",
-            "extra time per step: median, and as far as the quartiles of both runs allow",
+            "median and quartiles; linear within the grey band of \u00b110 ns, logarithmic beyond",
             distinct(rows, "series"),
             {},
             {{"rows", rows_of(rows, {"problem", "series", "scheme"}, {"extra_ns", "extra_lower", "extra_upper", "ns_per_step"})}},
@@ -91,7 +91,15 @@ Section cost_section(const Results& r) {
     const store::Table scaling = told_apart(r.scaling), elements = elements_of(r.scaling);
     if (const auto whats = scaled_in(scaling); !whats.empty()) s.charts.push_back(scaling_chart(scaling, whats));
     if (!elements.rows.empty()) s.charts.push_back(element_chart(elements));
-    s.notes = {"Numbers of the clock, on the machine named at the foot of the page. Bars are quartiles: two that touch are a tie."};
+    s.notes = {
+        "Numbers of the clock, on the machine named at the foot of the page. Bars with ends are quartiles: two that touch are a tie. No "
+        "bar "
+        "to be seen: the clock did not scatter."};
+    if (!elements.rows.empty())
+        s.notes.emplace_back(
+            "The axis of extra time is linear within the grey band of \u00b110 ns, and logarithmic beyond it, each way. So what saves "
+            "time, "
+            "what adds nothing and what adds much stand on one axis.");
     s.table = without_names(r.scaling);
     return s;
 }

@@ -1,8 +1,11 @@
-// What becomes of each scheme over a plane of two keys (maps.csv), with the refined boundaries and theory's (boundaries.csv).
+// What becomes of each scheme over a plane of two keys (maps.csv): a tile per run, from half-way to its neighbour on the left to half-way
+// to that on the right; with the refined boundaries and theory's (boundaries.csv).
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
+#include "bench/report/identity.hpp"
 #include "bench/report/page_sections.hpp"
 
 namespace jvari::bench::report {
@@ -11,99 +14,115 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-// "barrier 0 stiffness [N/m^exponent]" of "string.0.barrier.0.stiffness"
-std::string with_unit(const std::string& key) {
-    constexpr std::pair<const char*, const char*> units[] = {{"rate", "Hz"},
-                                                             {"stiffness", "N/m^exponent"},
-                                                             {"stiffness_density", "N/m^(exponent+1)"},
-                                                             {"tension", "N"},
-                                                             {"amplitude", "m"},
-                                                             {"linear_density", "kg/m"},
-                                                             {"bending_stiffness", "N m^2"},
-                                                             {"length", "m"},
-                                                             {"position", "m"},
-                                                             {"height", "m"},
-                                                             {"width", "m"},
-                                                             {"damping", "kg/s"},
-                                                             {"duration", "s"},
-                                                             {"contact_loss", "s/m"},
-                                                             {"sigma0", "1/s"}};
-    const std::string last = key.substr(key.rfind('.') + 1);
-    std::string text = key.starts_with("string.0.") ? key.substr(9) : key;
-    std::replace(text.begin(), text.end(), '.', ' ');
-    for (const auto& [name, unit] : units)
-        if (last == name) text += std::string(" [") + unit + "]";
-    return text;
-}
+// An axis of a map. It is of numbers where all are some, and logarithmic where all are positive and span more than five to one.
+struct MapAxis {
+    bool numbers = true, logarithmic = false;
+    std::vector<double> places;  // distinct, from the least on
+    std::string format, title;
 
-// A logarithmic axis where all values are positive and span more than five to one; names where they are no numbers.
-void add_axis(Words& words, const store::Table& t, const std::string& which) {
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    bool numbers = true;
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        const double x = t.number(i, which);
-        numbers = numbers && !std::isnan(x);
-        least = std::fmin(least, x);
-        most = std::fmax(most, x);
+    double on_scale(double x) const { return logarithmic ? std::log(x) : x; }
+    double at(double scaled) const { return logarithmic ? std::exp(scaled) : scaled; }
+    // The edges of the tile at x.
+    std::pair<double, double> around(double x) const {
+        const auto k = static_cast<std::size_t>(std::lower_bound(places.begin(), places.end(), x) - places.begin());
+        const auto step = [this](std::size_t i) { return on_scale(places[i + 1]) - on_scale(places[i]); };
+        const bool alone = places.size() < 2;
+        const double before = alone ? 1 : step(k == 0 ? 0 : k - 1), after = alone ? 1 : step(k + 1 == places.size() ? k - 1 : k);
+        return {at(on_scale(x) - 0.5 * before), at(on_scale(x) + 0.5 * after)};
     }
-    words.emplace_back("@type_" + which, numbers ? "quantitative" : "ordinal");
-    words.emplace_back("@scale_" + which, !numbers ? "point" : least > 0 && most > 5 * least ? "log" : "linear");
-    words.emplace_back("@format_" + which, most >= 1e6 || (least > 0 && least < 1e-3) ? "~e" : "~r");
-    words.emplace_back("@title_" + which, with_unit(t.at(0, which + "_key")));
-}
-
-struct Axes {
-    bool x, y;  // of numbers
 };
 
-Json rows_json(const store::Table& cells, const store::Table& boundaries, Axes numbers) {
+MapAxis axis_of(const store::Table& t, const std::string& which) {
+    MapAxis axis;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        const double x = t.number(i, which);
+        axis.numbers = axis.numbers && !std::isnan(x);
+        if (!std::isnan(x)) axis.places.push_back(x);
+    }
+    std::sort(axis.places.begin(), axis.places.end());
+    axis.places.erase(std::unique(axis.places.begin(), axis.places.end()), axis.places.end());
+    const double least = axis.places.empty() ? 0 : axis.places.front(), most = axis.places.empty() ? 0 : axis.places.back();
+    axis.logarithmic = axis.numbers && least > 0 && most > 5 * least;
+    axis.format = most >= 1e6 || (least > 0 && least < 1e-3) ? "~e" : "~r";
+    axis.title = with_unit(t.at(0, which + "_key"));
+    return axis;
+}
+
+void add_words(Words& words, const MapAxis& axis, const std::string& which) {
+    words.emplace_back("@type_" + which, axis.numbers ? "quantitative" : "ordinal");
+    words.emplace_back("@scale_" + which, !axis.numbers ? "band" : axis.logarithmic ? "log" : "linear");
+    words.emplace_back("@format_" + which, axis.format);
+    words.emplace_back("@title_" + which, axis.title);
+}
+
+Json rows_json(const store::Table& cells, const store::Table& boundaries, const MapAxis& x, const MapAxis& y) {
     Json rows = Json::array();
-    const auto place = [](const store::Table& t, std::size_t i, const char* which, bool number) {
-        return number ? Json(t.number(i, which)) : Json(t.at(i, which));
+    const auto place = [](const store::Table& t, std::size_t i, const char* which, const MapAxis& axis) {
+        return axis.numbers ? Json(t.number(i, which)) : Json(t.at(i, which));
     };
-    for (std::size_t i = 0; i < cells.rows.size(); ++i)
-        rows.push_back({{"kind", "cell"},
-                        {"series", cells.at(i, "series")},
-                        {"x", place(cells, i, "x", numbers.x)},
-                        {"y", place(cells, i, "y", numbers.y)},
-                        {"outcome", cells.at(i, "outcome")},
-                        {"detail", cells.at(i, "detail")}});
-    for (std::size_t i = 0; numbers.x && i < boundaries.rows.size(); ++i) {
+    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
+        Json& row = rows.emplace_back(Json{{"kind", "cell"},
+                                           {"series", cells.at(i, "series")},
+                                           {"x", place(cells, i, "x", x)},
+                                           {"y", place(cells, i, "y", y)},
+                                           {"outcome", cells.at(i, "outcome")},
+                                           {"detail", cells.at(i, "detail")}});
+        if (x.numbers) std::tie(row["left"], row["right"]) = x.around(cells.number(i, "x"));
+        if (y.numbers) std::tie(row["below"], row["above"]) = y.around(cells.number(i, "y"));
+    }
+    for (std::size_t i = 0; x.numbers && i < boundaries.rows.size(); ++i) {
         const double low = boundaries.number(i, "x_low"), high = boundaries.number(i, "x_high");
         rows.push_back({{"kind", "boundary"},
                         {"series", boundaries.at(i, "series")},
                         {"x", low > 0 && high > 0 ? std::sqrt(low * high) : 0.5 * (low + high)},
-                        {"y", place(boundaries, i, "y", numbers.y)},
+                        {"y", place(boundaries, i, "y", y)},
                         {"between", boundaries.at(i, "between")},
                         {"theory", boundaries.number(i, "theory")}});
     }
     return rows;
 }
 
-Json on_frame(const std::string& spec) {  // a linear axis need not begin at zero, and names have no format
+// Tiles from edge to edge; a linear axis need not begin at zero, and names have no format.
+Json tiled(const std::string& spec, const MapAxis& x, const MapAxis& y) {
     Json chart = Json::parse(spec);
-    for (const char* axis : {"x", "y"}) {
-        Json& channel = chart["encoding"][axis];
-        if (channel["type"] == "ordinal") channel["axis"].erase("format");
-        else channel["scale"].update({{"nice", false}, {"padding", 14}});
-        if (channel["scale"]["type"] == "linear") channel["scale"]["zero"] = false;
-    }
+    Json& tile = chart["layer"][0]["encoding"];
+    const auto add = [&](const char* channel, const MapAxis& axis, const char* from, const char* to) {
+        Json& shared = chart["encoding"][channel];
+        if (!axis.numbers) {
+            shared["axis"].erase("format");
+            shared["scale"].update({{"padding", 0}});
+            return;
+        }
+        shared["scale"].update({{"nice", false}});
+        if (!axis.logarithmic) shared["scale"]["zero"] = false;
+        tile[channel] = {{"field", from}, {"type", "quantitative"}};
+        tile[std::string(channel) + "2"] = {{"field", to}};
+    };
+    add("x", x, "left", "right");
+    add("y", y, "below", "above");
     return chart;
 }
 
-Json panels_of(Json chart) {         // for papers: every scheme side by side
-    for (Json& p : chart["params"])  // a panel's own size is none of the picture's signals
-        if (p.at("name") == "tile") p["expr"] = "max(6, min(26, 0.8 * min(200 / across, 150 / down)))";
-    Json inner{{"width", 200}, {"height", 150}, {"encoding", chart.at("encoding")}, {"layer", chart.at("layer")}};
+Json panels_of(Json chart, const std::vector<std::string>& series) {  // for papers: every scheme side by side
+    for (Json& p : chart["params"])                                   // a panel's own size is none of the picture's signals
+        if (p.at("name") == "glyph") p["expr"] = "clamp(0.45 * min(230 / across, 140 / down), 3, 9)";
+    Json inner{{"width", 230}, {"height", 140}, {"encoding", chart.at("encoding")}, {"layer", chart.at("layer")}};
     for (const char* key : {"width", "height", "encoding", "layer", "transform"}) chart.erase(key);
-    chart["facet"] = {{"field", "series"}, {"type", "nominal"}, {"title", nullptr}};
+    chart["facet"] = {{"field", "series"},
+                      {"type", "nominal"},
+                      {"title", nullptr},
+                      {"sort", series},
+                      {"header", {{"labelFontSize", 9}, {"labelLimit", 240}}}};
     chart["columns"] = 4;
+    chart["bounds"] = "flush";  // a name does not push panels apart
+    chart["spacing"] = {{"row", 26}, {"column", 18}};
     chart["spec"] = inner;
     return chart;
 }
 
 Chart map_chart(const std::string& name, const std::vector<std::string>& names, const store::Table& cells, const store::Table& boundaries) {
-    const auto series = distinct(cells, "series");
+    const auto series = in_order(distinct(cells, "series"));
+    const MapAxis x = axis_of(cells, "x"), y = axis_of(cells, "y");
     Filling f{name,
               cells.at(0, "scene"),
               {},
@@ -112,17 +131,15 @@ Chart map_chart(const std::string& name, const std::vector<std::string>& names, 
               {{"series_field", json_text(series.front())},
                {"across", std::to_string(distinct(cells, "x").size())},
                {"down", std::to_string(distinct(cells, "y").size())}}};
-    add_axis(f.words, cells, "x");
-    add_axis(f.words, cells, "y");
-    const auto of_numbers = [&f](const char* type) {
-        return std::find(f.words.begin(), f.words.end(), std::pair<std::string, std::string>(type, "quantitative")) != f.words.end();
-    };
-    f.datasets = {{"rows", rows_json(cells, boundaries, {of_numbers("@type_x"), of_numbers("@type_y")}).dump()}};
-    Chart c{"what becomes of a scheme: " + name, on_frame(chart_of("map.json", f, Medium::page)).dump(), false, {}, {}};
+    add_words(f.words, x, "x");
+    add_words(f.words, y, "y");
+    f.datasets = {{"rows", rows_json(cells, boundaries, x, y).dump()}};
+    Chart c{"what becomes of a scheme: " + name, tiled(chart_of("map.json", f, Medium::page), x, y).dump(), false, {}, {}};
     Menu menu{name + ": scheme", "series_field", {}};
     for (const std::string& s : series) menu.choices.emplace_back(json_text(s), s);
     c.menus.push_back(std::move(menu));
-    c.twins.push_back({"map-" + file_part(name, names) + ".svg", panels_of(on_frame(chart_of("map.json", f, Medium::print))).dump()});
+    c.twins.push_back(
+        {"map-" + file_part(name, names) + ".svg", panels_of(tiled(chart_of("map.json", f, Medium::print), x, y), series).dump()});
     return c;
 }
 }  // namespace
@@ -133,7 +150,10 @@ Section map_section(const Results& r) {
     const auto names = distinct(r.maps, "map");
     for (const std::string& name : names)
         s.charts.push_back(map_chart(name, names, rows_where(r.maps, "map", name), rows_where(r.boundaries, "map", name)));
-    s.notes = {"Each point is a run. Grey lines are boundaries found by bisection, broken ones what theory says."};
+    s.notes = {
+        "Each tile is a run; a white mark tells those that are not sound apart, for eyes that colour does not help. Solid lines are "
+        "boundaries "
+        "found by bisection, broken ones what theory says."};
     if (!r.boundaries.rows.empty()) s.table = r.boundaries.only({r.boundaries.columns.begin() + 2, r.boundaries.columns.end()});
     return s;
 }

@@ -13,6 +13,7 @@ namespace jvari::bench::report {
 std::vector<Verdict> verdicts_of(const Results&);
 
 Section work_precision_section(const Results&);
+Section sweep_section(const Results&);
 Section path_section(const Results&);
 Section needs_section(const Results&);
 Section dispersion_section(const Results&);
@@ -32,6 +33,8 @@ std::vector<std::pair<std::string, std::vector<std::string>>> offers_of(const Wo
 constexpr std::size_t most_twins = 12;
 // "dispersion.svg", with the problem in the name where there are several.
 std::string twin_file(const std::string& chart, const std::string& problem, const std::vector<std::string>& problems);
+std::string with_unit(const std::string& key);  // "barrier 0 stiffness [N/m^exponent]" of "string.0.barrier.0.stiffness"
+std::string rate_text(double hz);               // "44.1 kHz"; "" of NaN
 store::Table rows_where(const store::Table&, const std::string& column, const std::string& text);
 store::Table without_names(const store::Table&);  // less problem and series, which stand for columns that are there anyway
 WorkPrecision work_precision_of(const Results&);  // of all problems

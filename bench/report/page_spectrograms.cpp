@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -52,6 +53,11 @@ std::map<std::string, suite::Levels> references_in(const Results& r) {
     return references;
 }
 
+bool on_one_grid(const suite::Levels& a, const suite::Levels& b) {
+    const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-6 * std::abs(x) + 1e-9; };
+    return a.frames > 0 && b.frames > 0 && near(a.start, b.start) && near(a.hop, b.hop) && near(a.row_hz, b.row_hz);
+}
+
 constexpr std::size_t across = 4;
 
 // Four panels across, each with its name above it in lines that fit, axes at the left and below.
@@ -87,7 +93,7 @@ Section spectrogram_section(const Results& r) {
     const bool several_rates = distinct(t, "rate").size() > 1;
     std::vector<Panel> panels, on_page;
     std::set<std::string> problems;
-    bool without = false;
+    bool without = false, differences = false;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         if (t.at(i, "cell").empty()) continue;
         Kept k = levels_in(r.folder / "cells" / (t.at(i, "cell") + ".json"));
@@ -99,16 +105,26 @@ Section spectrogram_section(const Results& r) {
                 on_page.push_back({problem + " | reference", "", "", truth->second});
             else without = true;
         }
-        on_page.push_back({problem + " | " + t.at(i, "series") + (rate.empty() ? "" : " |" + rate), "", t.at(i, "status"), k.levels});
+        Panel& shown = on_page.emplace_back(
+            Panel{problem + " | " + t.at(i, "series") + (rate.empty() ? "" : " |" + rate), "", t.at(i, "status"), k.levels});
+        if (const auto truth = references.find(problem); truth != references.end() && on_one_grid(k.levels, truth->second)) {
+            shown.against = truth->second;
+            differences = true;
+        }
         panels.push_back({problem, t.at(i, "series") + rate, t.at(i, "status"), std::move(k.levels)});
     }
     if (panels.empty()) return s;
+    std::vector<Menu> menus;
+    if (differences)
+        menus.push_back({"show", "shown_field", {{"\"level\"", "levels"}, {"\"difference\"", "difference from the reference"}}});
     s.charts.push_back({"spectrograms side by side, the reference first",
                         wrapped(spectrogram_spec(r.name, "", on_page)).dump(),
                         true,
-                        {},
+                        std::move(menus),
                         {{"spectrograms.svg", spectrogram_spec(r.name, "spectrograms; " + r.source, panels)}}});
     s.notes = {"Decibels below the maximum of all panels; the reference comes first."};
+    if (differences)
+        s.notes[0] += " A difference is that of the levels, where either lies above the background: orange is louder than the reference.";
     if (without) s.notes.emplace_back("Where a scene has no reference here, the suite kept no sound of it.");
     return s;
 }

@@ -28,20 +28,16 @@ std::string wanted(const store::Table& cheapest, std::size_t i) {
                                          : ", whole run");
 }
 
-std::string rate_text(double hz) {
-    return std::isnan(hz) ? "" : fmt::format("{:.5g} kHz", hz / 1000);
-}
-
 std::string error_text(double error, const std::string& measure) {
     return measure == "third_octave_db" ? fmt::format("{:.2g}\u00a0dB", error) : fmt::format("{:.2g}\u00a0%", 100 * error);
 }
 
 // The trusted cell that comes nearest, where none is near enough.
-std::string nearest_text(const store::Table& cells, const std::string& measure) {
+std::string nearest_text(const store::Table& cells, const std::string& measure, compare::Controls controls) {
     double least = HUGE_VAL;
     std::size_t best = 0;
     for (std::size_t i = 0; i < cells.rows.size(); ++i)
-        if (const double most = compare::bound_of(cells, i, measure).most(); compare::trusted(cells, i) && most < least) {
+        if (const double most = compare::bound_of(cells, i, measure).most(); compare::may_win(cells, i, controls) && most < least) {
             least = most;
             best = i;
         }
@@ -50,15 +46,16 @@ std::string nearest_text(const store::Table& cells, const std::string& measure) 
                        rate_text(cells.number(best, "rate")));
 }
 
-store::Table table_of(const store::Table& own, const std::string& name) {
-    const store::Table cheapest = compare::cheapest_of(without_names(own), name);
+store::Table table_of(const store::Table& own, const std::string& name, compare::Controls controls) {
+    const store::Table cheapest = compare::cheapest_of(without_names(own), name, controls);
     store::Table t{{"wanted", "cheapest scheme", "rate", "error", "computing per second of sound", "how certain"}, {}};
     for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
         const std::string &measure = cheapest.at(i, "measure"), &status = cheapest.at(i, "status"), &options = cheapest.at(i, "options");
         if (status != "found") {
             const bool open = status == "not_known";
-            t.rows.push_back({wanted(cheapest, i), open ? "not known" : "none", "", "", "",
-                              open ? "the truth is not certain enough; perhaps " + cheapest.at(i, "perhaps") : nearest_text(own, measure)});
+            t.rows.push_back(
+                {wanted(cheapest, i), open ? "not known" : "none", "", "", "",
+                 open ? "the truth is not certain enough; perhaps " + cheapest.at(i, "perhaps") : nearest_text(own, measure, controls)});
             continue;
         }
         const double error = cheapest.number(i, "error"), bound = cheapest.number(i, "bound");
@@ -128,14 +125,15 @@ std::vector<Verdict> verdicts_of(const Results& r) {
     std::vector<Verdict> verdicts;
     for (const std::string& problem : distinct(r.cells, "problem")) {
         const store::Table own = rows_where(r.cells, "problem", problem);
-        Verdict v{problem, table_of(own, r.name), {}};
+        Verdict v{problem, table_of(own, r.name, r.controls), {}};
         std::size_t ok = 0, flagged = 0, refused = 0;
         for (std::size_t i = 0; i < own.rows.size(); ++i) {
             ok += own.at(i, "status") == "ok";
             refused += own.at(i, "status") == "refused";
             flagged += own.at(i, "status") == "ok" && !compare::trusted(own, i);
         }
-        if (v.table.rows.empty()) v.sentences.push_back("No run of this scene has both a cost and an error, so none is the cheapest.");
+        if (v.table.rows.empty())
+            v.sentences.push_back("No scheme of this scene can be the cheapest: none has a cost, an error and our trust.");
         for (const std::string& text : {truth_text(r, own), modes_text(own)})
             if (!text.empty()) v.sentences.push_back(text);
         v.sentences.push_back(fmt::format("{} runs: {} ended well{}{}{}.", own.rows.size(), ok,

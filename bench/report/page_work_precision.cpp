@@ -54,7 +54,8 @@ std::string goal_text(const store::Table& cheapest, std::size_t row) {
 std::vector<Goal> goals_of(const Results& r) {
     std::vector<Goal> goals;
     for (const std::string& problem : distinct(r.cells, "problem")) {
-        const store::Table own = rows_where(r.cells, "problem", problem), cheapest = compare::cheapest_of(without_names(own), r.name);
+        const store::Table own = rows_where(r.cells, "problem", problem),
+                           cheapest = compare::cheapest_of(without_names(own), r.name, r.controls);
         for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
             const std::string& error = cheapest.at(i, "measure");
             const double most = cheapest.number(i, "target");

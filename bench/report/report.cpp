@@ -1,5 +1,7 @@
 #include "bench/report/report.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -54,6 +56,34 @@ std::string twin_file(const std::string& chart, const std::string& problem, cons
     return chart + (problems.size() > 1 ? "-" + file_part(problem, problems) : "") + ".svg";
 }
 
+std::string with_unit(const std::string& key) {
+    constexpr std::pair<const char*, const char*> units[] = {{"rate", "Hz"},
+                                                             {"stiffness", "N/m^exponent"},
+                                                             {"stiffness_density", "N/m^(exponent+1)"},
+                                                             {"tension", "N"},
+                                                             {"amplitude", "m"},
+                                                             {"linear_density", "kg/m"},
+                                                             {"bending_stiffness", "N m^2"},
+                                                             {"length", "m"},
+                                                             {"position", "m"},
+                                                             {"height", "m"},
+                                                             {"width", "m"},
+                                                             {"damping", "kg/s"},
+                                                             {"duration", "s"},
+                                                             {"contact_loss", "s/m"},
+                                                             {"sigma0", "1/s"}};
+    const std::string last = key.substr(key.rfind('.') + 1);
+    std::string text = key.starts_with("string.0.") ? key.substr(9) : key;
+    std::replace(text.begin(), text.end(), '.', ' ');
+    for (const auto& [name, unit] : units)
+        if (last == name) text += std::string(" [") + unit + "]";
+    return text;
+}
+
+std::string rate_text(double hz) {
+    return std::isnan(hz) ? "" : fmt::format("{:.5g} kHz", hz / 1000);
+}
+
 store::Table rows_where(const store::Table& t, const std::string& column, const std::string& text) {
     store::Table rows{t.columns, {}};
     for (std::size_t i = 0; i < t.rows.size(); ++i)
@@ -74,9 +104,9 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     page.manifest = results.manifest;
     page.command = results.command;
     page.verdicts = verdicts_of(results);
-    page.sections = {path_section(results),       needs_section(results),       work_precision_section(results),
-                     dispersion_section(results), convergence_section(results), cost_section(results),
-                     map_section(results),        spectrogram_section(results), waveform_section(results)};
+    page.sections = {path_section(results),        needs_section(results),       work_precision_section(results), sweep_section(results),
+                     dispersion_section(results),  convergence_section(results), cost_section(results),           map_section(results),
+                     spectrogram_section(results), waveform_section(results)};
 
     std::vector<std::string> written, own;
     const Vega vega = find_vega();

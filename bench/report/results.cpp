@@ -39,6 +39,31 @@ store::Table read_table(const fs::path& path) {
     }
 }
 
+// cells.csv; of a committed record, which has none, errors.csv with the columns of cost.csv beside them: both hold the same runs in the
+// same order.
+store::Table read_cells(const fs::path& folder) {
+    store::Table cells = read_table(folder / "cells.csv");
+    if (!cells.columns.empty()) return cells;
+    cells = read_table(folder / "errors.csv");
+    const store::Table cost = read_table(folder / "cost.csv");
+    if (cells.columns.empty() || cost.columns.empty()) return cells;
+    const auto must_agree = [&](bool agree) {
+        if (!agree)
+            throw store::UsageError(fmt::format("{}: its rows are not those of errors.csv, run by run", (folder / "cost.csv").string()));
+    };
+    must_agree(cost.rows.size() == cells.rows.size());
+    std::vector<std::string> clocked;
+    for (const std::string& name : cost.columns) {
+        if (cells.column(name) < 0) clocked.push_back(name);
+        else
+            for (std::size_t i = 0; i < cost.rows.size(); ++i) must_agree(cost.at(i, name) == cells.at(i, name));
+    }
+    cells.columns.insert(cells.columns.end(), clocked.begin(), clocked.end());
+    for (std::size_t i = 0; i < cells.rows.size(); ++i)
+        for (const std::string& name : clocked) cells.rows[i].push_back(cost.at(i, name));
+    return cells;
+}
+
 std::string problem_of(const store::Table& t, std::size_t row, const std::vector<std::string>& keys, const std::string& scene) {
     std::string problem = t.column("scene") < 0 ? scene : t.at(row, "scene");
     for (const std::string& key : keys)
@@ -75,9 +100,11 @@ void read_manifest(Results& r) {
         const Json m = Json::parse(r.manifest);
         r.about = m.value("date", "");
         r.command = m.value("command", "");
+        r.controls = m.value("controls", false) ? compare::Controls::compete : compare::Controls::stand_beside;
         if (!m.contains("scene")) {  // of a suite
             r.name = m.value("suite", "");
             r.source = m.value("source", "");
+            r.suite = r.name;
             return;
         }
         const Json &scene = m.at("scene"), &headline = m.at("headline");
@@ -99,17 +126,15 @@ Results read_results(const fs::path& folder) {
     Results r;
     r.folder = folder;
     std::error_code error;
-    if (std::ranges::none_of(std::array{"cells.csv", "maps.csv", "path.csv"},
+    if (std::ranges::none_of(std::array{"cells.csv", "errors.csv", "maps.csv", "path.csv"},
                              [&](const char* n) { return fs::is_regular_file(folder / n, error); }))
         throw store::UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
     read_manifest(r);
-    const std::pair<const char*, store::Table*> files[] = {{"cells.csv", &r.cells},
-                                                           {"dispersion.csv", &r.dispersion},
-                                                           {"convergence.csv", &r.convergence},
-                                                           {"scaling.csv", &r.scaling},
-                                                           {"maps.csv", &r.maps},
-                                                           {"boundaries.csv", &r.boundaries},
-                                                           {"sounds.csv", &r.sounds}};
+    r.cells = read_cells(folder);
+    if (!r.cells.columns.empty()) name_rows(r.cells, r.name);
+    const std::pair<const char*, store::Table*> files[] = {{"dispersion.csv", &r.dispersion}, {"convergence.csv", &r.convergence},
+                                                           {"scaling.csv", &r.scaling},       {"maps.csv", &r.maps},
+                                                           {"boundaries.csv", &r.boundaries}, {"sounds.csv", &r.sounds}};
     for (const auto& [name, table] : files) {
         *table = read_table(folder / name);
         if (!table->columns.empty()) name_rows(*table, r.name);
@@ -117,6 +142,10 @@ Results read_results(const fs::path& folder) {
     r.path = read_table(folder / "path.csv");
     r.needs = read_table(folder / "needs.csv");
     return r;
+}
+
+store::Table table_of(const fs::path& folder, const std::string& name) {
+    return name == "cells" ? read_cells(folder) : read_table(folder / (name + ".csv"));
 }
 
 std::vector<std::string> distinct(const store::Table& t, const std::string& column) {

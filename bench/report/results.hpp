@@ -6,14 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include "bench/compare/cheapest.hpp"
 #include "bench/store/records.hpp"
 
 namespace jvari::bench::report {
 
 struct Results {
     std::filesystem::path folder;
-    std::string manifest;                                // JSON
-    std::string name, source, about, command;            // command: that made the results
+    std::string manifest;                      // JSON
+    std::string name, source, about, command;  // command: that made the results
+    std::string suite;                         // "": a comparison, a trim
+    compare::Controls controls = compare::Controls::stand_beside;
     std::vector<std::string> taps;                       // of compare's scene
     std::vector<std::pair<std::string, double>> floors;  // noise floor of an error column, where the manifest holds them
     // Empty where the file is absent. Each row has the columns `problem` and `series` in front (below).
@@ -21,8 +24,11 @@ struct Results {
     store::Table path, needs;  // of trim, as they are
 };
 
-// Throws UsageError where there is no manifest.json, none of cells.csv, maps.csv and path.csv, or one of the files cannot be read.
+// Throws UsageError where there is no manifest.json, none of cells.csv, errors.csv, maps.csv and path.csv, or one of the files cannot be
+// read.
 Results read_results(const std::filesystem::path&);
+// A table of the folder as it is: "trace" of trace.csv. "cells" of a record is errors.csv with cost.csv. Empty where the file is absent.
+store::Table table_of(const std::filesystem::path& folder, const std::string& name);
 
 // A problem is a scene at one point of what is swept; runs of different problems are not compared. A series is a scheme with its options,
 // and with its modes where the table has it with several at one rate.

@@ -1,5 +1,7 @@
 #include "bench/report/spectrogram_chart.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -18,10 +20,11 @@ struct Steps {
     int frames = 1, rows = 1;  // merged to one
 };
 
+enum class Shown { level, difference };
 struct Tile {
     std::size_t panel;
     double from, to, low, high;  // [s], [kHz]
-    int level;                   // [0.1 dB] below the common maximum
+    int level;                   // [0.1 dB] below the common maximum, or above what it is seen against
 };
 
 // The strongest of the merged cells, in steps of level; -range for background.
@@ -34,17 +37,25 @@ int stepped(const suite::Levels& l, int frame, int row, const Steps& s, int top)
     return -((-below + s.level / 2) / s.level) * s.level;
 }
 
-std::vector<Tile> tiles_of(const std::vector<Panel>& panels, int top, const Steps& s) {
+std::vector<Tile> tiles_of(const std::vector<Panel>& panels, int top, const Steps& s, Shown shown) {
     std::vector<Tile> tiles;
+    const int background = shown == Shown::level ? -range : 0;
     for (std::size_t p = 0; p < panels.size(); ++p) {
         const suite::Levels& l = panels[p].levels;
+        const suite::Levels* against = panels[p].against ? &*panels[p].against : nullptr;
+        if (shown == Shown::difference && !against) continue;
+        const auto level_at = [&](int m, int row) {
+            const int own = stepped(l, m, row, s, top);
+            if (shown == Shown::level) return own;
+            return m < against->frames && row < against->rows ? own - stepped(*against, m, row, s, top) : background;
+        };
         for (int row = 0; row < l.rows; row += s.rows) {
-            int before = -range;
+            int before = background;
             for (int m = 0; m < l.frames; m += s.frames) {
-                const int level = stepped(l, m, row, s, top);
+                const int level = level_at(m, row);
                 const double from = l.start + m * l.hop, to = l.start + std::min(m + s.frames, l.frames) * l.hop;
                 const double low = row * l.row_hz / 1000, high = std::min(row + s.rows, l.rows) * l.row_hz / 1000;
-                if (level <= -range) before = -range;
+                if (level == background) before = background;
                 else if (level == before) tiles.back().to = to;
                 else tiles.push_back({p, from, to, low, high, before = level});
             }
@@ -62,7 +73,8 @@ struct Frame {
     int width;                    // three pixels for each frame and two for each row, so that no seam shows
 };
 
-Json panel_of(const Frame& f, const Json& values, bool leftmost, bool lowest) {
+// Both kinds of tiles have one colour scale, which follows the choice.
+Json panel_of(const Frame& f, const Json& values, bool leftmost, bool lowest, bool with_differences) {
     const auto axis = [](bool shown, const char* title) {
         return Json{{"title", shown ? Json(title) : Json()}, {"labels", shown}, {"tickCount", 4}, {"grid", false}};
     };
@@ -70,21 +82,30 @@ Json panel_of(const Frame& f, const Json& values, bool leftmost, bool lowest) {
     const auto quantity = [](const char* field, const Json& its_scale, const Json& its_axis) {
         return Json{{"field", field}, {"type", "quantitative"}, {"scale", its_scale}, {"axis", its_axis}};
     };
-    return {{"width", f.width},
-            {"height", 200},
-            {"view", {{"fill", darkest}}},
-            {"data", {{"values", values}}},
-            {"mark", {{"type", "rect"}, {"aria", false}, {"tooltip", nullptr}}},
-            {"encoding",
-             {{"x", quantity("a", scale(f.first, f.last), axis(lowest, "time [s]"))},
-              {"x2", {{"field", "b"}}},
-              {"y", quantity("f", scale(0, f.highest), axis(leftmost, "frequency [kHz]"))},
-              {"y2", {{"field", "g"}}},
-              {"color",
-               {{"field", "l"},
-                {"type", "quantitative"},
-                {"scale", {{"scheme", "viridis"}, {"domain", {-80, 0}}, {"clamp", true}}},
-                {"legend", {{"title", "dB re common maximum"}, {"gradientLength", 200}}}}}}}};
+    const auto chosen = [with_differences](const Json& of_levels, const Json& of_differences) {
+        const auto expression = [](const Json& j) { return j.dump(); };
+        if (!with_differences) return of_levels;
+        return Json{{"expr", fmt::format("shown_field == 'level' ? {} : {}", expression(of_levels), expression(of_differences))}};
+    };
+    Json panel{
+        {"width", f.width},
+        {"height", 200},
+        {"view", {{"fill", chosen(darkest, "#f7f7f7")}}},
+        {"data", {{"values", values}}},
+        {"mark", {{"type", "rect"}, {"aria", false}, {"tooltip", nullptr}}},
+        {"encoding",
+         {{"x", quantity("a", scale(f.first, f.last), axis(lowest, "time [s]"))},
+          {"x2", {{"field", "b"}}},
+          {"y", quantity("f", scale(0, f.highest), axis(leftmost, "frequency [kHz]"))},
+          {"y2", {{"field", "g"}}},
+          {"color",
+           {{"field", "l"},
+            {"type", "quantitative"},
+            {"scale",
+             {{"scheme", chosen("viridis", "purpleorange")}, {"domain", Json::array({chosen(-80, -24), chosen(0, 24)})}, {"clamp", true}}},
+            {"legend", {{"title", with_differences ? "dB" : "dB re common maximum"}, {"gradientLength", 200}}}}}}}};
+    if (with_differences) panel["transform"] = Json::array({{{"filter", "datum.d == (shown_field == 'level' ? 0 : 1)"}}});
+    return panel;
 }
 
 Json note_of(const Frame& f, const std::string& status) {
@@ -117,18 +138,28 @@ std::string spectrogram_spec(const std::string& title, const std::string& subtit
         frames = std::max(frames, l.frames);
     }
     Steps steps;
-    std::vector<Tile> tiles = tiles_of(panels, top, steps);
-    for (int round = 0; static_cast<int>(tiles.size()) > most && round < 12; ++round) {
+    std::vector<Tile> tiles = tiles_of(panels, top, steps, Shown::level), differences = tiles_of(panels, top, steps, Shown::difference);
+    for (int round = 0; static_cast<int>(tiles.size() + differences.size()) > most && round < 12; ++round) {
         if (steps.level < 50) steps.level = steps.level == 20 ? 40 : 50;
         else if (round % 2 == 0) steps.frames *= 2;
         else steps.rows *= 2;
-        tiles = tiles_of(panels, top, steps);
+        tiles = tiles_of(panels, top, steps, Shown::level);
+        differences = tiles_of(panels, top, steps, Shown::difference);
     }
     // Panel by panel, not by facet: those come in an order of their own when it is not that of the alphabet.
     std::vector<Json> values(panels.size(), Json::array());
-    for (const Tile& t : tiles)
-        values[t.panel].push_back(
-            {{"a", rounded(t.from)}, {"b", rounded(t.to)}, {"f", rounded(t.low)}, {"g", rounded(t.high)}, {"l", t.level / 10.0}});
+    const auto value_of = [](const Tile& t) {
+        return Json{{"a", rounded(t.from)}, {"b", rounded(t.to)}, {"f", rounded(t.low)}, {"g", rounded(t.high)}, {"l", t.level / 10.0}};
+    };
+    const bool with_differences = std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return p.against.has_value(); });
+    for (const Tile& t : tiles) {
+        values[t.panel].push_back(value_of(t));
+        if (with_differences) values[t.panel].back()["d"] = 0;
+    }
+    for (const Tile& t : differences) {
+        values[t.panel].push_back(value_of(t));
+        values[t.panel].back()["d"] = 1;
+    }
     const Frame frame{std::isfinite(first) ? first : 0, last, highest, 3 * std::min(frames, 60)};
     Json grid = Json::array();
     for (const std::string& row : down)
@@ -136,13 +167,14 @@ std::string spectrogram_spec(const std::string& title, const std::string& subtit
             std::size_t p = 0;
             while (p < panels.size() && (panels[p].across != column || panels[p].down != row)) ++p;
             const bool sounds = p < panels.size() && panels[p].levels.frames > 0;
-            Json panel = sounds ? panel_of(frame, values[p], column == across.front(), row == down.back())
+            Json panel = sounds ? panel_of(frame, values[p], column == across.front(), row == down.back(), with_differences)
                                 : note_of(frame, p < panels.size() ? panels[p].status : "");
             if (row == down.front()) panel["title"] = {{"text", column}, {"fontSize", 10}};
             if (column == across.front() && sounds) panel["encoding"]["y"]["axis"]["title"] = {row, "frequency [kHz]"};
             grid.push_back(std::move(panel));
         }
     return Json{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
+                {"params", with_differences ? Json::array({{{"name", "shown_field"}, {"value", "level"}}}) : Json::array()},
                 {"title", {{"text", title}, {"subtitle", subtitle}, {"anchor", "start"}, {"offset", 14}}},
                 {"background", "white"},
                 {"padding", 12},

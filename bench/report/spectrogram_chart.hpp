@@ -1,6 +1,7 @@
 // Spectrograms side by side, 0-8 kHz, in decibels below their common maximum, as a Vega-Lite specification of rectangles.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct Panel {
     std::string across, down;  // names of its column and of its row
     std::string status;        // stands where there is no spectrogram: "refused"
     suite::Levels levels;
+    std::optional<suite::Levels> against{};  // on the same grid: with it the signal `shown_field`, "level" or "difference", chooses
 };
 // Panels on a grid, columns and rows in the order in which they first come up. At most `most` rectangles: equal neighbours in time are one,
 // what lies 80 dB below the maximum is background, and the steps of level, time and frequency grow until they fit.

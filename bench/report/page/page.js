@@ -47,7 +47,15 @@ function how_to_read() {
   for (const [word, meaning] of words) list.append(element("dt", {}, word), element("dd", {}, meaning));
   const sources = Array.isArray(page.manifest?.schemes) ? page.manifest.schemes.map(s => [s.name, s.source]) : Object.entries(page.manifest?.schemes ?? {});
   for (const [name, source] of sources) list.append(element("dt", {}, name), element("dd", {}, source));
-  return element("section", {id: "reading"}, element("h2", {}, "How to read it"), list);
+  list.append(element("dt", {}, "columns"), element("dd", {}, "bench/README.md of the sources explains every column of the tables"));
+  const scenes = page.manifest?.scenes ?? (page.manifest?.scene?.text ? {[page.manifest.scene.name]: page.manifest.scene.text} : {});
+  const texts = Object.entries(scenes).map(([name, text]) => {
+    const whole = element("pre", {tabIndex: 0}, text);
+    whole.setAttribute("role", "region");
+    whole.setAttribute("aria-label", "the scene " + name);
+    return element("details", {className: "scene"}, element("summary", {}, `the scene ${name}`), whole);
+  });
+  return element("section", {id: "reading"}, element("h2", {}, "How to read it"), list, ...texts);
 }
 
 // Nested names are written with dots.
@@ -55,7 +63,8 @@ function entries_of(value, name = "") {
   if (value === null || value === "") return [];
   if (typeof value !== "object") return [[name, typeof value === "number" && !Number.isInteger(value) ? String(Number(value.toPrecision(6))) : String(value)]];
   if (Array.isArray(value) && value.every(x => typeof x !== "object")) return value.length ? [[name, value.join(", ")]] : [];
-  return Object.entries(value).flatMap(([key, x]) => entries_of(x, name ? `${name}.${key}` : key));
+  const scene_text = key => (name === "scene" && key === "text") || (name === "" && key === "scenes");  // it stands above
+  return Object.entries(value).filter(([key]) => !scene_text(key)).flatMap(([key, x]) => entries_of(x, name ? `${name}.${key}` : key));
 }
 
 document.querySelector("h1").textContent = page.title;
