@@ -2,7 +2,7 @@
 # The README's first table is what results/work-precision holds: each row's error and cost are those of its scheme at its rate, rounded, the
 # error is within what is wanted, and no unflagged run within it is surely cheaper (upper quartile below the row's lower one). An error counts
 # with what the reference is certain to, and says so by "≤", where that is more than a tenth of it. Schemes are as published (compliance=own)
-# where their name says nothing else.
+# where their name says nothing else. A control (schemes.def) is no row and no cheaper run.
 # usage: answer.sh [TREE]
 cd "${1:-$(dirname "$0")/..}" || exit 2
 results=results/work-precision
@@ -12,9 +12,10 @@ function rounds(actual, printed, scale, digits) {  # is `printed` what `actual` 
     digits = index(printed, ".") ? length(printed) - index(printed, ".") : 0
     return actual * scale - printed <= 0.5001 * 10^-digits && printed - actual * scale <= 0.5001 * 10^-digits
 }
+FNR == NR { if (sub(/^JVARI_CONTROL\(/, "")) { sub(/\).*/, ""); control[$0] = 1 } next }
 FNR == 1 { ++file; if (file < 3) { delete at; for (i = 1; i <= NF; ++i) at[$i] = i } }
 file == 1 && FNR > 1 { low[$1] = $at["cost_lower"]; high[$1] = $at["cost_upper"]; cost[$1] = $at["cost_s_per_s"] }
-file == 2 && FNR > 1 && $at["status"] == "ok" && $at["flags"] == "" {
+file == 2 && FNR > 1 && $at["status"] == "ok" && $at["flags"] == "" && !($at["scheme"] in control) {
     options = $at["options"]; sub(/^compliance=own$/, "", options)
     id[$at["scheme"] (options == "" ? "" : " " options), $at["rate"] / 1000] = $1
     sure = $at["certificate_l2_50ms"] + 0
@@ -44,4 +45,4 @@ END {
     if (cheaper) print "rows of README.md beside which " results " has a cheaper run:" cheaper
     if (!rows) print "README.md has no first table"
     exit !rows || wrong != "" || cheaper != ""
-}' results="$results" "$results/cost.csv" "$results/errors.csv" README.md >&2
+}' results="$results" schemes/schemes.def "$results/cost.csv" "$results/errors.csv" README.md >&2

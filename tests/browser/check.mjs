@@ -1,6 +1,6 @@
-// check.mjs PROGRAM RESULTS NODE_MODULES: makes a comparison, a suite and a page of made-up numbers with the built program, opens them in Chromium, and
-// asks what a reader would: is the verdict the first thing, is everything drawn for every scene, has a scheme one look, do the menus act, does it
-// sound, does it fit a phone, is it accessible (axe-core), is the console clean.
+// check.mjs PROGRAM RESULTS NODE_MODULES DEMO: makes a comparison, a suite and a page of made-up numbers with the built program, opens them and the
+// demo's in Chromium, wide and as a phone, light and dark, and asks what a reader would: is the verdict the first thing, is everything drawn for every
+// scene, has a scheme one look, do the menus act, does it sound, does it fit, can every text be read, is it accessible (axe-core), is the console clean.
 import {spawnSync} from "node:child_process";
 import {cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -8,7 +8,7 @@ import {dirname, join} from "node:path";
 import {pathToFileURL} from "node:url";
 import {open} from "./chromium.mjs";
 
-const [program, results, modules] = process.argv.slice(2);
+const [program, results, modules, demo] = process.argv.slice(2);
 const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8");
 const scratch = mkdtempSync(join(tmpdir(), "jvari-browser-"));
 let failures = 0;
@@ -133,6 +133,58 @@ const in_page = {
     })()`,
     fold: `(() => { scrollTo(0, 0); const v = document.getElementById("verdict"), t = v.querySelector("table"); return {top: v.getBoundingClientRect().top, bottom: t.hidden ? v.querySelector("p").getBoundingClientRect().bottom : t.getBoundingClientRect().bottom, first: (v.querySelector("tbody tr") ?? v).getBoundingClientRect().top}; })()`,
     axe: `axe.run(document, {resultTypes: ["violations"]}).then(r => r.violations.filter(v => v.impact === "serious" || v.impact === "critical").map(v => v.id + ": " + v.nodes.slice(0, 3).map(n => n.target.join(" ") + " " + n.failureSummary.slice(0, 160)).join(" | ")))`,
+    // Texts of the charts that are fainter than 4.5 : 1 on the page, as they are blended with it. A cross is a mark.
+    faint: `(() => {
+        const numbers = colour => colour.match(/[\\d.]+/g).map(Number), linear = c => (c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+        const light = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+        const paper = numbers(getComputedStyle(document.body).backgroundColor).slice(0, 3), faint = [];
+        for (const text of document.querySelectorAll(".chart svg.marks text")) {
+            const style = getComputedStyle(text), [r, g, b, a = 1] = numbers(style.fill);
+            let opacity = a * style.fillOpacity;
+            for (let e = text; e.tagName !== "svg"; e = e.parentElement) opacity *= getComputedStyle(e).opacity;
+            if (opacity === 0 || text.textContent.trim() === "" || text.textContent === "\u2715") continue;
+            const seen = light([r, g, b].map((c, k) => opacity * c + (1 - opacity) * paper[k])), behind = light(paper);
+            const contrast = (Math.max(seen, behind) + 0.05) / (Math.min(seen, behind) + 0.05);
+            if (contrast < 4.5) faint.push(text.textContent + " at " + contrast.toFixed(2));
+        }
+        return {texts: document.querySelectorAll(".chart svg.marks text").length, faint};
+    })()`,
+    // The table of cells: what the filter leaves, and what the button saves.
+    filter: `(async () => {
+        const section = document.getElementById("cells"), table = page.sections.find(s => s.id === "cells").table, search = section.querySelector("input[type=search]");
+        const rows = () => section.querySelectorAll("tbody tr").length, all = rows(), schemes = table.rows.map(row => row[table.columns.indexOf("scheme")]);
+        const one = schemes.at(-1);
+        search.value = one;
+        search.dispatchEvent(new Event("input"));
+        const left = rows(), right = [...section.querySelectorAll("tbody tr")].every(tr => tr.textContent.includes(one));
+        search.value = "";
+        search.dispatchEvent(new Event("input"));
+        let saved = null;
+        const make = URL.createObjectURL, click = HTMLAnchorElement.prototype.click;
+        URL.createObjectURL = blob => { saved = blob; return make.call(URL, blob); };
+        HTMLAnchorElement.prototype.click = () => {};
+        [...section.querySelectorAll("button")].find(b => b.textContent === "CSV").click();
+        URL.createObjectURL = make;
+        HTMLAnchorElement.prototype.click = click;
+        const text = saved ? await saved.text() : "";
+        return {left, right, expected: Math.min(25, schemes.filter(name => name.includes(one)).length), all, again: rows(),
+                header: text.split("\\n")[0] === table.columns.join(","), saved: text.trim().split("\\n").length - 1, rows: table.rows.length};
+    })()`,
+    // On a phone: the first row of the cells, each number with its name before it.
+    card: `(() => {
+        const fields = [...document.querySelector("#cells tbody tr").cells].filter(td => getComputedStyle(td).display !== "none");
+        const named = fields.every(td => getComputedStyle(td, "::before").content.length > 2 && td.getBoundingClientRect().right <= 390);
+        return {named, numbers: fields.filter(td => td.textContent !== "" && !Number.isNaN(Number(td.textContent))).length, stacked: new Set(fields.map(td => td.getBoundingClientRect().top)).size === fields.length};
+    })()`,
+    // Maps: a tile for each run of the scheme that is shown, side by side without a gap, and a unit on each axis that has one.
+    tiles: `(() => [...document.querySelectorAll("#maps .chart")].map(chart => {
+        const boxes = [...chart.querySelectorAll(".mark-rect.role-mark path")].map(p => p.getBBox ? p.getBoundingClientRect() : null);
+        const lefts = [...new Set(boxes.map(b => Math.round(b.left)))].sort((a, b) => a - b), widths = new Map(boxes.map(b => [Math.round(b.left), b.width]));
+        return {name: chart.getAttribute("aria-label"), tiles: boxes.length, gap: Math.max(0, ...lefts.slice(1).map((left, k) => Math.abs(left - lefts[k] - widths.get(lefts[k])))),
+                text: [...chart.querySelectorAll("svg.marks text")].map(t => t.textContent).join(" ")};
+    }))()`,
+    menu_lengths: `[...document.querySelectorAll(".menus select")].map(s => [s.closest("label").firstChild.textContent.trim(), s.options.length])`,
+    lines: `[...document.querySelectorAll("#sounds .role-legend-label text")].map(t => t.textContent)`,
     // The look of each name in the legends of the page's charts, then of the pictures beside it.
     looks: files => `(() => {
         const look = (where, root) => [...root.querySelectorAll(".role-legend-entry")].flatMap(entry => {
@@ -167,30 +219,62 @@ const enter = browser => browser.page("Input.dispatchKeyEvent", {type: "keyDown"
     .then(() => browser.page("Input.dispatchKeyEvent", {type: "keyUp", key: "Enter", code: "Enter", windowsVirtualKeyCode: 13}));
 const sorted = numbers => numbers.every((x, k) => k === 0 || Number.isNaN(x) || numbers[k - 1] <= x);
 
+const views = {"light, 1400 px": [1400, "light"], "dark, 1400 px": [1400, "dark"], "light, 390 px": [390, "light"], "dark, 390 px": [390, "dark"]};
+async function view(browser, name) {
+    const [width, scheme] = views[name];
+    await browser.page("Emulation.setDeviceMetricsOverride", {width, height: width === 390 ? 844 : 900, deviceScaleFactor: width === 390 ? 2 : 1, mobile: width === 390});
+    await browser.page("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: scheme}]});
+    await pause(200);
+    if (await browser.evaluate("!!document.querySelector('main')")) await ready(browser);
+}
+const in_folder = (file, table) => readFileSync(join(dirname(file), table), "utf8").trim().split("\n").slice(1).map(line => line.split(","));
+
+async function read_in(browser, name) {  // what must hold however the page is looked at
+    await view(browser, name);
+    for (const told of await browser.evaluate(in_page.scenes)) {
+        expect(told.offered, `${name}, ${told.name}: the error that is chosen is one of the scene's`);
+        expect(told.empty.length === 0, `${name}, ${told.name}: every chart is drawn: ${told.empty.join("; ")}`);
+        expect(told.crosses === told.failed, `${name}, ${told.name}: ${told.crosses} crosses, ${told.failed} runs failed`);
+        expect(told.points >= told.drawable && told.drawable > 0, `${name}, ${told.name}: ${told.points} points for ${told.drawable} runs that have the error`);
+        expect(told.verdict > 0, `${name}, ${told.name}: there is a verdict`);
+    }
+    const {texts, faint} = await browser.evaluate(in_page.faint);
+    expect(texts > 20 && faint.length === 0, `${name}: the ${texts} texts of charts can be read: ${faint.slice(0, 5).join("; ")}`);
+    const serious = await browser.evaluate(in_page.axe);
+    expect(serious.length === 0, `${name}: axe finds nothing serious: ${serious.join("\n    ")}`);
+    const fold = await browser.evaluate(in_page.fold), [width] = views[name];
+    expect(width === 390 ? fold.first < 844 : fold.bottom <= 900, `${name}: the verdict stands above the fold: ${JSON.stringify(fold)}`);
+    const wide = await browser.evaluate(in_page.width);
+    expect(wide <= width, `${name}: nothing overflows: ${wide}`);
+}
+
 async function check(browser, name, file, charts) {
     console.log(name);
     expect(statSync(file).size < 5e6, `the page is below 5 MB: ${statSync(file).size}`);
-    await browser.page("Emulation.setDeviceMetricsOverride", {width: 1400, height: 900, deviceScaleFactor: 1, mobile: false});
+    await view(browser, "light, 1400 px");
     await browser.page("Page.navigate", {url: pathToFileURL(file).href});
     await ready(browser);
     const drawn = await browser.evaluate(in_page.drawn);
     expect(drawn.length === charts, `${charts} charts stand there: ${drawn.length}`);
     for (const chart of drawn) expect(chart.marks > 0, `${chart.name} is drawn`);
-    const fold = await browser.evaluate(in_page.fold);
-    expect(fold.bottom <= 900, `the verdict stands above the fold: its table ends at ${fold.bottom}`);
     const pictures = readdirSync(dirname(file)).filter(f => f.endsWith(".svg")).map(f => [f, readFileSync(join(dirname(file), f), "utf8")]);
     const {schemes, other} = one_look(await browser.evaluate(in_page.looks(pictures)));
     expect(other.length === 0 && (name === "made-up" || schemes >= 2), `each of ${schemes} schemes looks the same everywhere: ${other.join("; ")}`);
-    for (const told of await browser.evaluate(in_page.scenes)) {
-        expect(told.offered, `${told.name}: the error that is chosen is one of the scene's`);
-        expect(told.empty.length === 0, `${told.name}: every chart is drawn: ${told.empty.join("; ")}`);
-        expect(told.crosses === told.failed, `${told.name}: ${told.crosses} crosses, ${told.failed} runs failed`);
-        expect(told.points >= told.drawable && told.drawable > 0, `${told.name}: ${told.points} points for ${told.drawable} runs that have the error`);
-        expect(told.verdict > 0, `${told.name}: there is a verdict`);
-    }
     await browser.evaluate(axe + ";0");
-    const serious = await browser.evaluate(in_page.axe);
-    expect(serious.length === 0, `axe finds nothing serious: ${serious.join("\n    ")}`);
+    for (const name of Object.keys(views)) await read_in(browser, name);
+    await view(browser, "light, 1400 px");
+    const lengths = await browser.evaluate(in_page.menu_lengths);
+    for (const label of ["error", "cost"]) expect(lengths.some(([text, length]) => text === label && length <= 12), `a menu of its own, and short, for ${label}: ${lengths.join("; ")}`);
+    if (name !== "made-up") expect((await browser.evaluate(in_page.lines)).includes("difference"), "a trace has the difference as its third line");
+    const filter = await browser.evaluate(in_page.filter);
+    expect(filter.left === filter.expected && filter.right && filter.again === filter.all && filter.all > filter.left, `a filter leaves the rows that have the word: ${JSON.stringify(filter)}`);
+    expect(filter.header && filter.saved === filter.rows, `the CSV button saves every column and row: ${JSON.stringify(filter)}`);
+    if (name === "made-up")
+        for (const map of await browser.evaluate(in_page.tiles)) {
+            const rows = in_folder(file, "maps.csv").filter(row => map.name.endsWith(row[0]) && row[2] === "one").length;
+            expect(map.tiles === rows && map.gap < 1.5, `${map.name}: ${map.tiles} tiles for ${rows} runs, ${map.gap} pixels between`);
+            expect(!map.name.includes("rate") || (map.text.includes("[Hz]") && map.text.includes("[N/m^exponent]")), `${map.name}: its axes have their units`);
+        }
     const menus = await browser.evaluate(in_page.menus);
     expect(menus.menus > 0 && menus.dead.length === 0, `each of ${menus.menus} menus redraws its chart: ${menus.dead.join("; ")}`);
     expect(await browser.evaluate("[...document.querySelectorAll('select, input')].every(e => e.closest('label'))"), "each menu has a label");
@@ -207,18 +291,9 @@ async function check(browser, name, file, charts) {
     await browser.evaluate("[...document.querySelectorAll('#cells button')].find(b => b.textContent === 'all rows' && !b.hidden)?.click()");
     if (name === "made-up")
         expect(await browser.evaluate("[...document.querySelectorAll('#cells td')].some(td => td.textContent === '\\u22645.56e-03')"), "an error is no more than it and its certificate together");
-    await browser.page("Emulation.setDeviceMetricsOverride", {width: 390, height: 844, deviceScaleFactor: 2, mobile: true});
-    await browser.page("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: "dark"}]});
-    await pause(200);
-    await ready(browser);
-    const width = await browser.evaluate(in_page.width);
-    expect(width <= 390, `nothing overflows at 390 pixels: ${width}`);
-    const phone = await browser.evaluate(in_page.fold);
-    expect(phone.first < 844, `the verdict begins above the fold of a phone: ${phone.first}`);
-    const in_the_dark = await browser.evaluate(in_page.axe);
-    expect(in_the_dark.length === 0, `axe finds nothing serious on a phone in the dark: ${in_the_dark.join("\n    ")}`);
-    for (const chart of await browser.evaluate(in_page.drawn)) expect(chart.marks > 0, `${chart.name} is drawn on a phone in the dark`);
-    await browser.page("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: "light"}]});
+    await view(browser, "dark, 390 px");
+    const card = await browser.evaluate(in_page.card);
+    expect(card.named && card.numbers >= 2 && card.stacked, `on a phone a row of the table is a card with numbers: ${JSON.stringify(card)}`);
     if (name !== "suite") return;
     await browser.evaluate("(async () => { const s = document.getElementById('scene'); s.selectedIndex = 1; await s.onchange(); })()");
     const address = await browser.evaluate("location.href");
@@ -240,7 +315,8 @@ try {
     });
     await check(browser, "comparison", join(folders.comparison, "report.html"), 3);
     await check(browser, "suite", join(folders.suite, "report.html"), 5);  // the fifth: time per step against the rate
-    await check(browser, "made-up", join(folders["made-up"], "report.html"), 7);
+    await check(browser, "made-up", join(folders["made-up"], "report.html"), 8);
+    if (demo) await check(browser, "demo", join(demo, "report.html"), 5);
 } catch (error) {
     expect(false, error.stack);
 } finally {
