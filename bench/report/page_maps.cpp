@@ -112,7 +112,7 @@ Json panels_of(Json chart, const std::vector<std::string>& series) {  // for pap
                       {"type", "nominal"},
                       {"title", nullptr},
                       {"sort", series},
-                      {"header", {{"labelFontSize", 9}, {"labelLimit", 240}}}};
+                      {"header", {{"labelFontSize", 9}, {"labelLimit", 400}}}};
     chart["columns"] = 4;
     chart["bounds"] = "flush";  // a name does not push panels apart
     chart["spacing"] = {{"row", 26}, {"column", 18}};

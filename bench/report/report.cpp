@@ -62,6 +62,7 @@ std::string with_unit(const std::string& key) {
                                                              {"stiffness_density", "N/m^(exponent+1)"},
                                                              {"tension", "N"},
                                                              {"amplitude", "m"},
+                                                             {"coefficient", "1/m"},
                                                              {"linear_density", "kg/m"},
                                                              {"bending_stiffness", "N m^2"},
                                                              {"length", "m"},
