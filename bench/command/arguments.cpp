@@ -158,7 +158,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     compare_verb->add_option("--schemes", compare.schemes, "absent: every scheme that represents the scene, but for controls")
         ->delimiter(',')
         ->type_name("A,B,...");
-    compare_verb->add_flag("--controls", compare.controls, "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
+    compare_verb->add_flag("--controls", compare.controls,
+                           "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
     compare_verb->add_option("--rates", compare.rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")
         ->delimiter(',')
         ->type_name("HZ,...")
