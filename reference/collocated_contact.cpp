@@ -5,10 +5,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reference/macro_window.hpp"
 
 namespace jvari {
+
+namespace {
+constexpr double last_bits = 4 * std::numeric_limits<double>::epsilon();  // of a sum of a few terms, relative to the largest
+}
 
 CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const BarrierLaw> laws) : window_(&w), law_(laws.begin(), laws.end()) {
     gsl_integration_glfixed_table* table = gsl_integration_glfixed_table_alloc(nodes);
@@ -128,7 +133,7 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
     bool factored = false;
     double before = HUGE_VAL;  // the residual
     for (int iteration = 0;; ++iteration) {
-        double residual = 0, scale = 0, stiffest = 0;
+        double residual = 0, scale = 0, stiffest = 0, rounding = 0;  // [N]; rounding: what the last bits of place and speed are worth
         std::copy_n(base_.begin(), size, position_.begin());
         std::copy_n(base_speed_.begin(), size, speed_.begin());
         sweep.combine(position_.data(), size, force_.data(), size, couple_.data(), size);
@@ -142,8 +147,11 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
             residual = std::max(residual, std::abs(right_[i]));
             stiffest = std::max(stiffest, stiffness_[i]);
             scale = std::max(scale, std::abs(f));
+            // A contact that creeps under a strong loss is a small force between large ones: 1 - beta v is near 0 and drag v is not.
+            rounding = std::max(rounding, last_bits * (std::abs(stiffness_[i]) * (std::abs(base_[i]) + std::abs(p)) +
+                                                       std::abs(drag_[i]) * (std::abs(base_speed_[i]) + std::abs(speed_[i]))));
         }
-        if (residual <= std::max(1e-14 * scale, 0.1 * stiffest * w.rounding())) break;
+        if (residual <= std::max({1e-14 * scale, 0.1 * stiffest * w.rounding(), rounding})) break;
         if (!(scale < HUGE_VAL) || iteration == 40) {
             d_ = 0;
             return HUGE_VAL;
