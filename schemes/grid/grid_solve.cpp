@@ -76,6 +76,16 @@ MidpointPass choose_midpoint() {
     return midpoint;
 }
 
+void increment(int N, double* HWY_RESTRICT u, const double* HWY_RESTRICT before) {
+    const D d;
+    for (int l = 1; l < N; l += static_cast<int>(hn::Lanes(d)))
+        hn::StoreU(hn::Add(hn::LoadU(d, u + l), hn::LoadU(d, before + l)), d, u + l);
+    hn::StoreU(hn::Zero(d), d, u + N);
+}
+IncrementPass choose_increment() {
+    return increment;
+}
+
 using Sums = void (*)(const double*, const double*, int, int, double*, double*, double*);
 Sums choose(int near) {
     return near <= 3 ? solve<3> : solve<6>;
@@ -89,8 +99,12 @@ HWY_AFTER_NAMESPACE();
 namespace jvari {
 HWY_EXPORT(choose);
 HWY_EXPORT(choose_midpoint);
+HWY_EXPORT(choose_increment);
 MidpointPass midpoint_pass() {
     return HWY_DYNAMIC_DISPATCH(choose_midpoint)();
+}
+IncrementPass increment_pass() {
+    return HWY_DYNAMIC_DISPATCH(choose_increment)();
 }
 
 GridSolve::Sums GridSolve::sums(int pairs) {

@@ -41,4 +41,8 @@ private:
 using MidpointPass = void (*)(int intervals, double* y, double* q, const double* s);
 MidpointPass midpoint_pass();
 
+// The end of a step that solves for an increment (finite_difference_theta.cpp): u_l <- u_l + before_l; u_N and a vector beyond it are zero.
+using IncrementPass = void (*)(int intervals, double* u, const double* before);
+IncrementPass increment_pass();
+
 }  // namespace jvari

@@ -246,18 +246,23 @@ private:
     Status failed_;
 };
 
-// (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`
+// (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`. Of the increment u+ - u- instead: (2M - dt^2 K) u - 2M u-, which
+// is what is left after (M + dt R/2) u-.
 class FivePoint {
 public:
-    FivePoint(const GridString& g, double dt, double m, double m4, double divisor) : intervals_(g.grid.intervals) {
+    enum class Of { next, increment };
+    FivePoint(const GridString& g, double dt, double m, double m4, double divisor, Of of = Of::next) : intervals_(g.grid.intervals) {
         kept_ = AlignedVector(node_offset + intervals_ + five_point_overhang);
         const double h2 = g.grid.dx * g.grid.dx, s = g.c2 * dt * dt / h2, q = g.kappa2 * dt * dt / (h2 * h2);
         const double n = m / h2, n4 = m4 / (h2 * h2);
-        const double p = n + g.loss.sigma1 * dt / h2, p4 = n4 - g.loss.sigma2 * dt / (h2 * h2);  // M - dt R/2
+        const LossFit& loss = g.loss;
         w_.a0 = (2 - 4 * n + 12 * n4 - 2 * s - 6 * q) / divisor;
         w_.a1 = (2 * n - 8 * n4 + s + 4 * q) / divisor;
         w_.a2 = (2 * n4 - q) / divisor;
-        w_.b0 = -(1 - g.loss.sigma0 * dt - 2 * p + 6 * p4) / divisor;
+        // M - dt R/2, or 2M
+        const double p0 = of == Of::next ? 1 - loss.sigma0 * dt : 2, p = of == Of::next ? n + loss.sigma1 * dt / h2 : 2 * n,
+                     p4 = of == Of::next ? n4 - loss.sigma2 * dt / (h2 * h2) : 2 * n4;
+        w_.b0 = -(p0 - 2 * p + 6 * p4) / divisor;
         w_.b1 = -(p - 4 * p4) / divisor;
         w_.b2 = -p4 / divisor;
         pass_ = five_point_pass(w_);
