@@ -27,6 +27,7 @@ namespace jvari {
 namespace {
 constexpr int most_sets_of = 4;  // contacts, for every set of them to be split beforehand
 constexpr double negligible = 1e-18;
+constexpr long phases_between_questions = 64;  // (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
 
 struct Extremes {  // of the run so far
     double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, deepest = 0, tolerance = 0;
@@ -52,7 +53,7 @@ public:
 private:
     bool interval(const Block& out) noexcept;                                       // to the next row
     bool stretch(double from, double to, bool plucked, const Block& out) noexcept;  // within one interval
-    bool window(double end, bool plucked, double since_pluck, bool probe) noexcept;
+    bool window(double end, bool plucked, double since_pluck, const Block& out) noexcept;
     double phase(double at, double end, bool probe) noexcept;  // to the next event, or as far as this way of going on reaches
     double collocated(double left, int& crossed) noexcept;
     Gap gap(int contact, int terms) const noexcept;  // the side the point is on now: positive until the next event
@@ -182,12 +183,12 @@ bool ExactContact::stretch(double from, double to, bool plucked, const Block& ou
     for (long i = 0; i < count; ++i) {
         const double at = from + (to - from) * i / count;
         const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds()) : 0;
-        if (!window((to - from) / count, plucked, since_pluck, out.energy != nullptr) || out.stopped()) return false;
+        if (!window((to - from) / count, plucked, since_pluck, out) || out.stopped()) return false;
     }
     return true;
 }
 
-bool ExactContact::window(double end, bool plucked, double since_pluck, bool probe) noexcept {
+bool ExactContact::window(double end, bool plucked, double since_pluck, const Block& out) noexcept {
     MacroWindow& w = window_;
     w.open(y_.data(), u_.data(), plucked, since_pluck, thread_force_);
     ++extremes_.windows;
@@ -197,9 +198,10 @@ bool ExactContact::window(double end, bool plucked, double since_pluck, bool pro
     }
     extremes_.tolerance = std::max(extremes_.tolerance, 2 * (w.truncation() + w.rounding()));
     std::fill(moments_.begin(), moments_.end(), 0.0);
+    long phases = 0;
     for (double now = 0; now < end;) {
-        const double left = end - now, step = phase(now, left, probe);
-        if (!(step >= 0)) return false;
+        const double left = end - now, step = phase(now, left, out.energy != nullptr);
+        if (!(step >= 0) || out.stopped(phases++, phases_between_questions)) return false;
         idle_ = step > 1e-15 ? 0 : idle_ + 1;
         if (idle_ > 1000) return false;
         now = step == left ? end : now + step;
