@@ -402,13 +402,15 @@ TEST(ExactContact, AContactThatCreepsUnderAStrongLossTakesAFewStepsAWindow) {
     scene.duration = 5e-4;
     scene.taps.erase(scene.taps.begin() + 3);  // of the thread
     const jvari::Run r = run(exact_contact, scene, settings(5, "1e-10"));
-    Settings own;
-    own.modes = 5;
-    const jvari::Run other = run(sundials, scene, own);
+    Settings stiff;
+    stiff.modes = 5;
+    stiff.options = {{"method", "bdf"}, {"rtol", "1e-12"}};
+    const jvari::Run other = run(sundials, scene, stiff);
     ASSERT_EQ(r.status.outcome, Outcome::ok);
+    ASSERT_EQ(other.status.outcome, Outcome::ok);
     EXPECT_LT(fact(r, "contact_steps"), 10 * fact(r, "windows"));
     EXPECT_EQ(fact(r, "events"), 1);
-    for (int k = 0; k < r.trace.taps(); ++k) EXPECT_LT(difference(r.trace.column(k), other.trace.column(k)), 1e-8) << r.trace.names[k];
+    for (int k = 0; k < r.trace.taps(); ++k) EXPECT_LT(difference(r.trace.column(k), other.trace.column(k)), 1e-7) << r.trace.names[k];
 }
 
 TEST(ExactContact, RefusesAToleranceThatIsNone) {

@@ -16,13 +16,14 @@ constexpr double ledger_toleranced = 1e-5;  // both, where it is promised to a t
 constexpr double claim_allowed = 1.1;
 constexpr double claim_allowed_alone = 2;  // where one does so itself, at another accuracy
 constexpr double pull = 1e-6;              // of the largest contact force
+constexpr double sundials_seconds = 10;    // of CPU, for one run
 
 struct Tally {
-    long scenes = 0, runs = 0, refused = 0, failed = 0;  // failed: a run that says so itself
-    long claims = 0;                                     // figures of certificates that were compared with a truth
-    double worst_claim = 0;                              // true/claimed, the largest
-    long estimates = 0;                                  // the same of a stand-in's estimate of its own error, which is no bound:
-    long low_estimates = 0;                              // how many were below the true error is told, and asserted of none
+    long scenes = 0, runs = 0, ended = 0, refused = 0, failed = 0;  // ended: by its limit; failed: a run that says so itself
+    long claims = 0;                                                // figures of certificates that were compared with a truth
+    double worst_claim = 0;                                         // true/claimed, the largest
+    long estimates = 0;      // the same of a stand-in's estimate of its own error, which is no bound:
+    long low_estimates = 0;  // how many were below the true error is told, and asserted of none
     double worst_estimate = 0;
     double slowest = 0;  // CPU seconds of one run
     std::string slowest_at;

@@ -53,8 +53,8 @@ void send(int pipe, const std::string& line) {
     check_schemes(c, t, finding, at);
     if (seed % certified_every == 0 && !c.extreme) check_certificate(c, t, finding, at);
     std::ostringstream line;
-    line << "=" << t.runs << ' ' << t.refused << ' ' << t.failed << ' ' << t.claims << ' ' << t.worst_claim << ' ' << t.estimates << ' '
-         << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest << ' ' << t.slowest_at;
+    line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' ' << t.claims << ' ' << t.worst_claim << ' '
+         << t.estimates << ' ' << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest << ' ' << t.slowest_at;
     send(pipe, line.str());
     _exit(0);
 }
@@ -87,8 +87,8 @@ long take(std::uint64_t seed, Tally& tally) {
         Tally t;
         t.scenes = 1;
         std::istringstream in(line.substr(1));
-        in >> t.runs >> t.refused >> t.failed >> t.claims >> t.worst_claim >> t.estimates >> t.low_estimates >> t.worst_estimate >>
-            t.slowest >> std::ws;
+        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.worst_claim >> t.estimates >> t.low_estimates >>
+            t.worst_estimate >> t.slowest >> std::ws;
         std::getline(in, t.slowest_at);
         tally.add(t);
     }
@@ -106,8 +106,8 @@ int all(const std::vector<std::uint64_t>& seeds) {
         findings += take(seeds[i], tally);
         if ((i + 1) % 100 == 0) std::printf("%zu of %zu scenes\n", i + 1, seeds.size()), std::fflush(stdout);
     }
-    std::printf("%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld refusals\n", tally.scenes, tally.runs,
-                tally.failed, tally.refused);
+    std::printf("%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld ended by a limit, %ld refusals\n", tally.scenes,
+                tally.runs, tally.failed, tally.ended, tally.refused);
     std::printf("%ld figures of certificates, true/claimed at most %.3g\n", tally.claims, tally.worst_claim);
     std::printf("%ld estimates of stand-ins, %ld below the true error, true/estimate at most %.3g\n", tally.estimates, tally.low_estimates,
                 tally.worst_estimate);
