@@ -25,6 +25,7 @@
 #include "bench/store/indented.hpp"
 #include "bench/store/interruption.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/suite/ensemble_facet.hpp"
 #include "bench/suite/row_facet.hpp"
 #include "bench/suite/suite_run.hpp"
 
@@ -174,6 +175,8 @@ int suite_command(const SuiteRequest& r) {
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
+    if (const store::Table told = suite::rows_of(suite::Facet::ensemble, plan, run.records); !told.rows.empty())
+        console.print("by 32 runs of each\n" + suite::ensemble_text(told));
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + folder.string());
     if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);

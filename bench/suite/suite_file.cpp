@@ -17,9 +17,9 @@ namespace jvari::bench::suite {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr std::array facet_names = {"errors", "cost",   "spectrogram", "sound",    "dispersion",
+constexpr std::array facet_names = {"errors", "cost",   "spectrogram", "sound",    "dispersion", "ensemble",
                                     "trace",  "extent", "profile",     "envelope", "centroid"};
-constexpr std::array all_facets = {Facet::errors, Facet::cost,   Facet::spectrogram, Facet::sound,    Facet::dispersion,
+constexpr std::array all_facets = {Facet::errors, Facet::cost,   Facet::spectrogram, Facet::sound,    Facet::dispersion, Facet::ensemble,
                                    Facet::trace,  Facet::extent, Facet::profile,     Facet::envelope, Facet::centroid};
 static_assert(facet_names.size() == all_facets.size());
 

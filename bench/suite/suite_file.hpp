@@ -9,7 +9,7 @@
 //   reference_modes = 0                                               (0: doubled until nothing moves; absent: those of the cell)
 //   options = { "modal_controls:control" = ["a", "b"], name = "x" }   [SCHEME:]NAME, one value or several to vary
 //   sweep = { "string.0.barrier.0.stiffness" = [1e6, 1e8] }           any scene key, each with the values to vary
-//   measure = ["errors", "cost", "spectrogram", "sound", "dispersion"]   cost goes with errors alone: no speed without an error
+//   measure = ["errors", "cost", "spectrogram", "sound", "dispersion", "ensemble"]   cost goes with errors alone: no speed without an error
 //   tap = "y03"                        of the spectrogram             (absent: the scene's first)
 //   elements = ["thread", "probe"]     also without each of these    (absent: none), elements.hpp
 //   time_limit_s = 60                  of one accuracy run            (absent: none)
@@ -37,6 +37,7 @@ enum class Facet {
     spectrogram,
     sound,
     dispersion,
+    ensemble,
     trace,
     extent,
     profile,

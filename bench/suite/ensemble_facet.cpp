@@ -1,0 +1,102 @@
+#include "bench/suite/ensemble_facet.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <future>
+#include <map>
+#include <mutex>
+#include <numbers>
+
+#include "analysis/ensemble.hpp"
+#include "bench/store/cell_rows.hpp"
+#include "reference/certificate.hpp"
+#include "reference/references.hpp"
+#include "scenes/modes.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari::bench::suite {
+
+namespace {
+using Runs = std::vector<std::vector<Trait>>;
+
+// From -1 to 1, evenly and no value twice (the golden ratio's multiples).
+double start(int k) {
+    const double turns = k * (std::numbers::phi - 1);
+    return 2 * (turns - std::floor(turns)) - 1;
+}
+
+Runs runs_of(const Descriptor& d, const Scene& scene, const Settings& settings, int tap, int first) {
+    Runs runs;
+    for (int k = first; k < first + ensemble_runs; ++k) {
+        const jvari::Run r = run(d, moved(scene, 1 + ensemble_spread * start(k)), settings);
+        if (r.status.outcome != Outcome::ok) return {};
+        runs.push_back(traits_of(r.trace.column(tap), settings.tap_rate));
+    }
+    return runs;
+}
+
+// Those of a reference, which all cells of a scene share.
+Runs reference_runs(const Descriptor& d, const Scene& scene, const Settings& settings, int tap) {
+    static std::mutex mutex;
+    static std::map<std::string, std::shared_future<Runs>> kept;
+    const std::string key = fmt::format("{} {} {} {} {}", d.name, scene_hash(scene), settings.tap_rate, settings.modes, tap);
+    std::promise<Runs> mine;
+    std::shared_future<Runs> runs;
+    bool first = false;
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto found = kept.find(key); found != kept.end()) runs = found->second;
+        else runs = kept[key] = mine.get_future().share(), first = true;
+    }
+    if (first) try {
+            mine.set_value(runs_of(d, scene, settings, tap, 0));
+        } catch (...) {
+            mine.set_exception(std::current_exception());
+        }
+    return runs.get();
+}
+}  // namespace
+
+store::Table ensemble_rows(const MeasuredCell& c) {
+    store::Table t;
+    t.columns = {"kind", "where", "reference", "candidate", "p", "apart"};
+    const Descriptor* reference = best_reference(c.scene);
+    if (!reference) return t;
+    const int own = c.settings.modes > 0 ? c.settings.modes : modes_for(c.scene.strings.front(), c.settings);
+    const int asked = c.set.reference_modes.value_or(0);
+    const Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : own, {}};
+    const Runs theirs = reference_runs(*reference, c.scene, settings, c.tap);
+    const Runs mine = runs_of(c.scheme, c.scene, c.settings, c.tap, ensemble_runs);
+    int apart = 0;
+    for (const Told& told : told_apart(mine, theirs)) {
+        apart += told.apart;
+        t.rows.push_back({told.reference.kind, store::text_of(told.reference.where), store::text_of(told.reference.value),
+                          store::text_of(told.candidate), store::text_of(told.p), told.apart ? "1" : "0"});
+    }
+    if (!t.rows.empty()) t.rows.insert(t.rows.begin(), {"any", "", "", "", "", std::to_string(apart)});
+    return t;
+}
+
+std::string ensemble_text(const store::Table& rows) {
+    store::Table any = rows;
+    std::erase_if(any.rows, [k = any.column("kind")](const auto& row) { return row[k] != "any"; });
+    std::string text;
+    for (const store::Rows& series : store::alike(any, store::all_rows(any), store::naming_columns(any))) {
+        std::map<double, bool> same;  // by rate
+        for (const std::size_t i : series) same[any.number(i, "rate")] = any.number(i, "apart") == 0;
+        double from = std::nan("");
+        for (auto it = same.rbegin(); it != same.rend() && it->second; ++it) from = it->first;
+        std::string name;
+        for (const std::string& column : store::naming_columns(any))
+            if (!any.at(series.front(), column).empty()) name += (name.empty() ? "" : " ") + any.at(series.front(), column);
+        text += fmt::format("  {:<60} {}\n", name,
+                            std::isnan(from) ? "told from the reference at the highest rate too"
+                                             : fmt::format("statistically the reference from {:g} Hz on", from));
+    }
+    if (!text.empty()) text.pop_back();
+    return text;
+}
+
+}  // namespace jvari::bench::suite
