@@ -144,7 +144,7 @@ Figure figure_of(const Entry& e) {
         for (const char* none : {"table", "x", "y"})
             if (const auto x = e.at(none)) x->refuse("nothing: a spectrogram is drawn from the cells that measure it");
     } else {
-        f.table = e.need("table").word({"cells", "trace", "extent", "profile", "envelope", "centroid"}, "table");
+        f.table = e.need("table").word({"cells", "ensemble", "trace", "extent", "profile", "envelope", "centroid"}, "table");
         f.x = axis_of(e.need("x"));
         f.y = axis_of(e.need("y"));
         if ((f.kind == FigureKind::band) == f.y.to.empty())
