@@ -3,9 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "reference/certificate.hpp"
+#include "reference/references.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari {
 namespace {
@@ -60,6 +67,38 @@ TEST(Ensemble, ThatIsPartlySilentIsToldApart) {
     auto silent = ensemble_of(random);
     for (auto& run : silent) run[3].value = std::nan("");
     EXPECT_GE(apart(told_apart(silent, ensemble_of(random))), 1);
+}
+
+// A guitar string that buzzes on a fret: after 8 ms its waveform has forgotten the start.
+std::vector<std::vector<Trait>> guitars(const std::string& name, double rate, int runs, std::mt19937& random) {
+    Scene scene = read_scene("guitar_over_fret");
+    scene.duration = 0.1;
+    std::uniform_real_distribution<double> start(1 - 1e-6, 1 + 1e-6);
+    std::vector<std::vector<Trait>> all;
+    for (const auto table : {schemes(), references()})
+        for (const Descriptor& d : table)
+            for (int k = 0; d.name == name && k < runs; ++k)
+                all.push_back(traits_of(run(d, moved(scene, start(random)), {rate, 44100, 60, {}}).trace.column(0), 44100));
+    return all;
+}
+
+TEST(Ensemble, OfAGuitarOverAFretIsNotToldFromItselfAndIsFromSchemesThatFail) {
+    std::mt19937 random(6);
+    auto reference = guitars("exact_contact", 0, 128, random);
+    ASSERT_EQ(reference.size(), 128u);
+    int alarms = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        std::ranges::shuffle(reference, random);
+        alarms += apart(told_apart({reference.begin(), reference.begin() + 32}, {reference.begin() + 32, reference.begin() + 64})) > 0;
+    }
+    EXPECT_LE(alarms, 15);
+    reference.resize(32);
+    for (const char* name : {"modal_explicit_penalty", "modal_quadratised_two_point_raw"}) {
+        const auto runs = guitars(name, 4 * 44100, 32, random);
+        ASSERT_EQ(runs.size(), 32u) << name;
+        EXPECT_GT(apart(told_apart(runs, reference)), 10) << name;
+    }
+    RecordProperty("alarms", alarms);
 }
 
 TEST(TwoSamples, OfOneDistributionAreUniformInTheirProbability) {
