@@ -105,7 +105,7 @@ SHARDS=24 sh job.sh
 
 held_on() {  # NODE: the task that stopped itself there
     local file
-    for _ in $(seq 1200); do
+    for _ in $(seq 3000); do
         for file in hold/"$1".*; do
             grep -q '^State:.T' "/proc/${file##*.}/status" 2>/dev/null && echo "${file##*.}" && return 0
         done
