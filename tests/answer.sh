@@ -2,7 +2,7 @@
 # The README's first table is what results/work-precision holds: each row's error and cost are those of its scheme at its rate, rounded, the
 # error is within what is wanted, and no unflagged run within it is surely cheaper (upper quartile below the row's lower one). An error counts
 # with what the reference is certain to, and says so by "≤", where that is more than a tenth of it. Schemes are as published (compliance=own)
-# where their name says nothing else. A control (schemes.def) is no row and no cheaper run.
+# where their name says nothing else; one without a rate has its modes in its place. A control (schemes.def) is no row and no cheaper run.
 # usage: answer.sh [TREE]
 cd "${1:-$(dirname "$0")/..}" || exit 2
 results=results/work-precision
@@ -17,7 +17,8 @@ FNR == 1 { ++file; if (file < 3) { delete at; for (i = 1; i <= NF; ++i) at[$i] =
 file == 1 && FNR > 1 { low[$1] = $at["cost_lower"]; high[$1] = $at["cost_upper"]; cost[$1] = $at["cost_s_per_s"] }
 file == 2 && FNR > 1 && $at["status"] == "ok" && $at["flags"] == "" && !($at["scheme"] in control) {
     options = $at["options"]; sub(/^compliance=own$/, "", options)
-    id[$at["scheme"] (options == "" ? "" : " " options), $at["rate"] / 1000] = $1
+    place = $at["rate"] == "" ? $at["modes"] " modes" : $at["rate"] / 1000 " kHz"
+    id[$at["scheme"] (options == "" ? "" : " " options), place] = $1
     sure = $at["certificate_l2_50ms"] + 0
     error[$1, "%"] = 100 * ($at["error_l2_50ms"] + sure)
     shown[$1, "%"] = sure > 0.1 * $at["error_l2_50ms"] ? error[$1, "%"] : 100 * $at["error_l2_50ms"]
@@ -30,8 +31,8 @@ file == 3 && /^\|.* ms \|$/ {
     if (match(wanted, /within [0-9.]+ (%|dB)/)) split(substr(wanted, RSTART, RLENGTH), goal, " ")
     n = split($0, cell, "|")
     match(cell[3], /`[^`]*`/)
-    split(trim(cell[4]), rate, " "); split(trim(cell[5]), printed, " "); split(trim(cell[6]), ms, " ")
-    run = id[substr(cell[3], RSTART + 1, RLENGTH - 2), rate[1] + 0]
+    split(trim(cell[5]), printed, " "); split(trim(cell[6]), ms, " ")
+    run = id[substr(cell[3], RSTART + 1, RLENGTH - 2), trim(cell[4])]
     unit = printed[2]
     sub(/^≤/, "", printed[1])
     if (run == "" || unit != goal[3] || !rounds(shown[run, unit], printed[1], 1) || !rounds(cost[run], ms[1], 1000) ||
