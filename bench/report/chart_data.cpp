@@ -17,8 +17,10 @@ namespace jvari::bench::report {
 namespace {
 using Json = nlohmann::ordered_json;
 
-std::string rate_label(double rate) {
-    return std::isnan(rate) ? "" : fmt::format("{:.4g} kHz", rate / 1000);
+// Where on its line: at which rate, or, of a scheme in continuous time, with how many modes.
+std::string place_label(double rate, double modes) {
+    if (!std::isnan(rate)) return fmt::format("{:.4g} kHz", rate / 1000);
+    return std::isnan(modes) ? "" : fmt::format("{:.0f} modes", modes);
 }
 }  // namespace
 
@@ -46,16 +48,17 @@ std::string chart_cells(const WorkPrecision& w) {
     Json rows = Json::array();
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         if (t.at(i, "status") == "refused") continue;  // it has neither cost nor error: the table says why
-        const double rate = t.number(i, "rate");
+        const double rate = t.number(i, "rate"), modes = t.number(i, "modes");
         const std::string& problem = problem_of(t, i);
         Json j{{"problem", problem},
                {"series", series_of(t, i)},
                {"scheme", t.at(i, "scheme")},
                {"rate", rate},
-               {"modes", t.number(i, "modes")},
+               {"modes", modes},
+               {"order", std::isnan(rate) ? modes : rate},
                {"status", t.at(i, "status")},
                {"reason", t.at(i, "reason")},
-               {"label", rate_label(rate)},
+               {"label", place_label(rate, modes)},
                {"control", control[series_of(t, i)]},
                {"flags", t.at(i, "flags")},
                {"below", t.at(i, "below_floor")}};
@@ -96,8 +99,8 @@ std::string chart_fronts(const WorkPrecision& w) {
                     if (!front[k]) continue;
                     const std::size_t i = problem[k];
                     const double rate = t.number(i, "rate");
-                    const std::string key = fmt::format("{}|{}|{}|{}|{}", problem_of(t, i), error.column, cost.column, series_of(t, i),
-                                                        std::isnan(rate) ? "null" : fmt::format("{}", rate));
+                    const std::string key = fmt::format("{}|{}|{}|{}|{}|{}", problem_of(t, i), error.column, cost.column, series_of(t, i),
+                                                        std::isnan(rate) ? "null" : fmt::format("{}", rate), t.at(i, "modes"));
                     rows.push_back({{"problem", problem_of(t, i)},
                                     {"machine", t.at(i, "machine")},  // a front is of one
                                     {"error", error.column},

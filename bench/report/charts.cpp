@@ -115,7 +115,7 @@ Json line_of(const Encodings& e, const char* condition, double width) {
     return {{"transform", chosen(fmt::format("{} && {}", sound, condition).c_str())},
             {"mark", {{"type", "line"}, {"strokeWidth", width}}},
             {"encoding",
-             {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"strokeDash", e.dash}, {"order", {{"field", "rate"}}}, {"opacity", e.faint}}}};
+             {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"strokeDash", e.dash}, {"order", {{"field", "order"}}}, {"opacity", e.faint}}}};
 }
 
 void add_schemes(Json& layers, const Encodings& e) {
@@ -146,7 +146,8 @@ void add_schemes(Json& layers, const Encodings& e) {
     layers.push_back(points("datum.flags != ''", {{"filled", false}, {"strokeWidth", 1.6}}));  // hollow: not to be trusted
     Json labelled = chosen(sound);
     labelled.push_back(
-        {{"calculate", "problem_field + '|' + error_field + '|' + cost_field + '|' + datum.series + '|' + datum.rate"}, {"as", "key"}});
+        {{"calculate", "problem_field + '|' + error_field + '|' + cost_field + '|' + datum.series + '|' + datum.rate + '|' + datum.modes"},
+         {"as", "key"}});
     labelled.push_back({{"lookup", "key"},
                         {"from", {{"data", {{"name", "fronts"}}}, {"key", "key"}, {"fields", Json::array({"key", "name"})}}},
                         {"as", Json::array({"front", "name"})}});

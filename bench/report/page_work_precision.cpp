@@ -45,7 +45,8 @@ std::vector<std::string> taps_of(const Results& r) {
 std::string goal_text(const store::Table& cheapest, std::size_t row) {
     std::string text = compare::goal_name(cheapest, row) + ": " + cheapest.at(row, "scheme");
     if (!cheapest.at(row, "options").empty()) text += " " + cheapest.at(row, "options");
-    text += fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
+    text += cheapest.at(row, "rate").empty() ? " with " + cheapest.at(row, "modes") + " modes"
+                                             : fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
     const std::string ties = compare::ties_text(cheapest, row), &machine = cheapest.at(row, "machine");
     return text + (ties.empty() ? "" : " or " + ties) + (machine.empty() ? "" : " (" + machine + ")");
 }

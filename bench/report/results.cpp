@@ -82,9 +82,9 @@ void name_rows(store::Table& t, const std::string& scene) {
         names.push_back(t.at(i, "scheme") + (options.empty() ? "" : " " + options));
         modes[place(i)].insert(t.at(i, "modes"));
     }
-    std::set<std::string> several;  // schemes with more than one number of modes at a rate
+    std::set<std::string> several;  // schemes with more than one number of modes at a rate; without a rate, modes are its steps
     for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (t.column("rate") >= 0 && modes[place(i)].size() > 1) several.insert(names[i]);
+        if (t.column("rate") >= 0 && !t.at(i, "rate").empty() && modes[place(i)].size() > 1) several.insert(names[i]);
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         const std::string series = names[i] + (several.contains(names[i]) ? fmt::format(", {} modes", t.at(i, "modes")) : "");
         t.rows[i].insert(t.rows[i].begin(), {problems[i], series});
