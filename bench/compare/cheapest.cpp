@@ -159,7 +159,7 @@ std::string cheapest_text(const store::Table& t) {
         text += fmt::format("  {:<16} within {:<6}  ", t.at(i, "measure"), goal_name(t, i));
         const std::string& perhaps = t.at(i, "perhaps");
         if (t.at(i, "status") == "not_known") text += "not known: the reference is not certain enough to tell\n";
-        else if (t.at(i, "status") == "none") text += t.at(i, "why").empty() ? "none\n" : fmt::format("none: {}\n", t.at(i, "why"));
+        else if (t.at(i, "status") == "none") text += t.at(i, "why").empty() ? "none\n" : fmt::format("none\n    {}\n", t.at(i, "why"));
         else {
             const std::string tied = ties_text(t, i);
             text +=
