@@ -44,6 +44,8 @@ void ObstacleStep::lose(std::span<const double> beta) {
     z.drag.resize(n);
     z.root.resize(n);
     z.closed.resize(n);
+    z.b.resize(n);
+    z.off.resize(n);
     lossy_ = std::move(z);
 }
 
@@ -53,6 +55,7 @@ bool ObstacleStep::damp() noexcept {
     Lossy& z = *lossy_;
     const int n = contacts_;
     int m = 0;
+    z.b = b_;
     for (int a = 0; a < n; ++a) {
         z.drag[a] = z.beta[a] * laws_[a].force(eta_[a]) / span_;
         z.root[a] = std::sqrt(z.drag[a]);
@@ -90,6 +93,39 @@ bool ObstacleStep::damp() noexcept {
     return true;
 }
 
+// The springs' forces become those on the string. Where D Theta >> 1, a contact that creeps, the two terms of F - D r nearly cancel and r
+// is small beside b: what rounding then leaves of r = -b + Theta F is put right by changes of r that D alone resists, D dr = S M^-1 S off.
+void ObstacleStep::settle(double* force) noexcept {
+    Lossy& z = *lossy_;
+    const int n = contacts_;
+    int m = 0;
+    for (int a = 0; a < n; ++a) {
+        force[a] -= z.drag[a] * r_[a];
+        m += z.drag[a] > 0;
+    }
+    const auto miss = [&](int a) {
+        double sum = -z.b[a] - r_[a];
+        for (int c = 0; c < n; ++c) sum += z.theta[a * n + c] * force[c];
+        return sum;
+    };
+    for (int i = 0; i < m; ++i) {  // L^-1 S off
+        double sum = z.root[z.closed[i]] * miss(z.closed[i]);
+        for (int l = 0; l < i; ++l) sum -= z.matrix[i * n + l] * z.off[l];
+        z.off[i] = sum / z.matrix[i * n + i];
+    }
+    for (int i = m; i-- > 0;) {
+        double sum = z.off[i];
+        for (int l = i + 1; l < m; ++l) sum -= z.matrix[l * n + i] * z.off[l];
+        z.off[i] = sum / z.matrix[i * n + i];
+    }
+    for (int i = 0; i < m; ++i) {
+        const double change = z.root[z.closed[i]] * z.off[i];
+        force[z.closed[i]] -= change;
+        r_[z.closed[i]] += change / z.drag[z.closed[i]];
+    }
+    for (int a = 0; a < n; ++a) z.lost += z.drag[a] * r_[a] * r_[a];
+}
+
 bool ObstacleStep::solve(const double* older, const double* free, double* force) noexcept {
     if (several_) return solve_several(older, free, force);
     if (series_) return solve_in_series(older, free, force);
@@ -113,10 +149,7 @@ bool ObstacleStep::solve_points(const double* older, const double* free, double*
         const GramSolution s = gram_.solve(eta_.data(), b_.data(), r_.data(), force);
         converged = s.converged;
         if (damped) {
-            for (int a = 0; a < n; ++a) {
-                force[a] -= lossy_->drag[a] * r_[a];
-                lossy_->lost += lossy_->drag[a] * r_[a] * r_[a];
-            }
+            settle(force);
             gram_.set(lossy_->theta);
         }
         for (int a = 0; a < n; ++a) {

@@ -77,12 +77,14 @@ private:
     struct Lossy {
         std::vector<double> beta, drag;            // [s/m], D [N/m]
         std::vector<double> theta, damped;         // of the contacts, the thread eliminated: as it is, and with D
-        std::vector<double> matrix, root, across;  // workspaces
+        std::vector<double> matrix, root, across;  // workspaces: L, S, X
+        std::vector<double> b, off;                // b without D; by how much the readings miss the forces, on the closed contacts
         std::vector<int> closed;
         double lost = 0;  // in the last step [J]
     };
     std::optional<Lossy> lossy_;
     bool damp() noexcept;
+    void settle(double* force) noexcept;
     bool solve_in_series(const double* older, const double* free, double* force) noexcept;
     bool solve_several(const double* older, const double* free, double* force) noexcept;
     std::optional<SeriesStep> series_;  // one contact at most, and the thread
