@@ -41,13 +41,13 @@ OneMode mode_of(const String& s, int i) {
     const double beta = i * pi / s.length, omega0 = undamped_frequency(s, i);
     return {beta, omega0, std::visit(DecayOf{s, i, beta, omega0}, s.damping)};
 }
+}  // namespace
 
 std::optional<int> modes_measured(const String& s) {
     const auto* table = std::get_if<TableDamping>(&s.damping);
     if (!table) return {};
     return static_cast<int>(std::min(table->frequency_hz.size(), table->decay_rate.size()));
 }
-}  // namespace
 
 double omega_squared_damped(double omega0, double sigma) {
     return (omega0 - sigma) * (omega0 + sigma);

@@ -1,6 +1,7 @@
 // Modes of the free string: simply supported ends, v_i(x) = sin(beta_i x), beta_i = i pi/L (van Walstijn et al. 2016, section 2.2).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scenes/scene.hpp"
@@ -19,6 +20,9 @@ constexpr int most_modes = 1 << 20;  // of a string
 
 // The first `count` modes. Throws BadScene where a table of measured modes has fewer rows, or no string has as many.
 Modes modes_of(const String&, int count);
+
+// How many modes a table of measured modes has; absent: there is no table.
+std::optional<int> modes_measured(const String&);
 
 // How many modes have an undamped frequency below `hertz`, so that the number does not depend on the losses; it ends at most_modes + 1.
 int modes_below(const String&, double hertz);

@@ -102,6 +102,8 @@ int modes_for(const String& string, const Settings& s) {
 int modes_for(const Scene& scene, const Settings& s) {
     int most = 0;
     for (const String& string : scene.strings) most = std::max(most, modes_for(string, s));
+    for (const String& string : scene.strings)
+        if (const auto measured = modes_measured(string); measured && s.modes == 0) most = std::min(most, *measured);
     return most;
 }
 

@@ -171,7 +171,7 @@ double margin_of(const Descriptor&, const Scene&, const Settings&);
 
 int steps_per_row(const Settings&);              // sample_rate/tap_rate; Refusal unless a whole number from 1 to 2^31 - 1
 int modes_for(const String&, const Settings&);   // settings.modes, or every mode below min(20 kHz, sample_rate/2)
-int modes_for(const Scene&, const Settings&);    // the most that one of its strings has
+int modes_for(const Scene&, const Settings&);    // the most that one of its strings has, unasked no more than each table of measured modes
 Modes modes_of(const String&, const Settings&);  // those; Refusal where there is none, or more than most_modes
 
 bool declares(const Descriptor&, const std::string& option_name);
