@@ -101,7 +101,6 @@ std::vector<Reduction> reductions_of(const Scene& scene, double penetration) {
         list.part(Part::pluck, key(s) + ".pluck", now.initial && now.pluck, &String::pluck, s);
         list.part(Part::polarisation, key(s) + ".polarisation", now.polarisation.has_value(), &String::polarisation, s);
     }
-    if (scene.body) list.all.push_back({Part::body, "body", "", [](Scene& x) { x.body.reset(); }});
     if (scene.taps.size() > 1)
         for (int t = static_cast<int>(scene.taps.size()) - 1; t >= 0; --t)
             list.all.push_back({Part::tap, "tap." + scene.taps[t].name, "", [name = scene.taps[t].name](Scene& x) {
@@ -119,14 +118,8 @@ std::vector<Reduction> reductions_of(const Scene& scene, double penetration) {
 void remove_idle_taps(Scene& scene, const std::string& kept) {
     std::erase_if(scene.taps, [&](const Tap& t) {
         if (t.name == kept) return false;
-        bool thread = false, contact = false;  // of its string, or of any where it is a sum
-        for (std::size_t s = 0; s < scene.strings.size(); ++s) {
-            if (t.string && *t.string != static_cast<int>(s)) continue;
-            thread = thread || scene.strings[s].thread.has_value();
-            contact = contact || !scene.strings[s].barriers.empty();
-        }
-        return (t.quantity == Quantity::thread_force && !thread) || (t.quantity == Quantity::bridge_force && !contact) ||
-               (t.quantity == Quantity::driving_force && !thread && !contact);
+        if (t.string) return lacks(scene.strings[*t.string], t.quantity) != nullptr;
+        return std::ranges::all_of(scene.strings, [&t](const String& s) { return lacks(s, t.quantity) != nullptr; });
     });
 }
 

@@ -1,5 +1,7 @@
 // What can be left out of a scene, or made plainer, part by part: one list for everybody who asks which parts matter.
 //
+// A body is no part: it filters what is heard, and nothing that a scheme computes depends on it.
+//
 // Keys are those of scene files, so that a reduction can be told to a reader. The list is ordered so that any of its reductions can be
 // applied in turn: first what changes a value, then what empties a part, then what shortens an array, its last entry first. So each key
 // means what it means in the scene that the list was made of.
@@ -25,7 +27,6 @@ enum class Part {
     initial_shape,  // where there is a pluck
     pluck,          // where there is an initial shape
     polarisation,
-    body,
     tap,  // where there is another
     barrier,
     string  // where there is another; with its taps

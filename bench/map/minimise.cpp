@@ -25,8 +25,7 @@ bool still(const Fails& fails, const Trial& t) {
 
 // The parts that are taken away, in turn: what is large goes first, and one string and something that moves it stay.
 bool is_removal(const Reduction& r) {
-    return r.part != Part::contact_stiffness && r.part != Part::footprint && r.part != Part::damping_term && r.part != Part::body &&
-           r.part != Part::tap;
+    return r.part != Part::contact_stiffness && r.part != Part::footprint && r.part != Part::damping_term && r.part != Part::tap;
 }
 
 // The first tap alone: what fails is judged by taps of its own.

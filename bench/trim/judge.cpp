@@ -101,7 +101,6 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const 
 bool Judge::may_go(int k) const {
     const Reduction& r = reductions_[k];
     if (r.part == Part::initial_shape || r.part == Part::pluck) return false;  // that is the question, not the model
-    if (r.part == Part::body) return false;                                    // it filters what is heard; no tap has it
     Scene left = scene_;
     r.apply(left);
     remove_idle_taps(left, tap().name);
