@@ -32,6 +32,11 @@ struct Block {
     bool stopped() const noexcept { return stop && stop(caller); }
     bool stopped(long step, long every) const noexcept { return step % every == every - 1 && stopped(); }
 };
+inline void write_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
+    out.energy[row] = stored;
+    out.energy[out.stride + row] = supplied;
+    out.energy[2 * out.stride + row] = dissipated;
+}
 constexpr long steps_between_questions = 1024;  // of a step that takes microseconds at most
 
 enum class Outcome { ok, diverged, not_converged };

@@ -53,12 +53,6 @@ inline void add_series_taps(const Block& out, int row, const GridString& g, cons
     for (const GridTap& tap : g.taps) out.tap[tap.column * out.stride + row] += g.series->on_tap(tap.column, force, F_e);
 }
 
-inline void write_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
-    out.energy[row] = stored;
-    out.energy[row + out.stride] = supplied;
-    out.energy[row + 2 * out.stride] = dissipated;
-}
-
 // Facts that every string on a grid reports.
 std::vector<Fact> grid_facts(const GridString&, const ObstacleStep&);
 

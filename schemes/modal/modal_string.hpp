@@ -80,10 +80,4 @@ void write_taps(const Block& out, int row, const std::vector<ModalTap>& taps, co
     }
 }
 
-inline void write_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
-    out.energy[row] = stored;
-    out.energy[out.stride + row] = supplied;
-    out.energy[2 * out.stride + row] = dissipated;
-}
-
 }  // namespace jvari
