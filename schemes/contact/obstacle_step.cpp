@@ -26,19 +26,23 @@ ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const dou
         inverse_ = 1 / (1 + s_ * theta_cc_);
         for (int a = 0; a < n; ++a) coupling_[a] = theta[a * stride + n];
     }
-    std::vector<double> reduced(n * n);
-    for (int a = 0; a < n; ++a)
-        for (int c = 0; c < n; ++c) reduced[a * n + c] = theta[a * stride + c] - coupling_[a] * s_ * inverse_ * coupling_[c];
-    gram_ = ContactGram(laws_, reduced);
+    gram_ = ContactGram(laws_, between_contacts());
     for (auto* v : {&eta_, &b_, &r_}) v->assign(n, 0.0);
 }
 
-void ObstacleStep::lose(std::span<const double> beta) {
+std::vector<double> ObstacleStep::between_contacts() const {
     const int n = contacts_, stride = points();
+    std::vector<double> theta;
+    for (int a = 0; a < n; ++a)
+        for (int c = 0; c < n; ++c) theta.push_back(theta_[a * stride + c] - coupling_[a] * s_ * inverse_ * coupling_[c]);
+    return theta;
+}
+
+void ObstacleStep::lose(std::span<const double> beta) {
+    const int n = contacts_;
     Lossy z;
     z.beta.assign(beta.begin(), beta.end());
-    for (int a = 0; a < n; ++a)
-        for (int c = 0; c < n; ++c) z.theta.push_back(theta_[a * stride + c] - coupling_[a] * s_ * inverse_ * coupling_[c]);
+    z.theta = between_contacts();
     z.damped = z.matrix = z.theta;
     z.across.resize(z.theta.size());
     z.drag.resize(n);

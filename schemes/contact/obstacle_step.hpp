@@ -73,6 +73,7 @@ private:
     double stiffness_ = 0, damping_ = 0, rest_ = 0, span_ = 1, s_ = 0, theta_cc_ = 0, inverse_ = 1;
     Tally tally_;
 
+    std::vector<double> between_contacts() const;  // compliances with the thread eliminated, contacts x contacts
     bool solve_points(const double* older, const double* free, double* force) noexcept;
     struct Lossy {
         std::vector<double> beta, drag;            // [s/m], D [N/m]
