@@ -130,7 +130,7 @@ TEST(Audible, LeftIsTheBridgeRightTheNutAndMonoTheirSum) {
     for (int n = 0; n < 500; ++n) trace.tap.push_back(std::cos(0.2 * n));
     const auto left = without_steady(trace.column(0), 44100), nut = without_steady(trace.column(1), 44100);
     const auto read = [&](bool mono) {
-        write({folder / "x.wav", "", mono}, scene, trace);
+        Player({folder / "x.wav", "", mono}, scene, 44100).write(trace);
         SF_INFO info{};
         SNDFILE* file = sf_open((folder / "x.wav").c_str(), SFM_READ, &info);
         std::vector<double> frames(static_cast<std::size_t>(info.frames * info.channels));

@@ -131,12 +131,8 @@ void add_attributes(store::TraceFile& file, const compare::Summary& s) {
 }
 
 // Before a long run: that what it gives can be written. The sound of it where --out names one.
-std::optional<sound::AudioFile> checked_output(const RunRequest& r, const store::TraceFile& file, const Scene& scene, double tap_rate) {
-    if (sound::is_audio(r.out)) {
-        const sound::AudioFile audio{r.out, r.wav_format, r.mono};
-        sound::check(audio, scene, tap_rate);
-        return audio;
-    }
+std::optional<sound::Player> checked_output(const RunRequest& r, const store::TraceFile& file, const Scene& scene, double tap_rate) {
+    if (sound::is_audio(r.out)) return sound::Player({r.out, r.wav_format, r.mono}, scene, tap_rate);
     if (!r.wav_format.empty() || r.mono)
         throw store::UsageError(fmt::format("{} goes with --out FILE.wav or FILE.flac", r.mono ? "--mono" : "--wav-format"));
     if (!r.out.empty()) store::check(file, scene);
@@ -175,7 +171,7 @@ int run_command(const RunRequest& r) {
     const Settings settings = settings_for(r, d);
     store::TraceFile file = file_for(r, d, scene, settings);
     const std::optional<report::Vega> vega = vega_for(r);
-    const std::optional<sound::AudioFile> audio = checked_output(r, file, scene, settings.tap_rate);
+    const std::optional<sound::Player> player = checked_output(r, file, scene, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
@@ -197,7 +193,7 @@ int run_command(const RunRequest& r) {
     if (!r.out.empty()) {
         add_attributes(file, summary);
         std::string said;
-        if (audio) said = sound::write(*audio, scene, result.trace);
+        if (player) said = player->write(result.trace);
         else store::write(file, scene, result.trace);
         json["out"] = r.out;
         if (!said.empty()) json["level"] = said;

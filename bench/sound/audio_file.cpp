@@ -10,7 +10,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "bench/sound/radiation.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 
@@ -63,17 +62,20 @@ Scene audible(Scene scene) {
     return scene;
 }
 
-void check(const AudioFile& file, const Scene& scene, double tap_rate) {
-    const std::string out = "--out " + file.path.string();
+Player::Player(AudioFile file, const Scene& scene, double tap_rate) : file_(std::move(file)) {
+    const std::string out = "--out " + file_.path.string();
     if (tap_rate != std::round(tap_rate) || tap_rate < slowest_played || tap_rate > fastest_played)
         throw store::UsageError(fmt::format("{}: players take a whole number of rows per second from {} to {}, not {}: say --tap-rate", out,
                                             slowest_played, fastest_played, tap_rate));
-    const double bytes = scene.duration * tap_rate * static_cast<double>(scene.taps.size()) * (file.format == "pcm16" ? 2 : 3);
+    const double bytes = scene.duration * tap_rate * static_cast<double>(scene.taps.size()) * (file_.format == "pcm16" ? 2 : 3);
     if (bytes > most_bytes)
         throw store::UsageError(fmt::format("{}: a {} holds at most {:.0e} bytes, this would be {:.1e}. A .csv or .h5 holds them", out,
-                                            file.path.extension().string(), most_bytes, bytes));
-    if (scene.body) radiations(scene, tap_rate);
-    store::must_be_writable(file.path);
+                                            file_.path.extension().string(), most_bytes, bytes));
+    if (scene.body) body_ = radiations(scene, tap_rate);
+    for (std::size_t k = 0; k < body_.size() && scene.body->sections > 0; ++k)
+        body_text_ += fmt::format("; {} sections leave an error of {:.1f} dB in body.{}", scene.body->sections, body_[k].misfit(),
+                                  scene.taps[k].name);
+    store::must_be_writable(file_.path);
 }
 
 std::vector<double> without_steady(std::span<const double> force, double rate) {
@@ -142,33 +144,24 @@ void write_audio(const std::filesystem::path& path, const std::string& extension
     }
 }
 
-std::string write(const AudioFile& file, const Scene& scene, const Trace& trace) {
+std::string Player::write(const Trace& trace) const {
     std::vector<std::vector<double>> channels;
-    std::string body;
-    if (scene.body) {
-        const std::vector<Radiation> by = radiations(scene, trace.tap_rate);
-        for (std::size_t k = 0; k < by.size(); ++k) {
-            channels.push_back(by[k](without_steady(trace.column(static_cast<int>(k)), trace.tap_rate)));
-            if (scene.body->sections > 0)
-                body += fmt::format("; {} sections leave an error of {:.1f} dB in body.{}", scene.body->sections, by[k].misfit(),
-                                    scene.taps[k].name);
-        }
-        if (file.mono && channels.size() > 1) {
-            for (std::size_t n = 0; n < channels[0].size(); ++n) channels[0][n] += channels[1][n];
-            channels.resize(1);
-        }
-    } else {
-        channels.push_back(without_body(trace.column(0), trace.tap_rate));
+    if (body_.empty()) channels.push_back(without_body(trace.column(0), trace.tap_rate));
+    for (std::size_t k = 0; k < body_.size(); ++k)
+        channels.push_back(body_[k](without_steady(trace.column(static_cast<int>(k)), trace.tap_rate)));
+    if (file_.mono && channels.size() > 1) {
+        for (std::size_t n = 0; n < channels[0].size(); ++n) channels[0][n] += channels[1][n];
+        channels.resize(1);
     }
     const Played p = levelled(std::move(channels));
-    store::FreshFile fresh(file.path);
+    store::FreshFile fresh(file_.path);
     try {
-        write_audio(fresh.path(), file.path.extension().string(), file.format == "pcm16" ? 16 : 24, trace.tap_rate, p);
+        write_audio(fresh.path(), file_.path.extension().string(), file_.format == "pcm16" ? 16 : 24, trace.tap_rate, p);
     } catch (const std::runtime_error& why) {
-        throw store::Unwritable(fmt::format("cannot write {}: {}", file.path.string(), why.what()));
+        throw store::Unwritable(fmt::format("cannot write {}: {}", file_.path.string(), why.what()));
     }
     fresh.keep();
-    return level_text(p) + body;
+    return level_text(p) + body_text_;
 }
 
 }  // namespace jvari::bench::sound

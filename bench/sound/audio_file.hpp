@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/sound/radiation.hpp"
 #include "scenes/scene.hpp"
 #include "schemes/trace.hpp"
 
@@ -26,11 +27,19 @@ bool is_audio(const std::filesystem::path&);  // by its extension
 
 Scene audible(Scene);  // with the taps that are heard in place of its own
 
-// Throws UsageError for a path that cannot be written, what the format cannot hold and a body that cannot be read; before the run.
-void check(const AudioFile&, const Scene&, double tap_rate);
+// What plays a run of audible(scene) into a file, made before the run.
+class Player {
+public:
+    // Throws UsageError for a path that cannot be written, what the format cannot hold and a body that cannot be read.
+    Player(AudioFile, const Scene&, double tap_rate);
+    // Returns how loud it is and what stands for the body. Throws Unwritable.
+    std::string write(const Trace&) const;
 
-// Of a run of audible(scene). Returns how loud it is and what stands for the body. Throws Unwritable.
-std::string write(const AudioFile&, const Scene&, const Trace&);
+private:
+    AudioFile file_;
+    std::vector<Radiation> body_;  // one per tap; none: no body
+    std::string body_text_;
+};
 
 // ---- In parts.
 

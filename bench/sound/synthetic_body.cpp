@@ -75,8 +75,9 @@ std::vector<double> unscaled(const Place& driven) {
 }  // namespace
 
 std::vector<double> synthetic_response(BodyEnd end) {
-    const double scale = 1 / largest_gain(unscaled(bridge));
-    std::vector<double> h = unscaled(end == BodyEnd::bridge ? bridge : nut);
+    std::vector<double> h = unscaled(bridge);
+    const double scale = 1 / largest_gain(h);
+    if (end == BodyEnd::nut) h = unscaled(nut);
     for (double& v : h) v *= scale;
     return h;
 }
