@@ -64,7 +64,7 @@ store::Table ensemble_rows(const MeasuredCell& c) {
     t.columns = {"kind", "where", "reference", "candidate", "p", "apart"};
     const Descriptor* reference = best_reference(c.scene);
     if (!reference) return t;
-    const int own = c.settings.modes > 0 ? c.settings.modes : modes_for(c.scene.strings.front(), c.settings);
+    const int own = c.settings.modes > 0 ? c.settings.modes : modes_for(c.scene, c.settings);
     const int asked = c.set.reference_modes.value_or(0);
     const Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : own, {}};
     const Runs theirs = reference_runs(*reference, c.scene, settings, c.tap);

@@ -155,7 +155,7 @@ private:
                 return -1;
             }
         };
-        const int all = std::max(1, modes_for(judge_.scene_of(m).strings.front(), {m.settings.sample_rate, judge_tap_rate_, 0, {}}));
+        const int all = std::max(1, modes_for(judge_.scene_of(m), {m.settings.sample_rate, judge_tap_rate_, 0, {}}));
         if (dofs(all) == dofs(std::max(1, all / 2)) && dofs(all) > 0) return {0};
         std::vector<int> modes;
         for (double n = all; n >= 2; n *= fewer) modes.push_back(static_cast<int>(std::lround(n)));
