@@ -20,6 +20,7 @@
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "reference/touching_set.hpp"
+#include "reference/window_energies.hpp"
 #include "scenes/excitation.hpp"
 
 namespace jvari {
@@ -71,6 +72,8 @@ private:
     CollocatedContact collocation_;
     std::vector<std::optional<TouchingSet>>
         sets_;  // by the bits of their points; empty where there are too many contacts or a law is no spring
+    WindowEnergies spending_;
+    std::vector<WindowEnergies::Pairs> pairs_{1};  // of each of sets_; the first: none
     Readout readout_;
     std::vector<Pluck> pluck_;                // none or one
     double tap_rate_, tolerance_, interval_;  // of an interval: windows
@@ -81,7 +84,7 @@ private:
     std::vector<char> touching_, known_zero_;
     long row_ = 0;
     double bridge_impulse_ = 0, thread_impulse_ = 0;
-    MacroWindow::Energies energies_;  // of the interval that ends here
+    WindowEnergies::Sums energies_;  // of the interval that ends here
     int idle_ = 0;
     double step_ = 0;  // of the collocation, the last
     Extremes extremes_;
@@ -91,6 +94,8 @@ private:
     std::vector<std::complex<double>> amplitude_;
     std::vector<int> touched_;
     TouchingSet* set_ = nullptr;
+    const WindowEnergies::Pairs* split_ = nullptr;
+    std::vector<std::complex<double>> beta_;
     bool collocated_ = false, onward_ = false;  // this phase, and the one before
     int count_ = 0;                             // moments of this phase
 };
@@ -101,6 +106,7 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
       window_(modes_, s, 1 / tap_rate, tolerance, series),
       law_(laws_of(s, series)),
       collocation_(window_, law_),
+      spending_(window_, modes_, tolerance),
       readout_(scene, modes_),
       tap_rate_(tap_rate),
       tolerance_(tolerance),
@@ -117,16 +123,20 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     touched_.reserve(contacts);
     for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
     amplitude_.assign(contacts * contacts + 1, 0.0);
+    beta_.assign(contacts + 1, 0.0);
     const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
     if (springs && contacts <= most_sets_of) {
         sets_.resize(1u << contacts);
+        pairs_.resize(sets_.size());
         for (unsigned bits = 1; bits < sets_.size(); ++bits) {
             std::vector<int> points;
             std::vector<double> k;
             for (int a = 0; a < contacts; ++a)
                 if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].stiffness());
             TouchingSet set(window_, points, k);
-            if (set.solves()) sets_[bits] = std::move(set);
+            if (!set.solves()) continue;
+            pairs_[bits] = spending_.pairs_of(set);
+            sets_[bits] = std::move(set);
         }
     }
     reset();
@@ -234,6 +244,7 @@ void ExactContact::settle() noexcept {
     for (int a = 0; a < w.contacts; ++a)
         if (touching_[a]) touched_.push_back(a), bits |= a < most_sets_of ? 1u << a : 0;
     set_ = !touched_.empty() && !sets_.empty() && sets_[bits] ? &*sets_[bits] : nullptr;
+    split_ = &pairs_[set_ ? bits : 0];
 }
 
 Gap ExactContact::gap(int a, int terms) const noexcept {
@@ -264,12 +275,11 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
     collocated_ = !touched_.empty() && !set_;
     std::fill(known_zero_.begin(), known_zero_.end(), 0);
     double end = left;
-    int crossed = -1, pairs = 0;
+    int crossed = -1;
     if (touched_.empty()) {
         std::copy(r_.begin(), r_.end(), path_.begin());
         crossed = next_crossing(end, w.size);
     } else if (set_) {
-        pairs = set_->pairs();
         set_->solve(r_.data(), path_.data(), amplitude_.data());
         end = std::min(left, set_->span());
         crossed = next_crossing(end, w.size);
@@ -282,32 +292,29 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
 
     count_ = 2;  // moments that are not negligible: (reach x step)^i/i!
     for (double x = w.reach * end; count_ < w.terms && x > negligible; x *= w.reach * end / count_) ++count_;
-    const auto moments_until = [&](double until) {
+    const auto moments_until = [&](double until, int count) {
         for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
-            if (set_) set_->moments(i, path_.data(), amplitude_.data(), until, count_, at(moment_, i));
-            else collocation_.moments(i, until, count_, at(moment_, i));
+            if (set_) set_->moments(i, path_.data(), amplitude_.data(), until, count, at(moment_, i));
+            else collocation_.moments(i, until, count, at(moment_, i));
     };
     if (probe && end > 0) {
-        double fastest = set_ ? set_->growth() : w.reach;
-        for (int k = 0; k < pairs; ++k) fastest = std::max(fastest, std::abs(set_->rates()[k]));
-        const int pieces = static_cast<int>(std::ceil(end * fastest / longest_reach));
-        const auto all_moments = [&](double when,
-                                     double* M) {  // those of the phases before, seen from an earlier instant, and this phase's
+        const auto all_moments = [&](double when, double* M) {  // of the phases before, seen from an earlier instant, and of this one
             double earlier[3 * most_terms];
             std::fill_n(earlier, w.size, 0.0);
             powers(when - now - left, w.size, earlier + w.size);
             std::fill_n(M, static_cast<long>(w.contacts) * w.stride, 0.0);
             for (int a = 0; a < w.contacts; ++a)
                 w.sweep().combine(M + a * w.stride, w.size, at(moments_, a), w.terms, earlier + w.size, -1);
-            moments_until(when - now);
+            moments_until(when - now, w.terms);
             for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
-                for (int n = 0; n < count_; ++n) M[touched_[i] * w.stride + n] += at(moment_, i)[n];
+                for (int n = 0; n < w.terms; ++n) M[touched_[i] * w.stride + n] += at(moment_, i)[n];
         };
-        for (int i = 0; i < pieces; ++i)
-            w.spend(now + end * i / pieces, now + end * (i + 1) / pieces, y_.data(), u_.data(), all_moments, energies_);
+        for (int k = 0; set_ && k < set_->pairs(); ++k) beta_[k] = set_->beta(k);
+        spending_.spend({now, now + end, set_ ? set_->growth() : w.reach, y_.data(), u_.data(), *split_, beta_.data()}, all_moments,
+                        energies_);
         if (!touched_.empty() && !set_) energies_.dissipated += collocation_.dissipated();
     }
-    moments_until(end);
+    moments_until(end, count_);
     move_on(end, left);
     if (crossed >= 0) {
         touching_[crossed] = !touching_[crossed];

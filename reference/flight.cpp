@@ -13,7 +13,7 @@ constexpr double of_window = 1e-15;  // relative: what a window cuts is below ro
 }
 
 Flight::Flight(const Modes& modes, const String& s, double interval, const std::optional<InSeries>& series)
-    : window(modes, s, interval, of_window, series) {
+    : window(modes, s, interval, of_window, series), energies_(window, modes, of_window) {
     if (s.pluck) longest_plucked_ = std::min(1.0, pluck_window(*s.pluck) / window.seconds());
     r_.assign(static_cast<std::size_t>(window.contacts + 1) * window.stride, 0.0);
     none_ = r_;
@@ -42,7 +42,7 @@ Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int l
     }
     tolerance_ = std::max(tolerance_, 2 * (w.truncation() + w.rounding()));
     const auto no_forces = [&](double, double* M) { std::fill_n(M, none_.size() - w.stride, 0.0); };
-    if (probe) w.spend(0, landing.length, y, u, no_forces, sums.energies);
+    if (probe) energies_.spend({0, landing.length, w.reach, y, u, no_pairs_, nullptr}, no_forces, sums.energies);
     w.state_at(landing.length, none_.data(), y, u, y, u);
     sums.thread += w.thread_impulse();
     thread_force = w.thread_force();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/macro_window.hpp"
+#include "reference/window_energies.hpp"
 
 namespace jvari {
 
@@ -20,7 +21,7 @@ public:
     };
     struct Sums {                       // of a row's interval
         double bridge = 0, thread = 0;  // [N s]
-        MacroWindow::Energies energies = {};
+        WindowEnergies::Sums energies = {};
     };
     double thread_force = 0;  // F_s of in_series.hpp, of the present state
 
@@ -33,6 +34,8 @@ public:
 private:
     double longest_plucked_ = 1, tolerance_ = 0;  // of a window under the pluck [window]
     std::vector<double> r_, none_;
+    WindowEnergies energies_;
+    WindowEnergies::Pairs no_pairs_;
 };
 
 }  // namespace jvari

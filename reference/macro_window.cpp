@@ -1,7 +1,6 @@
 #include "reference/macro_window.hpp"
 
-#include <gsl/gsl_integration.h>
-
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -52,8 +51,7 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
       contacts(springs.contacts),
       sweep_(&sweep_functions()),
       series_(series),
-      series_cc_(series ? series->C.cc : 0),
-      mass_(modes.mass) {
+      series_cc_(series ? series->C.cc : 0) {
     if (s.pluck) pluck_.push_back(*s.pluck);
     none_.assign(contacts + 1, 0);
     const double growth = largest_eigenvalue();
@@ -71,8 +69,6 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     for (double& x : a_) x *= length;
     for (double& x : b_) x *= length * length;
     for (double& x : gains_) x *= length * length;
-    for (int i = 0; i < modes.count(); ++i) loss_.push_back(2 * modes.mass * modes.sigma[i]);
-    loss_ = osc.pad(loss_);
     for (int i = 0; i < osc.padded; i += sweep_lanes) {
         double fastest = 0;  // root of x^2 - a x + b, or its size
         for (int j = i; j < std::min(i + sweep_lanes, osc.padded); ++j)
@@ -85,19 +81,13 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     for (auto* v : {&p_, &free_}) v->assign(points * stride, 0.0);
     for (auto* v : {&force_, &moments_}) v->assign(forces * stride, 0.0);
     reach_.assign(points, 0.0);
-    acting_.resize(forces);
-    acting_moments_.resize(forces);
+    acting_.resize(forces + 2);  // and the state at the window's start, as impulses
+    acting_moments_.resize(forces + 2);
     scratch_.resize((points * (stride + 1) + 4 * size) * lanes);
-    y_node_.assign(osc.padded, 0.0);
-    u_node_ = zeros_ = y_node_;
+    zeros_.assign(4 * osc.padded, 0.0);
     ones_.assign(osc.padded, 1.0);
-    node_moments_.assign(points * stride, 0.0);
-    flow_.assign(4 * osc.padded, 0.0);
-    flow_at_ = flow_;
+    impulse_ = flow_ = flow_at_ = zeros_;
     free_flow(1, flow_);
-    gsl_integration_glfixed_table* table = gsl_integration_glfixed_table_alloc(nodes);
-    for (int q = 0; q < nodes; ++q) gsl_integration_glfixed_point(0, 1, q, &node_[q], &weight_[q], table);
-    gsl_integration_glfixed_table_free(table);
     make_kernel();
 }
 
@@ -279,18 +269,16 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
     rounding_ = unit_rounding * (most + (threaded() ? reach_[contacts] : 0));  // the thread passes on what is read at its point
 }
 
-void MacroWindow::state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept {
+// The forces that act on the modes until `at`, e its powers: how many, and what they do to the thread.
+int MacroWindow::act(double at, const double* e, const double* M) noexcept {
     const Springs& s = springs;
-    double until[3 * most_terms];
-    const double* e = inverse_factorial.data();  // at^n/n!
-    if (at != 1) powers(at, 2 * size + 1, until), e = until;
     int acting = 0;
-    const auto act = [&](int force, const double* m) {
+    const auto push = [&](int force, const double* m) {
         acting_moments_[acting] = m;
         acting_[acting++] = gains_.data() + static_cast<long>(force) * osc.padded;
     };
     for (int b = 0; b < contacts; ++b)
-        if (M[b * stride] != 0) act(b, M + b * stride);
+        if (M[b * stride] != 0) push(b, M + b * stride);
     thread_impulse_ = 0;
     if (threaded()) {  // its own motion, and its answer kappa_b * F_b to each contact
         double* m = moments_.data() + contacts * stride;
@@ -309,22 +297,21 @@ void MacroWindow::state_at(double at, const double* M, const double* y, const do
                 for (int n = 0; n < terms && M[b * stride] != 0; ++n) thread_force_ += answer_[b * stride + n] * M[b * stride + n];
         }
         for (int b = 0; series_ && b < contacts; ++b) thread_impulse_ -= series_->pull() * M[b * stride] * seconds();
-        act(contacts, m);
+        push(contacts, m);
     }
     if (plucked_) {
         double* m = moments_.data() + s.points * stride;
         std::fill_n(m, size, 0.0);
         sweep_->combine(m, size, force_.data() + s.points * stride, terms, e + 1, 1);
-        act(s.points, m);
+        push(s.points, m);
     }
-    const double* flow = flow_.data();
-    if (at != 1) {
-        free_flow(at, flow_at_);
-        flow = flow_at_.data();
-    }
+    return acting;
+}
+
+void MacroWindow::move(int forces, const double* flow, const double* y, const double* u, double* y_out, double* u_out) noexcept {
     ModalSweep m;
     m.modes = osc.padded;
-    m.forces = acting;
+    m.forces = forces;
     m.terms = sweep_terms_.data();
     m.y = y, m.u = u, m.a = a_.data(), m.b = b_.data();
     m.e11 = flow, m.e12 = flow + osc.padded, m.e21 = flow + 2 * osc.padded, m.e22 = flow + 3 * osc.padded;
@@ -333,46 +320,56 @@ void MacroWindow::state_at(double at, const double* M, const double* y, const do
     sweep_->move(m);
 }
 
-void MacroWindow::spend_at(double at, double weight, const double* y, const double* u, Energies& e) noexcept {
-    const Springs& s = springs;
-    state_at(at, node_moments_.data(), y, u, y_node_.data(), u_node_.data());
-    const auto reading = [&](const double* g) {
-        double v = 0;
-        for (int i = 0; i < osc.padded; ++i) v += g[i] * u_node_[i];
-        return v;
-    };
-    const double* F = force_.data() + s.points * stride;
-    double Fe = 0, change = 0;  // of the pluck, per window
+void MacroWindow::state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept {
+    double until[3 * most_terms];
+    const double *e = inverse_factorial.data(), *flow = flow_.data();  // at^n/n!
+    if (at != 1) {
+        powers(at, 2 * size + 1, until), e = until;
+        free_flow(at, flow_at_);
+        flow = flow_at_.data();
+    }
+    move(act(at, e, M), flow, y, u, y_out, u_out);
+}
+
+void MacroWindow::state_near(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept {
+    double until[3 * most_terms] = {0};
+    const double* e = until + 1;
+    powers(at, 2 * size + 1, until + 1);
+    int acting = act(at, e, M);
+    for (int i = 0; i < osc.padded; ++i) impulse_[i] = u[i] + a_[i] * y[i];
+    acting_[acting] = impulse_.data(), acting_moments_[acting++] = e;
+    acting_[acting] = y, acting_moments_[acting++] = e - 1;
+    move(acting, zeros_.data(), y, u, y_out, u_out);
+}
+
+MacroWindow::Push MacroWindow::push_at(double at) const noexcept {
+    Push p;
+    const double* F = force_.data() + springs.points * stride;
     for (int n = terms - 1; plucked_ && n >= 0; --n) {
-        change = n + 1 < terms ? change * at + F[n + 1] * inverse_factorial[n] : 0;
-        Fe = Fe * at + F[n] * inverse_factorial[n];
+        p.change = n + 1 < terms ? p.change * at + F[n + 1] * inverse_factorial[n] : 0;
+        p.force = p.force * at + F[n] * inverse_factorial[n];
     }
-    double loss = 0;
-    for (int i = 0; i < osc.padded; ++i) loss += loss_[i] * u_node_[i] * u_node_[i];
-    if (series_) {
-        const double F_s = thread_force_;
-        const auto [b, c] = forces(y_node_.data(), F_s, Fe);
-        if (relaxes()) {
-            const double Y = readings(y_node_.data(), F_s, Fe).Y, r = s.r[contacts] / osc.rate, v = -(c + s.k[contacts] * Y) / r;
-            loss += r * (v * seconds()) * (v * seconds());
-        }
-        e.supplied -= weight * (series_->C.be * b + series_->C.ce * c) * change;
-    } else if (threaded()) {
-        const double v = reading(s.weights.data() + static_cast<long>(contacts) * osc.padded);
-        loss += s.r[contacts] / osc.rate * v * v;
+    return p;
+}
+
+// The damper's loss, and what the pluck does to the deflections that it has a part in.
+MacroWindow::Power MacroWindow::series_power(const double* y, const Push& pluck) const noexcept {
+    Power power;
+    const Readings read = readings(y, thread_force_, pluck.force);
+    const auto [b, c] = series_->points.forces(read.b, read.c, read.Y);
+    if (relaxes()) {
+        const double r = springs.r[contacts] / osc.rate, v = -(c + springs.k[contacts] * read.Y) / r;
+        power.dissipated = r * v * v * seconds();
     }
-    e.dissipated += weight * loss / seconds();  // v = u/seconds, dt = seconds
-    if (!plucked_) return;
-    e.supplied += weight * Fe * reading(s.gains.data() + static_cast<long>(s.points) * osc.padded) * mass_ * osc.rate * osc.rate;
+    power.supplied = -(series_->C.be * b + series_->C.ce * c) * pluck.change;
+    return power;
 }
 
 // Of what is in series: what the modes read at barrier and thread, the pluck's part counted in, and Y_c - h_c.
 MacroWindow::Readings MacroWindow::readings(const double* y, double thread, double F_e) const noexcept {
     const auto read = [&](int a) {
-        const double* g = springs.weights.data() + static_cast<long>(a) * osc.padded;
-        double sum = 0;
-        for (int i = 0; i < osc.padded; ++i) sum += g[i] * y[i];
-        return sum;
+        using Row = Eigen::Map<const Eigen::VectorXd>;
+        return Row(springs.weights.data() + static_cast<long>(a) * osc.padded, osc.padded).dot(Row(y, osc.padded));
     };
     const double b = contacts > 0 ? read(0) + series_->C.be * F_e : 0, c = threaded() ? read(contacts) + series_->C.ce * F_e : 0;
     return {b, c, series_->lag(c, thread)};

@@ -10,7 +10,6 @@
 // Leaves out: contact, which its users decide.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "reference/in_series.hpp"
@@ -60,24 +59,23 @@ public:
 
     // The modes at `at`, under contact forces of moments M[contact][stride]. The output may be the input of open().
     void state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept;
+    // The same within a window, cheaper and good for integrals: (y, u) acts as the impulses (u + a y) delta + y delta'.
+    void state_near(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept;
     double thread_impulse() const { return thread_impulse_; }  // until the instant of the last state_at [N s]
     double thread_force() const { return thread_force_; }      // F_s at that instant, where the thread has a state
     const std::optional<InSeries>& series() const { return series_; }
     SeriesPoints::Forces forces(const double* y, double thread, double F_e) const noexcept;  // of what is in series, in that state
     double series_energy(const double* y, double thread, double F_e) const noexcept;         // [J]
 
-    // Energies lost and supplied between two instants of the window, by quadrature; moments(at, M) gives the forces' moments.
-    struct Energies {
-        double supplied = 0, dissipated = 0;  // [J]
+    struct Push {
+        double force = 0, change = 0;  // of the pluck [N], and its derivative [N/window]
     };
-    template <class Moments>
-    void spend(double from, double to, const double* y, const double* u, Moments&& moments, Energies& e) noexcept {
-        for (int q = 0; q < nodes; ++q) {
-            const double at = from + (to - from) * node_[q];
-            moments(at, node_moments_.data());
-            spend_at(at, (to - from) * weight_[q], y, u, e);
-        }
-    }
+    Push push_at(double at) const noexcept;
+    struct Power {
+        double supplied = 0, dissipated = 0;  // [J/window]
+    };
+    Power series_power(const double* y, const Push&) const noexcept;  // of what is in series, at the instant of the last state_at
+    bool threaded() const { return springs.points > contacts; }
 
 private:
     double largest_eigenvalue() const;
@@ -91,24 +89,21 @@ private:
     bool relaxes() const { return series_ && series_->relaxes(); }
     void make_kernel();
     void free_flow(double at, std::vector<double>& e) const noexcept;
-    void spend_at(double at, double weight, const double* y, const double* u, Energies&) noexcept;
-    bool threaded() const { return springs.points > contacts; }
+    int act(double at, const double* e, const double* M) noexcept;
+    void move(int forces, const double* flow, const double* y, const double* u, double* y_out, double* u_out) noexcept;
 
-    static constexpr int nodes = 8;  // Gauss-Legendre
     const SweepFunctions* sweep_;
     std::optional<InSeries> series_;
     double series_cc_ = 0;      // C_cc [m/N]
     std::vector<Pluck> pluck_;  // none or one
     std::vector<char> none_;
     std::vector<int> sweep_terms_;
-    std::vector<double> a_, b_, gains_, loss_;  // in units of the window; loss 2 m sigma
-    double mass_, tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0, thread_force_ = 0;
+    std::vector<double> a_, b_, gains_;  // in units of the window
+    double tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0, thread_force_ = 0;
     bool plucked_ = false;
     std::vector<double> kernel_, answer_, reply_, by_thread_, flow_, flow_at_;  // h_ab; kappa_b; F_c of p_c; h_ac; free motion's matrix
-    std::vector<double> p_, free_, force_, moments_, reach_, scratch_, node_moments_, y_node_, u_node_;
-    std::vector<double> ones_, zeros_;
+    std::vector<double> p_, free_, force_, moments_, reach_, scratch_, impulse_, zeros_, ones_;
     std::vector<const double*> acting_, acting_moments_;
-    std::array<double, nodes> node_{}, weight_{};
 };
 
 void powers(double u, int count, double* e) noexcept;  // u^n/n!, n < count

@@ -140,6 +140,8 @@ void move(const ModalSweep& m) {
         case 0: return move_under<0>(m);
         case 1: return move_under<1>(m);
         case 2: return move_under<2>(m);
+        case 3: return move_under<3>(m);
+        case 4: return move_under<4>(m);
         default: return move_under<-1>(m);
     }
 }

@@ -329,7 +329,10 @@ TEST(ExactContact, TheC3ReleaseHasTheDigitsOfATwoBasisProgramInLongDouble) {
 }
 
 TEST(ExactContact, WithoutLossesTheEnergyStaysAndWithThemTheLedgerCloses) {
-    for (const auto& [scene, modes, kept] : {std::tuple{c3(false), 133, true}, {few_modes(), 12, false}}) {
+    Scene pressed = c3();  // the pluck acts on what the contact does within a window
+    pressed.strings[0].pluck = Pluck{-0.6, 15e-3, 12, 0.2e-3, 0.02, 0.01};
+    for (const auto& [scene, modes, kept] :
+         {std::tuple{c3(false), 133, true}, {c3(true), 133, false}, {few_modes(), 12, false}, {pressed, 133, false}}) {
         RunOptions options;
         options.energy = true;
         const jvari::Run r = run(exact_contact, scene, settings(modes), options);

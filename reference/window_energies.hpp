@@ -1,0 +1,85 @@
+// Energy that a string gains and loses within a macro window (van Walstijn et al. 2016, eqs 1, 12 and 19):
+//
+//     dissipated = int sum_i 2 m sigma_i v_i^2 + r_c v_c^2 dt,      supplied = int F_e v_e dt
+//
+// with v the velocities of modes, thread and pluck. Where stiff contacts touch, v = S + Re sum_k beta_k W_k e^(lambda_k t): S as slow as
+// the string, and one fast pair per contact (touching_set.hpp). Slow products are integrated by Gauss-Legendre, S against a pair as a
+// Legendre series against its exponential, two pairs in closed form: so the nodes follow the string, not the contact.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "reference/macro_window.hpp"
+
+namespace jvari {
+
+class TouchingSet;
+
+class WindowEnergies {
+public:
+    WindowEnergies(MacroWindow&, const Modes&, double tolerance);  // the window outlives it
+
+    struct Sums {
+        double supplied = 0, dissipated = 0;  // [J]
+    };
+
+    // What the pairs of one touching set do to all that loses or gains, per unit of beta. Those of no set: none.
+    struct Pairs {
+        std::vector<std::complex<double>> rates;         // [1/window]
+        Eigen::MatrixXd moments;                         // [contact x stride][2 pair]: real and imaginary part
+        Eigen::MatrixXd velocity;                        // W [mode, thread][2 pair]
+        Eigen::MatrixXcd product, product_of_conjugate;  // W' L W and W' L conj(W), L the losses
+        Eigen::VectorXcd pluck;                          // W_k where the pluck acts
+    };
+    Pairs pairs_of(const TouchingSet&);  // spoils the window that is open
+
+    // Between two instants of the window that is open on (y, u).
+    struct Stretch {
+        double from, to, growth;  // of the motion but for its pairs, in a window
+        const double *y, *u;
+        const Pairs& pairs;                // they began at `from`
+        const std::complex<double>* beta;  // [pair]
+    };
+    // moments(at, M) gives the contact forces' moments M[contact][stride].
+    template <class Moments>
+    void spend(const Stretch& s, Moments&& moments, Sums& sums) noexcept {
+        const int pieces = plan(s);
+        for (int i = 0; i < pieces; ++i) {
+            const double start = s.from + length_ * i;
+            for (int q = 0; q < rule_->nodes; ++q) {
+                const double at = start + length_ * rule_->node[q];
+                moments(at, moments_.data());
+                add_node(s, q, at, sums);
+            }
+            if (split_) add_pairs(s, start, sums);
+        }
+    }
+
+private:
+    static constexpr int most_nodes = 12;
+    struct Rule {  // Gauss-Legendre on 0 ... 1
+        int nodes;
+        double node[most_nodes], weight[most_nodes];
+    };
+    int plan(const Stretch&) noexcept;  // how many pieces; sets what is below
+    void add_node(const Stretch&, int q, double at, Sums&) noexcept;
+    void add_pairs(const Stretch&, double start, Sums&) noexcept;
+
+    MacroWindow* window_;
+    double allowed_;            // error of an integral over a piece, relative
+    std::vector<Rule> rules_;   // the coarsest first
+    Eigen::VectorXd loss_;      // [mode, thread]: J per squared displacement in a window
+    Eigen::VectorXd pluck_;     // velocity where it acts, per mode's displacement in a window
+    Eigen::VectorXd thread_;    // and of the thread's point
+    Eigen::MatrixXd legendre_;  // [degree][node]: values to a Legendre series
+    std::vector<double> moments_, y_;
+    Eigen::VectorXd u_, lost_;
+    Eigen::MatrixXcd lost_to_, gained_by_;  // [node][pair]: S against W_k, and F_e
+    const Rule* rule_ = nullptr;
+    double length_ = 0;  // of a piece [window]
+    bool split_ = false;
+};
+
+}  // namespace jvari
