@@ -16,8 +16,11 @@
 #include "bench/compare/compare.hpp"
 #include "bench/compare/compare_record.hpp"
 #include "bench/compare/silence.hpp"
+#include "bench/map/map_tables.hpp"
+#include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
 #include "bench/store/side_by_side.hpp"
+#include "bench/suite/row_facet.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "bench/trim/trim_record.hpp"
 #include "python/listening.hpp"
@@ -138,20 +141,43 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
     r.repeats = repeats;
     r.jobs = jobs;
     const compare::Catalogue catalogue(plugins());
-    return rows_of(unlocked([&] { return compare::with_bounds(compare::cells_of(compare::compare(r, catalogue, Ear()))); }));
+    return rows_of(unlocked([&] { return compare::with_bounds(compare::cells_of(compare::compare(r, catalogue, Ear()))); },
+                            [] { return std::string("nothing is kept but long runs of references"); }));
 }
 
-inline py::object suite_rows(const std::string& file, const std::string& out, bool resume, int jobs) {
+inline py::dict suite_tables(const std::string& file, const std::string& out, bool resume, int jobs) {
     const suite::Suite suite = suite::read_suite(file);
     const std::vector<std::string> files = plugins();
     const compare::Catalogue catalogue(files);
-    return rows_of(unlocked([&] {
-        const suite::SuitePlan plan = suite::plan_of(suite, catalogue, files);
-        for (const std::string& note : plan.notes) Ear().note(note);
-        const std::filesystem::path folder = out.empty() ? "" : std::filesystem::path(out) / "cells";
-        if (!folder.empty()) std::filesystem::create_directories(folder);
-        return compare::with_bounds(suite::table_of(plan, suite::run_suite(plan, folder, resume, jobs, Ear()).records));
-    }));
+    const suite::SuitePlan plan = suite::plan_of(suite, catalogue, files);
+    for (const std::string& note : plan.notes) Ear().note(note);
+    const std::filesystem::path folder = out;
+    const auto below = [&folder](const char* name) {
+        if (!folder.empty()) std::filesystem::create_directories(folder / name);
+        return folder.empty() ? folder : folder / name;
+    };
+    std::vector<std::pair<std::string, store::Table>> tables;
+    unlocked(
+        [&] {
+            map::Truths truths(catalogue);
+            const map::MapRun maps = map::run_maps(map::rows_of(suite.maps, catalogue), truths, store::program_identity(files),
+                                                   suite.maps.empty() ? folder : below("points"),
+                                                   resume ? map::Points::resumed : map::Points::run_again, jobs, Ear());
+            const suite::SuiteRun run = suite::run_suite(plan, below("cells"), resume, jobs, Ear());
+            tables.emplace_back("cells", compare::with_bounds(suite::table_of(plan, run.records)));
+            tables.emplace_back("maps", map::maps_table(maps));
+            tables.emplace_back("boundaries", map::boundaries_table(maps, {}));
+            for (const suite::RowFacet& f : suite::row_facets())
+                if (store::Table rows = suite::rows_of(f.facet, plan, run.records); !rows.rows.empty() && !f.write)
+                    tables.emplace_back(suite::name_of(f.facet), std::move(rows));
+        },
+        [&] {
+            return folder.empty() ? "nothing is kept, for there is no out"
+                                  : suite::kept_of(plan, folder) + " are kept in " + out + "; resume=True goes on from there";
+        });
+    py::dict rows;
+    for (const auto& [name, table] : tables) rows[py::str(name)] = rows_of(table);
+    return rows;
 }
 
 struct TrimmedRows {
@@ -167,14 +193,19 @@ inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
     const compare::Catalogue catalogue(plugins());
     store::Table path, needs;
     std::string toml;
-    const bool found = unlocked([&] {
-        trim::Judge judge(r, catalogue, Ear());
-        const trim::Trimmed t = trim::trimmed(judge, r, catalogue, Ear());
-        path = trim::path_table(t, judge);
-        needs = trim::needs_table(t, judge);
-        if (t.path.found) toml = trim::trimmed_toml(t, judge);
-        return t.path.found;
-    });
+    const bool found = unlocked(
+        [&] {
+            trim::Judge judge(r, catalogue, Ear());
+            const trim::Trimmed t = trim::trimmed(judge, r, catalogue, Ear());
+            path = trim::path_table(t, judge);
+            needs = trim::needs_table(t, judge);
+            if (t.path.found) toml = trim::trimmed_toml(t, judge);
+            return t.path.found;
+        },
+        [&] {
+            return out.empty() ? "nothing is kept, for there is no out"
+                               : "what was judged is kept in " + out + "; the same call goes on from there";
+        });
     return {found, rows_of(path), rows_of(needs), toml};
 }
 

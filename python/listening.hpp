@@ -42,4 +42,15 @@ auto unlocked(Work work) {
     return work();
 }
 
+// The same; KeyboardInterrupt says what `kept` says.
+template <class Work, class Kept>
+auto unlocked(Work work, Kept kept) {
+    try {
+        return unlocked(work);
+    } catch (const Raised& e) {
+        if (e.error.matches(PyExc_KeyboardInterrupt)) e.error.value().attr("args") = py::make_tuple("interrupted: " + kept());
+        throw;
+    }
+}
+
 }  // namespace jvari::python

@@ -53,6 +53,20 @@ TEST(FileLock, ProcessesThatAskForAReferenceAtOnceMakeItOnce) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "runs/key.run.lock"));
 }
 
+TEST(FileLock, WhoWaitsForAReferenceMayBeToldToEnd) {
+    const Scratch scratch;
+    append(scratch / "key.run.lock", "elsewhere boot pid:[1] 1 1");
+    struct Enough {};
+    int asked = 0;
+    const auto waiting = [&asked] {
+        if (++asked == 4) throw Enough{};
+    };
+    EXPECT_THROW(bench::trust::kept_run(
+                     scratch.path, "key", [] { return jvari::Run(); }, 0, waiting),
+                 Enough);
+    EXPECT_TRUE(std::filesystem::exists(scratch / "key.run.lock"));  // it is the other's
+}
+
 TEST(FileLock, OfAProcessThatIsGoneHoldsNobodyUp) {
     const Scratch scratch;
     const pid_t child = fork();

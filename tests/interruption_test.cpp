@@ -161,12 +161,50 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
     EXPECT_EQ(content(out + "/convergence.csv"), content(scratch / "whole/convergence.csv"));
     for (const auto& sound : fs::directory_iterator(scratch / "whole/sounds"))
         EXPECT_EQ(content(out + "/sounds/" + sound.path().filename().string()), content(sound.path())) << sound.path();
+}
 
-    Started nowhere(scratch, {"compare", "tanpura_c3", "--schemes", "modal_two_point", "--rates", "2822400"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    nowhere.send(SIGINT);
-    EXPECT_EQ(nowhere.end(), SIGINT);
-    EXPECT_NE(content(scratch / "stderr").find("interrupted: nothing is kept, for there is no --out DIR"), std::string::npos);
+TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
+    const Scratch scratch;
+    const std::string file = scratch / "a.toml";
+    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [2822400]\nduration = 60\n";
+    for (const auto& [arguments, said] : {
+             std::pair<std::vector<std::string>, std::string>{
+                 {"compare", "tanpura_c3", "--schemes", "modal_two_point", "--rates", "2822400"}, "for there is no --out DIR"},
+             {{"suite", file}, "for there is no --out DIR"},
+             {{"certify", "tanpura_c3", "--out", scratch / "c.json"}, "until all runs of a certificate are done"},
+         }) {
+        Started nowhere(scratch, arguments);
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        nowhere.send(SIGINT);
+        EXPECT_EQ(nowhere.end(), SIGINT) << arguments.front();
+        EXPECT_NE(content(scratch / "stderr").find("interrupted: nothing is kept, " + said), std::string::npos)
+            << arguments.front() << ": " << content(scratch / "stderr");
+    }
+    EXPECT_FALSE(fs::exists(scratch / "c.json"));
+    EXPECT_FALSE(fs::exists(scratch / "c.json.lock"));
+}
+
+TEST(Interruption, WhoPreparesASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
+    const Scratch scratch;
+    const std::string file = scratch / "a.toml", references = scratch / "all/references";
+    std::ofstream(file) << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\n"
+                           "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 2\n"
+                           "reference = \"sundials\"\n";
+    Started prepare(scratch, {"suite", file, "--out", scratch / "all", "--prepare", "--jobs", "2"});
+    const auto files = [&](const char* extension) {
+        std::error_code none_yet;
+        int n = 0;
+        for (const auto& entry : fs::directory_iterator(references, none_yet)) n += entry.path().extension() == extension;
+        return n;
+    };
+    prepare.once([&] { return files(".run") >= 2 && files(".lock") >= 1; });
+    prepare.send(SIGINT);
+    EXPECT_EQ(prepare.end(), SIGINT);
+    const std::string said = "interrupted: 0 of 2 cells and " + std::to_string(files(".run")) + " runs of references are kept in " +
+                             (scratch / "all") + "; --resume";
+    EXPECT_NE(content(scratch / "stderr").find(said), std::string::npos) << content(scratch / "stderr");
+    EXPECT_EQ(files(".lock"), 0);
+    EXPECT_FALSE(fs::exists(scratch / "all/plan.csv"));
 }
 
 TEST(Interruption, ARunLeavesNoFile) {

@@ -100,5 +100,26 @@ TEST(SideBySide, WhatTheListenerThrowsEndsThoseThatRunAndBeginsNoOther) {
     EXPECT_EQ(to_the_end, 0);
 }
 
+TEST(SideBySide, WhatTheListenerThrowsEndsThePartsOfThoseThatRunAndWhoWaitsForThem) {
+    struct Weary : bench::store::Progress {
+        void show(double, const std::string&) override { throw std::runtime_error("enough"); }
+    };
+    struct Ear : bench::store::Listener {
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Weary>(); }
+    };
+    std::once_flag once;  // of the two things one makes the parts of both
+    std::atomic<int> to_the_end = 0;
+    const auto part = [&](std::size_t, bench::store::Done& done) {
+        for (int k = 0; k < 3000; ++k) wait(10), done = k / 3000.0;
+        ++to_the_end;
+    };
+    const auto thing = [&](std::size_t, bench::store::Done& done) {
+        std::call_once(once, [&] { bench::store::side_by_side({1, 1}, 2, bench::store::PartOf(done), "", part); });
+        ++to_the_end;
+    };
+    EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, Ear(), "", thing), std::runtime_error);
+    EXPECT_EQ(to_the_end, 0);
+}
+
 }  // namespace
 }  // namespace jvari::test

@@ -12,6 +12,7 @@
 #include "bench/store/file_lock.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
+#include "bench/store/interruption.hpp"
 #include "bench/store/listener.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
@@ -180,6 +181,8 @@ int certify_command(const CertifyRequest& r) {
     if (cached) {
         trust::read_costs(path, kept);
     } else {
+        const store::WhenInterrupted last_word(
+            [&] { console.note("interrupted: nothing is kept, until all runs of a certificate are done"); });
         kept.certificate = made(scene, settings, console);
         store::write_fresh(trust::cost_path(path), trust::cost_json_of(kept));
         store::write_fresh(path, trust::json_of(kept));

@@ -90,19 +90,9 @@ std::string table_text(const suite::SuitePlan& plan, const suite::SuiteRun& run,
     return text;
 }
 
-std::string kept_text(const suite::SuitePlan& plan, const suite::Suite& suite, const fs::path& folder) {
-    std::error_code error;
-    std::string text;
-    if (!plan.cells.empty()) {
-        const auto kept = [&](const suite::PlannedCell& c) { return fs::exists(folder / "cells" / (c.id + ".json"), error); };
-        text = fmt::format("{} of {} cells", std::count_if(plan.cells.begin(), plan.cells.end(), kept), plan.cells.size());
-    }
-    if (!suite.maps.empty()) {
-        const auto kept = [](const fs::directory_entry& e) { return e.path().extension() == ".json"; };
-        const auto points = std::count_if(fs::directory_iterator(folder / "points", error), fs::directory_iterator(), kept);
-        text += fmt::format("{}{} points of maps", text.empty() ? "" : " and ", points);
-    }
-    return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", text, folder.string());
+std::string kept_text(const suite::SuitePlan& plan, const fs::path& folder) {
+    if (folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
+    return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", suite::kept_of(plan, folder), folder.string());
 }
 
 std::string missing_text(const std::vector<std::string>& missing) {
@@ -142,12 +132,11 @@ int suite_command(const SuiteRequest& r) {
     if (!r.print.empty()) return print_script(r, suite::parts_of(plan, suite.maps, catalogue), console);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
-    std::optional<store::WhenInterrupted> last_word;
     if (!r.out.empty()) {
         must_be_ours(folder, "suite " + suite.name, console);
         make_folder(folder);
-        last_word.emplace([&] { console.note(kept_text(plan, suite, folder)); });
     }
+    std::optional<store::WhenInterrupted> last_word(std::in_place, [&] { console.note(kept_text(plan, folder)); });
     if (r.prepare) return prepare_suite(r, plan, suite::parts_of(plan, suite.maps, catalogue), console);
     if (!r.shard.empty()) return run_shard(r, plan, suite::parts_of(plan, suite.maps, catalogue), catalogue, console);
     const map::Points points = r.gather ? map::Points::only_read : r.resume ? map::Points::resumed : map::Points::run_again;

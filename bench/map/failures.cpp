@@ -40,11 +40,12 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
     std::vector<Reproducer> all;
     for (const auto& [key, point] : cheapest)
         all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)), trial_at(point->at), point->tried.judgement});
-    store::side_by_side(std::vector<double>(all.size(), 1), jobs, listener, "failures", [&](std::size_t i, store::Done&) {
+    store::side_by_side(std::vector<double>(all.size(), 1), jobs, listener, "failures", [&](std::size_t i, store::Done& done) {
+        const compare::ProgressOf look = [&done](long, long) { done.look(); };
         const Verdict wanted = all[i].expected.verdict;
-        all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths).judgement.verdict == wanted; });
+        all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths, look).judgement.verdict == wanted; });
         all[i].trial.scene.name += "_minimised";
-        all[i].expected = run_trial(all[i].trial, truths).judgement;
+        all[i].expected = run_trial(all[i].trial, truths, look).judgement;
     });
     return all;
 }

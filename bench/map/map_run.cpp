@@ -75,7 +75,7 @@ public:
     Laboratory(Truths& truths, std::string program, fs::path folder, Points points)
         : truths_(truths), program_(std::move(program)), folder_(std::move(folder)), points_(points) {}
 
-    std::optional<Tried> operator()(const PointPlace& at) {  // nothing: it was to be read and is not there
+    std::optional<Tried> operator()(const PointPlace& at, const store::Done& done) {  // nothing: it was to be read and is not there
         const Trial trial = trial_at(at);
         const std::string identity = Json{{"program", program_}, {"trial", Json::parse(identity_of(trial))}}.dump();
         const fs::path file = folder_ / (store::hash_of(identity) + ".json");
@@ -86,7 +86,7 @@ public:
                 return kept;
             }
         if (points_ == Points::only_read) return std::nullopt;
-        Tried tried = run_trial(trial, truths_);
+        Tried tried = run_trial(trial, truths_, [&done](long, long) { done.look(); });
         ++ran_;
         if (!folder_.empty()) {
             const std::lock_guard lock(writing_);  // two maps can hold the same point
@@ -196,7 +196,7 @@ MapRun run_maps(const std::vector<MapRow>& rows, Truths& truths, const std::stri
     Laboratory laboratory(truths, program, folder, points);
     std::vector<std::optional<Tried>> tried(places.size());
     store::side_by_side(std::vector<double>(places.size(), 1), jobs, listener, "points",
-                        [&](std::size_t i, store::Done&) { tried[i] = laboratory(places[i]); });
+                        [&](std::size_t i, store::Done& done) { tried[i] = laboratory(places[i], done); });
 
     std::vector<std::size_t> changes;  // between this point and the next
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
@@ -210,7 +210,7 @@ MapRun run_maps(const std::vector<MapRow>& rows, Truths& truths, const std::stri
         std::optional<PointPlace> missing;
     };
     std::vector<Found> found(changes.size());
-    store::side_by_side(std::vector<double>(changes.size(), 1), jobs, listener, "boundaries", [&](std::size_t i, store::Done&) {
+    store::side_by_side(std::vector<double>(changes.size(), 1), jobs, listener, "boundaries", [&](std::size_t i, store::Done& done) {
         const PointPlace &low = places[changes[i]], &high = places[changes[i] + 1];
         const Verdict at_low = tried[changes[i]]->judgement.verdict, at_high = tried[changes[i] + 1]->judgement.verdict;
         const MapAxis& axis = low.map->x;
@@ -218,7 +218,7 @@ MapRun run_maps(const std::vector<MapRow>& rows, Truths& truths, const std::stri
             bisect({store::number_of(low.x), store::number_of(high.x), at_low, at_high}, low.map->refine, axis.whole, [&](double x) {
                 PointPlace at = low;
                 at.x = axis_text(axis, x);
-                const auto there = found[i].missing ? std::nullopt : laboratory(at);
+                const auto there = found[i].missing ? std::nullopt : laboratory(at, done);
                 if (!there && !found[i].missing) found[i].missing = at;
                 return there ? there->judgement.verdict : at_low;
             });

@@ -65,7 +65,7 @@ std::string identity_of(const Trial& t) {
         .dump();
 }
 
-const Truths::Truth& Truths::of(const Trial& t) {
+const Truths::Truth& Truths::of(const Trial& t, const compare::ProgressOf& progress) {
     static const Truth none;
     if (t.reference == "none") return none;
     const Descriptor& named = !t.reference.empty()            ? catalogue_.find(t.reference)
@@ -81,16 +81,18 @@ const Truths::Truth& Truths::of(const Trial& t) {
         if (!kept) kept = std::make_unique<Truth>();
         truth = kept.get();
     }
-    std::call_once(truth->once, [&] { make(*truth, t); });
+    std::call_once(truth->once, [&] { make(*truth, t, progress); });
     return *truth;
 }
 
-void Truths::make(Truth& truth, const Trial& t) const {
+void Truths::make(Truth& truth, const Trial& t, const compare::ProgressOf& progress) const {
+    RunOptions options;
+    options.progress = progress;
     std::vector<const Descriptor*> candidates = catalogue_.references;
     if (!t.reference.empty()) candidates = {&catalogue_.find(t.reference)};
     for (const Descriptor* d : candidates) try {
             if (!(needed_by(t.scene) - d->represents).empty()) continue;
-            Run r = run(*d, listened(t.scene), reference_settings(*d, t));
+            Run r = run(*d, listened(t.scene), reference_settings(*d, t), options);
             if (r.status.outcome != Outcome::ok) continue;
             truth.name = d->name;
             truth.trace = std::move(r.trace);
@@ -99,14 +101,15 @@ void Truths::make(Truth& truth, const Trial& t) const {
         }
 }
 
-Tried run_trial(const Trial& t, Truths& truths) {
+Tried run_trial(const Trial& t, Truths& truths, const compare::ProgressOf& progress) {
     Tried tried;
     const Scene scene = listened(t.scene);
     RunOptions probed;
     probed.energy = true;
+    probed.progress = progress;
     try {
         const Run r = run(*t.scheme, scene, t.settings, probed);
-        const Truths::Truth& truth = truths.of(t);
+        const Truths::Truth& truth = truths.of(t, progress);
         tried.steps = r.steps;
         tried.reference = truth.name;
         tried.figures = figures_of(*t.scheme, scene, t.settings, r, truth.name.empty() ? nullptr : &truth.trace);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
+#include "bench/compare/compare_plan.hpp"
 #include "bench/map/map_file.hpp"
 #include "bench/map/verdict.hpp"
 
@@ -44,16 +45,16 @@ public:
         std::string name;  // "": none represents the scene, or none came to the end
         Trace trace;
     };
-    const Truth& of(const Trial&);
+    const Truth& of(const Trial&, const compare::ProgressOf& = {});
     const compare::Catalogue& catalogue() const { return catalogue_; }
 
 private:
-    void make(Truth&, const Trial&) const;
+    void make(Truth&, const Trial&, const compare::ProgressOf&) const;
     const compare::Catalogue& catalogue_;
     std::mutex mutex_;
     std::map<std::string, std::unique_ptr<Truth>> truths_;
 };
 
-Tried run_trial(const Trial&, Truths&);
+Tried run_trial(const Trial&, Truths&, const compare::ProgressOf& = {});  // what that throws ends it
 
 }  // namespace jvari::bench::map

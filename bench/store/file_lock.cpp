@@ -103,7 +103,9 @@ FileLock::FileLock(fs::path path, const std::function<bool()>& there, const Pati
         }
         std::this_thread::sleep_for(pause);
     }
-    if (held()) heart_ = std::thread([this, every = patience.beat] { beat(every); });
+    if (!held()) return;
+    released_too_.emplace([this] { unlink_own(); });
+    heart_ = std::thread([this, every = patience.beat] { beat(every); });
 }
 
 void FileLock::beat(std::chrono::milliseconds every) {
@@ -119,10 +121,15 @@ FileLock::~FileLock() {
     }
     released_.notify_one();
     heart_.join();
+    released_too_.reset();
+    unlink_own();
+    close(file_);
+}
+
+void FileLock::unlink_own() const {
     struct stat own = {}, there = {};  // it is another's where this one was taken for gone
     if (fstat(file_, &own) == 0 && stat(path_.c_str(), &there) == 0 && own.st_ino == there.st_ino && own.st_dev == there.st_dev)
         unlink(path_.c_str());
-    close(file_);
 }
 
 }  // namespace jvari::bench::store

@@ -11,8 +11,11 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+
+#include "bench/store/interruption.hpp"
 
 namespace jvari::bench::store {
 
@@ -32,12 +35,14 @@ public:
 private:
     bool take();
     void beat(std::chrono::milliseconds every);
+    void unlink_own() const;
     const std::filesystem::path path_;
     int file_ = -1;
     std::mutex mutex_;  // of what follows
     std::condition_variable released_;
     bool ending_ = false;
     std::thread heart_;
+    std::optional<WhenInterrupted> released_too_;  // by an interruption: another machine would wait for long
 };
 
 // This process, as no other is named: "host boot namespace pid start".

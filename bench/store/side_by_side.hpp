@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ class Done {  // how much of a thing is done, from 0 to 1
 public:
     void operator=(double part) {  // throws Stopped where it is no longer wanted
         part_.store(part, std::memory_order_relaxed);
+        look();
+    }
+    void look() const {  // throws Stopped, too
         if (unwanted_ && *unwanted_) throw Stopped{};
     }
     operator double() const { return part_.load(std::memory_order_relaxed); }
@@ -32,5 +36,21 @@ private:
 // shown how far they are ends all of them. `name`, where there is one, lets the line say which took longest.
 void side_by_side(const std::vector<double>& sizes, int jobs, const Listener&, const std::string& label,
                   const std::function<void(std::size_t i, Done&)>& work, const std::function<std::string(std::size_t i)>& name = {});
+
+// The listener of what is itself a part of a thing: shows nothing, and ends the part by Stopped where the thing is no longer wanted.
+class PartOf : public Listener {
+    struct Look : Progress {
+        explicit Look(const Done& d) : done(d) {}
+        void show(double, const std::string&) override { done.look(); }
+        const Done& done;
+    };
+
+public:
+    explicit PartOf(const Done& done) : done_(done) {}
+    std::unique_ptr<Progress> begin(const std::string&) const override { return std::make_unique<Look>(done_); }
+
+private:
+    const Done& done_;
+};
 
 }  // namespace jvari::bench::store

@@ -1,5 +1,7 @@
 #include "bench/suite/suite_run.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -77,15 +79,15 @@ private:
     SuiteRecord cell(const PlannedCell& planned, store::Done& fraction) {
         const double limit = planned.set->time_limit.value_or(HUGE_VAL);
         const PlannedPoint& point = *planned.point;
-        const store::Listener silent;
+        const store::PartOf part(fraction);
         Known *model = nullptr, *truth = nullptr;
         if (planned.set->measures(Facet::errors)) {
             model = truth = known_.at(point.reference_key).get();
-            model->make([&] { return compare::Truth{compare::run_reference(point.references, point.scene, 1, silent, limit), {}}; });
+            model->make([&] { return compare::Truth{compare::run_reference(point.references, point.scene, 1, part, limit), {}}; });
         }
         if (truth && !point.truth_key.empty()) {
             truth = known_.at(point.truth_key).get();
-            truth->make([&] { return compare::run_truth(point.references, point.scene, point.truth_modes, 1, silent, limit); });
+            truth->make([&] { return compare::run_truth(point.references, point.scene, point.truth_modes, 1, part, limit); });
         }
         const bool known = truth && truth->reference();
         compare::Cell cell = planned.cell;
@@ -256,26 +258,47 @@ SuiteRun gather_suite(SuitePlan& plan, const std::filesystem::path& folder) {
     return result;
 }
 
+std::string kept_of(const SuitePlan& plan, const std::filesystem::path& folder) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const auto files = [&](const char* in, const char* extension) {
+        return std::count_if(fs::directory_iterator(folder / in, error), fs::directory_iterator(),
+                             [extension](const fs::directory_entry& e) { return e.path().extension() == extension; });
+    };
+    std::vector<std::string> kept;
+    if (!plan.cells.empty()) {
+        const auto lies = [&](const PlannedCell& c) { return fs::exists(folder / "cells" / (c.id + ".json"), error); };
+        kept.push_back(fmt::format("{} of {} cells", std::count_if(plan.cells.begin(), plan.cells.end(), lies), plan.cells.size()));
+    }
+    if (const auto n = files("points", ".json"); n > 0 || plan.cells.empty()) kept.push_back(fmt::format("{} points of maps", n));
+    if (const auto n = files("references", ".run"); n > 0) kept.push_back(fmt::format("{} runs of references", n));
+    std::string text = kept.front();
+    for (std::size_t i = 1; i < kept.size(); ++i) text += (i + 1 < kept.size() ? ", " : " and ") + kept[i];
+    return text;
+}
+
 void keep_references_in(SuitePlan& plan, const std::filesystem::path& folder) {
     for (PlannedPoint& p : plan.points)
         for (compare::ReferenceChoice& c : p.references) c.kept_in = folder;
 }
 
 int make_references(const SuitePlan& plan, int jobs, const store::Listener& listener) {
-    std::map<std::string, std::function<void()>> all;  // by their keys
+    std::map<std::string, std::function<void(const store::Listener&)>> all;  // by their keys
     for (const PlannedCell& c : plan.cells) {
         if (!c.set->measures(Facet::errors) || !c.point->references.front().kept) continue;
         const PlannedPoint& p = *c.point;
         const double limit = c.set->time_limit.value_or(HUGE_VAL);
-        all[p.reference_key] = [&p, limit] { compare::run_reference(p.references, p.scene, 1, {}, limit); };
+        all[p.reference_key] = [&p, limit](const store::Listener& part) { compare::run_reference(p.references, p.scene, 1, part, limit); };
         if (!p.truth_key.empty())
-            all[p.truth_key] = [&p, limit] { compare::run_truth(p.references, p.scene, p.truth_modes, 1, {}, limit); };
+            all[p.truth_key] = [&p, limit](const store::Listener& part) {
+                compare::run_truth(p.references, p.scene, p.truth_modes, 1, part, limit);
+            };
     }
-    std::vector<std::function<void()>> makes;
+    std::vector<std::function<void(const store::Listener&)>> makes;
     for (auto& [key, make] : all) makes.push_back(std::move(make));
-    store::side_by_side(std::vector<double>(makes.size(), 1), jobs, listener, "references", [&makes](std::size_t i, store::Done&) {
+    store::side_by_side(std::vector<double>(makes.size(), 1), jobs, listener, "references", [&makes](std::size_t i, store::Done& done) {
         try {
-            makes[i]();
+            makes[i](store::PartOf(done));
         } catch (const std::exception&) {  // the rows of its cells say why
         }
     });

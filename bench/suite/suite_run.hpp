@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "bench/suite/suite_record.hpp"
@@ -30,6 +31,9 @@ SuiteRun run_suite(const SuitePlan&, const std::filesystem::path& folder, bool r
 
 // Runs nothing: reads what lies there, and takes the cells that are missing out of the plan.
 SuiteRun gather_suite(SuitePlan&, const std::filesystem::path& folder);
+
+// What lies in the folder of a suite that was ended: "3 of 24 cells, 5 points of maps and 2 runs of references".
+std::string kept_of(const SuitePlan&, const std::filesystem::path& folder);
 
 // All runs of references go to that folder and come from there, so that several processes make each of them once; and each is made now.
 // A scheme that stands in as reference is not kept: who needs it makes it.

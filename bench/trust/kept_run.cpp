@@ -94,11 +94,13 @@ std::optional<Run> read_run(const fs::path& path, const std::string& key) noexce
     }
 }
 
-Run kept_run(const fs::path& folder, const std::string& key, const std::function<Run()>& make, double worth_keeping) {
+Run kept_run(const fs::path& folder, const std::string& key, const std::function<Run()>& make, double least,
+             const std::function<void()>& waiting) {
     if (folder.empty()) return make();
     const fs::path path = folder / (key + ".run");
     std::optional<Run> kept;
     const auto there = [&] {
+        if (waiting) waiting();
         std::error_code error;
         return fs::exists(path, error) && (kept = read_run(path, key));
     };
@@ -108,7 +110,7 @@ Run kept_run(const fs::path& folder, const std::string& key, const std::function
     const store::FileLock lock(path.string() + ".lock", there);
     if (kept || there()) return std::move(*kept);
     Run r = make();
-    if (r.wall_seconds < worth_keeping) return r;
+    if (r.wall_seconds < least) return r;
     try {
         store::sweep_parts(folder);
         write_run(path, key, r);

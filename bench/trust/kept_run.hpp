@@ -24,9 +24,12 @@ void write_run(const std::filesystem::path&, const std::string& key, const Run&)
 std::optional<Run> read_run(const std::filesystem::path&,
                             const std::string& key) noexcept;  // nothing where it is not whole or not of `key`
 
+constexpr double worth_keeping = 0.5;  // [s] of stepping
+
 // The run that is kept there, else what `make` gives, which is kept from then on. Of processes that ask for it at once one makes it and the
-// others wait (file_lock.hpp). A folder that cannot be written to keeps nothing.
-Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make,
-             double worth_keeping = 0.5 /* s of stepping */);
+// others wait (file_lock.hpp); what `waiting`, which is called meanwhile, throws ends that. A folder that cannot be written to keeps
+// nothing, and nowhere is a run kept of less than `least` [s].
+Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make, double least = worth_keeping,
+             const std::function<void()>& waiting = {});
 
 }  // namespace jvari::bench::trust

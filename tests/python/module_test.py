@@ -145,11 +145,19 @@ class Module(unittest.TestCase):
             file = folder + "/long.toml"
             with open(file, "w") as f:
                 f.write(f'[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [{rate}]\nduration = 1\nrepeats = 50\nmeasure = ["errors", "cost"]\n')
+            slow_reference, slow_map = folder + "/reference.toml", folder + "/map.toml"
+            with open(slow_reference, "w") as f:
+                f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nduration = 0.2\nreference = "sundials"\n')
+            with open(slow_map, "w") as f:
+                f.write('[[map]]\nname = "m"\nscene = "tanpura_c3"\nschemes = ["modal_two_point"]\nduration = 0.2\nreference = "sundials"\nx = { key = "rate", values = [44100, 48000] }\n')
             for name, call in {
                 "run": lambda: jvari.run("tanpura_c3", "modal_two_point", rate=rate, duration=60),
                 "run_many": lambda: jvari.run_many(["tanpura_c3"] * 4, "modal_two_point", rate=rate, duration=60),
                 "compare": lambda: jvari.compare("tanpura_c3", schemes=["modal_two_point"], rates=[rate], duration=60),
+                "compare, its reference": lambda: jvari.compare("tanpura_c3", ["modal_two_point"], [44100], reference="sundials", duration=0.2),
                 "suite": lambda: jvari.suite(file),
+                "suite, its references": lambda: jvari.suite(slow_reference, jobs=2),  # two cells wait for one
+                "suite, its maps": lambda: jvari.suite(slow_map),
                 "trim": lambda: jvari.trim("tanpura_c3", "0.0001%", duration=1),
             }.items():
                 with self.subTest(name):
@@ -160,6 +168,36 @@ class Module(unittest.TestCase):
                         call()
                     self.assertLess(time.process_time() - start, 6)  # of what would take twice to a hundred times as much
                     timer.join()
+
+    def test_ctrl_c_says_what_is_kept(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, out = folder + "/a.toml", folder + "/out"
+            with open(file, "w") as f:
+                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.01\n'
+                        '[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.2\nreference = "sundials"\n')
+
+            def interrupt():
+                while not (os.path.isdir(out + "/cells") and any(name.endswith(".json") for name in os.listdir(out + "/cells"))):
+                    time.sleep(0.01)
+                os.kill(os.getpid(), signal.SIGINT)
+
+            thread = threading.Thread(target=interrupt)
+            thread.start()
+            with self.assertRaises(KeyboardInterrupt) as raised:
+                jvari.suite(file, out=out, jobs=1)
+            thread.join()
+            self.assertEqual(str(raised.exception), f"interrupted: 1 of 2 cells are kept in {out}; resume=True goes on from there")
+            self.assertEqual(len(os.listdir(out + "/cells")), 1)
+        for call in (lambda: jvari.suite(file), lambda: jvari.compare("tanpura_c3", ["modal_two_point"], [44100], reference="sundials", duration=0.2)):
+            with tempfile.TemporaryDirectory() as folder:
+                file = folder + "/a.toml"
+                with open(file, "w") as f:
+                    f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.2\nreference = "sundials"\n')
+                timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+                timer.start()
+                with self.assertRaisesRegex(KeyboardInterrupt, "interrupted: nothing is kept"):
+                    call()
+                timer.join()
 
     def test_a_note_that_the_caller_wants_as_an_error_is_one(self):
         warnings.simplefilter("error", UserWarning)
@@ -201,10 +239,39 @@ class Module(unittest.TestCase):
             file = folder + "/a.toml"
             with open(file, "w") as f:
                 f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nduration = 0.01\n')
-            rows = jvari.suite(file, out=folder + "/out")
-            self.assertEqual([row["rate"] for row in rows], [44100, 88200])
+            tables = jvari.suite(file, out=folder + "/out")
+            self.assertEqual([row["rate"] for row in tables["cells"]], [44100, 88200])
+            self.assertEqual((tables["maps"], tables["boundaries"]), ([], []))
+            self.assertEqual(os.listdir(folder + "/out"), ["cells"])
             self.assertEqual(len(os.listdir(folder + "/out/cells")), 2)
-            self.assertEqual(jvari.suite(file, out=folder + "/out", resume=True), rows)
+            self.assertEqual(jvari.suite(file, out=folder + "/out", resume=True), tables)
+
+    def test_a_suites_maps_are_the_programs_rows(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, out = folder + "/a.toml", folder + "/out"
+            with open(file, "w") as f:
+                f.write('[[map]]\nname = "penalty"\nscene = "tanpura_c3"\nschemes = ["modal_explicit_penalty"]\nmodes = 60\nduration = 0.02\n'
+                        'reference = "none"\ntheory = "penalty_limit"\nrefine = 5\nreproduce = false\nset = { "string.0.barrier.0.stiffness" = 4.39e6 }\n'
+                        'x = { key = "rate", from = 1e5, to = 1e6, points = 3 }\ny = { key = "string.0.tension", values = [30, 40] }\n'
+                        '[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.01\nmeasure = ["dispersion"]\n')
+            tables = jvari.suite(file, out=out)
+            subprocess.run([PROGRAM, "suite", file, "--quiet", "--out", folder + "/whole"], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
+            for name, length in (("maps", 6), ("boundaries", 4)):
+                rows, theirs = tables[name], rows_of(f"{folder}/whole/{name}.csv")
+                self.assertEqual(len(rows), length)
+                for row, old in zip(rows, theirs, strict=True):
+                    self.assertEqual(list(row), list(old))
+                    for column, text in old.items():
+                        number = isinstance(row[column], (int, float))
+                        self.assertEqual(row[column] if number else row[column] or "", float(text) if number else text, column)
+            self.assertLess(min(abs(row["relative_difference"] or 1) for row in tables["boundaries"]), 0.1)
+            self.assertEqual(len(tables["cells"]), 1)
+            self.assertEqual(tables["dispersion"][0]["scheme"], "modal_two_point")
+            points = os.listdir(out + "/points")
+            self.assertEqual(len(points), 6 + 4 * 5)  # with five bisections of each boundary
+            at = os.stat(out + "/points/" + points[0]).st_mtime_ns
+            self.assertEqual(jvari.suite(file, out=out, resume=True), tables)
+            self.assertEqual(os.stat(out + "/points/" + points[0]).st_mtime_ns, at)
 
     def test_a_trim_is_its_path_and_its_needs(self):
         trimmed = jvari.trim("free_string", "10%", scheme="modal_two_point", duration=0.01, reference="exact_linear")
