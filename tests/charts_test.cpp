@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "bench/compare/pareto.hpp"
@@ -168,6 +169,47 @@ TEST(Identity, TextOfThePageHasAContrastOfFourAndAHalf) {
         for (const char* ink : {"ink", "soft", "bad", "key"})
             for (const char* ground : {"paper", "raised"})
                 EXPECT_GE(contrast(css_colour(ink, dark), css_colour(ground, dark)), 4.5) << ink << ground << dark;
+}
+
+TEST(Identity, TheFrontIsSeenOnItsPageAndTheLinesOnItToo) {
+    for (const bool dark : {false, true}) {
+        const auto shade = [dark](const bench::report::Neutral& n) { return dark ? n.dark : n.light; };
+        EXPECT_GE(contrast(shade(bench::report::front_edge), css_colour("paper", dark)), 3) << dark;
+        EXPECT_EQ(shade(bench::report::ink), css_colour("ink", dark));
+        for (const bench::report::Family& f : bench::report::families())
+            EXPECT_GE(contrast(shade(bench::report::front_track), dark ? f.dark : f.light), 2.5) << f.name;
+    }
+    std::vector<std::string> drawn;
+    const auto spec = nlohmann::json::parse(bench::report::work_precision_spec(sample()));
+    for (const auto& layer : spec.at("layer"))
+        if (layer.contains("data") && layer.at("data").value("name", "") == "fronts") {
+            drawn.push_back(layer.at("mark").at("color"));
+            EXPECT_EQ(layer.at("mark").value("opacity", 1.0), 1);
+        }
+    EXPECT_EQ(drawn, (std::vector<std::string>{bench::report::front_edge.light, bench::report::front_track.light}));
+    bench::report::Page page;
+    page.manifest = "{}";
+    const std::string text = bench::report::page_of(page), data = text.substr(text.find("id=\"data\">") + 10);
+    const auto darker = nlohmann::json::parse(data.substr(0, data.find("</script>"))).at("dark");
+    for (const bench::report::Neutral& n : {bench::report::ink, bench::report::front_edge, bench::report::front_track})
+        EXPECT_EQ(darker.at(n.light), n.dark);
+}
+
+TEST(Identity, NoChartHasAHueOfItsOwn) {  // outcomes of a map are no schemes
+    const std::regex colour("#([0-9a-f]{6}|[0-9a-f]{3})\"");
+    int charts = 0;
+    for (const bench::report::PageText& text : bench::report::page_texts()) {
+        const std::string name = text.name, all = text.text;
+        if (!name.ends_with(".json") || name == "map.json") continue;
+        ++charts;
+        for (std::sregex_iterator at(all.begin(), all.end(), colour), end; at != end; ++at) {
+            const std::string hex = (*at)[1];
+            const std::size_t width = hex.size() / 3;
+            EXPECT_TRUE(hex.substr(0, width) == hex.substr(width, width) && hex.substr(width, width) == hex.substr(2 * width))
+                << name << ": #" << hex;
+        }
+    }
+    EXPECT_EQ(charts, 7);
 }
 
 TEST(Identity, ASchemeLooksTheSameInAnyCompanyAndLikeNoOther) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/report/identity.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/records.hpp"
@@ -477,6 +478,15 @@ TEST(Plot, DrawsTheRunOnOnePicture) {
             EXPECT_NE(text.find(panel), std::string::npos) << file << ": " << panel;
     }
     EXPECT_EQ(scratch.files(), 2);
+    for (const char* scheme : {"modal_two_point", "modal_quadratised"}) {  // in its hue and no other
+        ASSERT_EQ(
+            jvari(scratch, std::string("run tanpura_c3_release --duration 0.02 --scheme ") + scheme + " --plot " + (scratch / "a.svg"))
+                .code,
+            0);
+        const std::string text = content(scratch / "a.svg"), own = bench::report::identities_of({scheme}).front().colour;
+        for (const bench::report::Family& f : bench::report::families())
+            EXPECT_EQ(text.find(std::string("\"") + f.light) != std::string::npos, f.light == own) << scheme << " in the hue of " << f.name;
+    }
 }
 
 TEST(ResultsFolder, OfAnotherSceneIsRefusedAndWhatIsForeignIsNamed) {

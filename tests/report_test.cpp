@@ -8,6 +8,7 @@
 
 #include "bench/compare/spread.hpp"
 #include "bench/report/chart_data.hpp"
+#include "bench/report/identity.hpp"
 #include "bench/report/page_sections.hpp"
 #include "bench/store/sound.hpp"
 #include "command_line.hpp"
@@ -245,6 +246,37 @@ TEST(Report, WhatIsSweptHasAChartOfErrorAlongIt) {
     EXPECT_EQ(places, (std::set<double>{30, 31}));
     ASSERT_EQ(s.charts[0].twins.size(), 2u);
     EXPECT_EQ(s.charts[0].twins[0].file, "sweep-string.0.tension-a.svg");
+}
+
+TEST(Report, StepsToATrimmedSceneHaveTheLookOfTheirSchemes) {
+    bench::report::Results r;
+    r.path = {
+        {"step", "change", "scheme", "options", "modes", "rate", "error", "certificate", "within", "target", "cost_s_per_s", "measure"},
+        {{"0", "whole", "modal_two_point", "", "", "88200", "0.03", "0.001", "no", "0.01", "0.2", "L2"},
+         {"1", "less", "modal_two_point", "compliance=matched", "20", "44100", "0.009", "0.001", "yes", "0.01", "0.1", "L2"},
+         {"2", "least", "finite_difference_theta", "", "", "44100", "0.009", "0.001", "yes", "0.01", "0.05", "L2"}}};
+    const std::vector<std::string> names{"modal_two_point", "modal_two_point compliance=matched", "finite_difference_theta"};
+    const auto looks = bench::report::identities_of(names);
+    const bench::report::Section s = bench::report::path_section(r);
+    for (const std::string& text : {s.charts.at(0).spec, s.charts.at(0).twins.at(0).spec}) {
+        const Json spec = Json::parse(text), costs = spec.at("hconcat").at(0), errors = spec.at("hconcat").at(1).at("layer").back();
+        const Json& point = costs.at("layer").back();
+        for (const auto& [what, encoding] :
+             std::vector<std::pair<std::string, Json>>{{"colour", costs.at("encoding").at("color")},
+                                                       {"colour", errors.at("encoding").at("color")},
+                                                       {"shape", point.at("encoding").at("shape")},
+                                                       {"shape", errors.at("encoding").at("shape")},
+                                                       {"dash", costs.at("layer").at(0).at("encoding").at("strokeDash")},
+                                                       {"dash", costs.at("layer").at(1).at("encoding").at("strokeDash")}}) {
+            EXPECT_EQ(encoding.at("scale").at("domain"), names) << what;
+            for (std::size_t k = 0; k < names.size(); ++k)
+                EXPECT_EQ(encoding.at("scale").at("range").at(k), what == "colour"  ? Json(looks[k].colour)
+                                                                  : what == "shape" ? Json(looks[k].shape)
+                                                                                    : Json(looks[k].dash))
+                    << names[k];
+        }
+        for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(spec.at("datasets").at("steps").at(k).at("series"), names[k]);
+    }
 }
 
 TEST(Report, ABusyMachineIsSaid) {

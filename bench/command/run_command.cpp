@@ -201,7 +201,8 @@ int run_command(const RunRequest& r) {
     }
     if (vega) {
         const std::string rate = std::isnan(summary.rate) ? "continuous time" : fmt::format("{:g} kHz", summary.rate / 1000);
-        draw(r.plot, {fmt::format("{} on {}", d.name, scene.name), fmt::format("{}, {}", rate, scene.source), scene, result.trace}, *vega);
+        draw(r.plot, {fmt::format("{} on {}", d.name, scene.name), fmt::format("{}, {}", rate, scene.source), d.name, scene, result.trace},
+             *vega);
         json["plot"] = r.plot;
         text += fmt::format("\n  {:<28}{}", "drawn", r.plot);
     }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report/chart_data.hpp"
+#include "bench/report/identity.hpp"
 
 namespace jvari::bench::report {
 
@@ -100,15 +101,15 @@ void add_band(Json& layers, const std::string& field, const char* name, const ch
 }
 
 void add_front(Json& layers, const Encodings& e) {
-    layers.push_back(
-        {{"data", {{"name", "fronts"}}},
-         {"transform",
-          Json::array(
-              {{{"filter", "datum.problem == problem_field && datum.error == error_field && datum.cost == cost_field && datum.y > 0"}},
-               {{"calculate", "datum.x * (cost_field == 'rate' ? 1e-3 : 1)"}, {"as", "x"}}})},
-         {"mark",
-          {{"type", "line"}, {"strokeWidth", 9}, {"opacity", 0.28}, {"color", "#888"}, {"strokeCap", "round"}, {"strokeJoin", "round"}}},
-         {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}, {"detail", {{"field", "machine"}}}}}});
+    for (const auto& [width, colour] : {std::pair(10, front_edge.light), std::pair(7, front_track.light)})
+        layers.push_back(
+            {{"data", {{"name", "fronts"}}},
+             {"transform",
+              Json::array(
+                  {{{"filter", "datum.problem == problem_field && datum.error == error_field && datum.cost == cost_field && datum.y > 0"}},
+                   {{"calculate", "datum.x * (cost_field == 'rate' ? 1e-3 : 1)"}, {"as", "x"}}})},
+             {"mark", {{"type", "line"}, {"strokeWidth", width}, {"color", colour}, {"strokeCap", "round"}, {"strokeJoin", "round"}}},
+             {"encoding", {{"x", e.x}, {"y", e.y}, {"order", {{"field", "x"}}}, {"detail", {{"field", "machine"}}}}}});
 }
 
 Json line_of(const Encodings& e, const char* condition, double width) {

@@ -18,6 +18,13 @@ struct Family {
 };
 std::span<const Family> families();  // in the order of legends; the last but one is of controls, the last of all others
 
+// What is no scheme: a difference is in ink, the front a track with edges. The edges have a contrast of 3 or more to the page, what lies
+// between them leaves the lines on it seen.
+struct Neutral {
+    const char *light, *dark;
+};
+constexpr Neutral ink{"#1d2329", "#e6eaee"}, front_edge{"#868c92", "#6f7780"}, front_track{"#f0f2f4", "#20272d"};
+
 struct Identity {
     int family = 0;
     bool control = false;

@@ -98,6 +98,7 @@ std::string page_of(const Page& page) {
     for (const Verdict& v : page.verdicts)
         verdicts.push_back({{"scene", v.scene}, {"columns", v.table.columns}, {"rows", v.table.rows}, {"sentences", v.sentences}});
     for (const Family& f : families()) dark[f.light] = f.dark;
+    for (const Neutral& n : {ink, front_edge, front_track}) dark[n.light] = n.dark;
     const Json data{{"title", page.title},
                     {"about", page.about},
                     {"command", page.command},

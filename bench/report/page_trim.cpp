@@ -6,9 +6,15 @@
 namespace jvari::bench::report {
 
 namespace {
-store::Table labelled(store::Table path) {  // steps as they stand on an axis: names that occur twice stay apart
-    path.columns.emplace_back("label");
-    for (auto& row : path.rows) row.push_back(fmt::format("{}. {}", row.front(), row[1]));
+// Steps as they stand on an axis, where names that occur twice stay apart, and the scheme of each as charts name it.
+store::Table labelled(store::Table path) {
+    path.columns.insert(path.columns.end(), {"label", "series"});
+    for (std::size_t i = 0; i < path.rows.size(); ++i) {
+        const std::string &scheme = path.at(i, "scheme"), &options = path.at(i, "options");
+        auto& row = path.rows[i];
+        const std::string label = fmt::format("{}. {}", row[0], row[1]), series = scheme + (options.empty() ? "" : " ") + options;
+        row.insert(row.end(), {label, series});
+    }
     return path;
 }
 }  // namespace
@@ -19,9 +25,9 @@ Section path_section(const Results& r) {
     const store::Table path = labelled(r.path);
     const Filling filling{r.name,
                           "each step leaves out one thing more; dotted: the tolerance",
-                          {},
+                          distinct(path, "series"),
                           {{"@error_title", "error, " + path.at(0, "measure")}},
-                          {{"steps", rows_of(path, {"label", "change", "scheme", "options", "within"},
+                          {{"steps", rows_of(path, {"label", "change", "series", "scheme", "options", "within"},
                                              {"step", "modes", "rate", "error", "certificate", "target", "cost_s_per_s"})}},
                           {}};
     Chart c{

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bench/report/identity.hpp"
 #include "bench/report/page_sections.hpp"
 #include "bench/store/sound.hpp"
 #include "bench/store/usage.hpp"
@@ -59,8 +60,7 @@ std::vector<Track> tracks_of(const Results& r, bool several_problems) {
     const store::Table& t = r.sounds;
     std::vector<Track> tracks;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        const double rate = t.number(i, "rate");
-        std::string detail = std::isnan(rate) ? "" : fmt::format("{:.6g} Hz", rate), name = t.at(i, "series");
+        std::string detail = rate_text(t.number(i, "rate")), name = t.at(i, "series");
         if (is_reference(t, i)) name = "reference " + reference_name(r, t.at(i, "problem"));
         if (several_problems) detail += (detail.empty() ? "" : ", ") + t.at(i, "problem");
         const std::string& file = t.at(i, "file");
@@ -116,7 +116,7 @@ const char* unit_of(const std::string& quantity) {
 }
 
 struct Waveforms {
-    Json beginnings = Json::array(), outlines = Json::array(), reference_of = Json::object(), units = Json::object();
+    Json beginnings = Json::array(), outlines = Json::array(), reference_of = Json::object(), units = Json::object(), hues = Json::object();
     Menu sounds{"scheme", "sound_field", {}};
     double longest = 0;  // [s]
 };
@@ -144,6 +144,7 @@ Waveforms waveforms_of(const store::Table& t, std::vector<Track> tracks, std::si
         w.longest = std::max(w.longest, static_cast<double>(track.sound.samples.size()) / track.sound.rate);
         if (reference) continue;
         w.reference_of[track.file] = track.reference_file;
+        w.hues[track.file] = identities_of({t.at(track.row, "series")}).front().colour;
         w.units[track.file] = fmt::format("{} [{}]", t.at(track.row, "tap"), unit_of(t.at(track.row, "quantity")));
         w.sounds.choices.emplace_back(json_text(track.file), track.name + (track.detail.empty() ? "" : ", " + track.detail));
         w.sounds.scenes.push_back(track.problem);
@@ -155,9 +156,9 @@ Filling filling_of(const Waveforms& w, const std::string& title, const std::stri
     return {title,
             "50 ms, with the difference",
             {},
-            {},
+            {{"@reference", families()[families().size() - 2].light}, {"@ink", ink.light}},
             {{"beginnings", w.beginnings.dump()}, {"outlines", w.outlines.dump()}},
-            {{"sound_field", shown}, {"reference_of", w.reference_of.dump()}, {"units", w.units.dump()}}};
+            {{"sound_field", shown}, {"reference_of", w.reference_of.dump()}, {"units", w.units.dump()}, {"hues", w.hues.dump()}}};
 }
 
 void add_sounds(Section& s, const std::vector<Track>& tracks) {

@@ -8,6 +8,7 @@
 
 #include "analysis/energy.hpp"
 #include "analysis/spectrum.hpp"
+#include "bench/report/identity.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/spectrogram_chart.hpp"
 
@@ -18,7 +19,6 @@ using Json = nlohmann::ordered_json;
 constexpr long most_points = 1000;  // of a line: beyond, least and greatest value of each stretch
 constexpr std::size_t most_contacts = 2000;
 constexpr int width = 700;
-constexpr const char *blue = "#0d44e1", *orange = "#c07c00", *green = "#0a722e";
 
 double shortened(double x) {  // six digits are enough for a point
     return std::isfinite(x) ? std::stod(fmt::format("{:.6g}", x)) : std::nan("");
@@ -40,7 +40,7 @@ Json panel(const std::string& title, int height, Json values, Json mark, Json en
             {"encoding", std::move(encoding)}};
 }
 
-Json waveform(const std::string& title, const std::string& unit, std::span<const double> x, double rate) {
+Json waveform(const std::string& title, const std::string& unit, std::span<const double> x, double rate, const std::string& hue) {
     const long rows = static_cast<long>(x.size()), count = std::min(rows, most_points);
     Json values = Json::array();
     for (long k = 0; k < count; ++k) {
@@ -51,10 +51,10 @@ Json waveform(const std::string& title, const std::string& unit, std::span<const
     const bool whole = count == rows;
     Json encoding{{"x", axis("t", "time [s]", {{"nice", false}})}, {"y", axis("a", unit)}};
     if (!whole) encoding["y2"] = {{"field", "b"}};
-    return panel(title, 110, values, {{"type", whole ? "line" : "area"}, {"color", blue}, {"strokeWidth", 1.2}, {"line", false}}, encoding);
+    return panel(title, 110, values, {{"type", whole ? "line" : "area"}, {"color", hue}, {"strokeWidth", 1.2}, {"line", false}}, encoding);
 }
 
-Json spectrum(const std::string& title, std::span<const double> x, double rate) {
+Json spectrum(const std::string& title, std::span<const double> x, double rate, const std::string& hue) {
     const PowerSpectrum s = power_spectrum(x, rate);
     constexpr int bins = 800;
     const double lowest = std::max(20.0, s.bin_hz), highest = rate / 2;
@@ -71,9 +71,9 @@ Json spectrum(const std::string& title, std::span<const double> x, double rate) 
         if (const double p = strongest[static_cast<std::size_t>(k)]; p > 0)
             values.push_back({{"f", shortened(lowest * std::pow(highest / lowest, (k + 0.5) / bins))},
                               {"l", shortened(std::max(-140.0, 10 * std::log10(p / most)))}});
-    return panel(
-        title, 140, values, {{"type", "line"}, {"color", blue}, {"strokeWidth", 1}},
-        {{"x", axis("f", "frequency [Hz]", {{"type", "log"}, {"nice", false}}, ",~r")}, {"y", axis("l", "level re strongest [dB]")}});
+    return panel(title, 140, values, {{"type", "line"}, {"color", hue}, {"strokeWidth", 1}},
+                 {{"x", axis("f", "frequency [Hz]", {{"type", "log"}, {"nice", false}}, ",~r")},
+                  {"y", axis("l", "level re strongest [dB]", Json::object(), "d")}});
 }
 
 Json spectrogram_panel(const std::string& title, std::span<const double> x, double rate) {
@@ -85,7 +85,7 @@ Json spectrogram_panel(const std::string& title, std::span<const double> x, doub
     return one;
 }
 
-Json ledger(const Trace& t) {
+Json ledger(const Trace& t, const std::string& hue) {
     const long count = std::min(t.rows, most_points);
     const auto stored = t.energy_column(0), supplied = t.energy_column(1), dissipated = t.energy_column(2);
     Json values = Json::array();
@@ -104,14 +104,14 @@ Json ledger(const Trace& t) {
     }
     const EnergyBalance b = energy_balance(t);
     return panel(fmt::format("energy ledger, open by {:.1e} of the largest stored energy", b.accumulated), 110, values,
-                 {{"type", "line"}, {"strokeWidth", 1.4}},
+                 {{"type", "line"}, {"color", hue}, {"strokeWidth", 1.4}},
                  {{"x", axis("t", "time [s]", {{"nice", false}})},
                   {"y", axis("j", "J")},
-                  {"color",
+                  {"strokeDash",
                    {{"field", "what"},
                     {"type", "nominal"},
-                    {"scale", {{"domain", {"stored", "supplied so far", "dissipated so far"}}, {"range", {blue, green, orange}}}},
-                    {"legend", {{"title", nullptr}}}}}});
+                    {"scale", {{"domain", {"stored", "supplied so far", "dissipated so far"}}, {"range", {{1, 0}, {6, 3}, {2, 3}}}}},
+                    {"legend", {{"title", nullptr}, {"symbolType", "stroke"}, {"symbolSize", 500}, {"symbolStrokeWidth", 1.4}}}}}});
 }
 
 struct Contact {
@@ -134,7 +134,7 @@ std::vector<Contact> contacts_of(const DrawnRun& r) {
     return contacts;
 }
 
-Json contact_panel(const std::vector<Contact>& contacts, double until) {
+Json contact_panel(const std::vector<Contact>& contacts, double until, const std::string& hue) {
     Json values = Json::array();
     double sum = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -144,7 +144,7 @@ Json contact_panel(const std::vector<Contact>& contacts, double until) {
     }
     return panel(fmt::format("contact: {} times, {:.2g} % of the time{}", contacts.size(), 100 * sum / until,
                              contacts.size() > most_contacts ? fmt::format("; the first {} are drawn", most_contacts) : ""),
-                 26, values, {{"type", "bar"}, {"height", 16}, {"color", green}},
+                 26, values, {{"type", "bar"}, {"height", 16}, {"color", hue}},
                  {{"x", axis("a", "time [s]", {{"domain", {0, shortened(until)}}, {"nice", false}})},
                   {"x2", {{"field", "b"}}},
                   {"y", {{"field", "tap"}, {"type", "nominal"}, {"title", nullptr}}}});
@@ -153,20 +153,22 @@ Json contact_panel(const std::vector<Contact>& contacts, double until) {
 
 std::string run_spec(const DrawnRun& r, Medium medium) {
     const Trace& t = r.trace;
+    const std::string hue = identities_of({r.scheme}).front().colour;
     Json panels = Json::array();
     for (int k = 0; k < std::min(t.taps(), 4); ++k) {
         const auto& tap = r.scene.taps.at(static_cast<std::size_t>(k));
-        panels.push_back(waveform(fmt::format("{} ({})", tap.name, name_of(tap.quantity)), unit_of(tap.quantity), t.column(k), t.tap_rate));
+        panels.push_back(
+            waveform(fmt::format("{} ({})", tap.name, name_of(tap.quantity)), unit_of(tap.quantity), t.column(k), t.tap_rate, hue));
     }
     if (t.taps() > 0 && t.rows > 64) {
-        panels.push_back(spectrum("spectrum of " + t.names[0], t.column(0), t.tap_rate));
+        panels.push_back(spectrum("spectrum of " + t.names[0], t.column(0), t.tap_rate, hue));
         panels.push_back(spectrogram_panel("spectrogram of " + t.names[0], t.column(0), t.tap_rate));
     }
-    if (!t.energy.empty() && std::isfinite(energy_balance(t).accumulated)) panels.push_back(ledger(t));
+    if (!t.energy.empty() && std::isfinite(energy_balance(t).accumulated)) panels.push_back(ledger(t, hue));
     if (const auto contacts = contacts_of(r); !contacts.empty())
-        panels.push_back(contact_panel(contacts, static_cast<double>(t.rows - 1) / t.tap_rate));
+        panels.push_back(contact_panel(contacts, static_cast<double>(t.rows - 1) / t.tap_rate, hue));
     Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"}, {"padding", 12}, {"spacing", 16}, {"vconcat", panels}};
-    spec["resolve"] = {{"scale", {{"color", "independent"}}}};
+    spec["resolve"] = {{"scale", {{"color", "independent"}, {"strokeDash", "independent"}}}};
     spec["config"] = Json::parse(config_of(Medium::page, false));
     if (medium == Medium::print) {
         spec["title"] = {{"text", r.title}, {"subtitle", r.subtitle}, {"anchor", "start"}, {"offset", 14}};

@@ -11,7 +11,7 @@
 namespace jvari::bench::report {
 
 struct DrawnRun {
-    std::string title, subtitle;
+    std::string title, subtitle, scheme;  // in whose hue it is drawn
     const Scene& scene;
     const Trace& trace;
 };

@@ -7,14 +7,14 @@ function config() {
   return {
     background: "transparent",
     axis: {...colours, gridColor: grid, domainColor: ink, tickColor: ink},
-    legend: {...colours, symbolSize: 90, symbolOpacity: 1,
+    legend: {...colours, symbolSize: 90, symbolOpacity: 1, symbolStrokeWidth: 0,
              ...(narrow.matches ? {orient: "bottom", columns: 1, offset: 38, labelFontSize: 10, labelLimit: 235} : {orient: "right", offset: 14, labelFontSize: 11, labelLimit: 600})},
     title: {color: ink, subtitleColor: ink}, header: colours,
     text: {color: ink}, rule: {color: ink}
   };
 }
 
-// A scheme keeps its hue on a dark page, in the shade that can be seen there.
+// A scheme keeps its hue on a dark page, and the front and a difference their tone, in the shade that can be seen there.
 function coloured(spec) {
   if (!dark.matches) return spec;
   return JSON.parse(JSON.stringify(spec), (_, value) => typeof value === "string" && Object.hasOwn(page.dark, value) ? page.dark[value] : value);
@@ -86,8 +86,14 @@ function chart_of(chart, section) {
     await follow(document.getElementById("scene")?.value ?? scene);
     frame.setAttribute("data-drawn", "true");
   }
-  dark.addEventListener("change", draw);
-  narrow.addEventListener("change", draw);
+  let next = 0;
+  const draw_again = () => {  // once where both change
+    frame.setAttribute("data-drawn", "false");
+    cancelAnimationFrame(next);
+    next = requestAnimationFrame(draw);
+  };
+  dark.addEventListener("change", draw_again);
+  narrow.addEventListener("change", draw_again);
   if (chart.scrolls) frame.tabIndex = 0;
   frame.setAttribute("role", "group");
   frame.setAttribute("aria-label", "chart: " + chart.name);
