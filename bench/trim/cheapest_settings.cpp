@@ -138,7 +138,6 @@ std::vector<CheapestSettings::Look> CheapestSettings::looked(const std::vector<V
                             first_looks[0] * tap_rate_, text_of(*judge_.target().measure, errors[1]), first_looks[1] * tap_rate_);
             continue;
         }
-        searched_.insert(v.name());
         looks.push_back(look);
     }
     std::ranges::stable_sort(looks, {}, &Look::cost);
@@ -191,8 +190,7 @@ std::vector<int> CheapestSettings::ladder(const Model& m) const {
 
 std::vector<std::string> CheapestSettings::passed_over() const {
     std::vector<std::string> all;
-    for (const auto& [name, said] : passed_over_)
-        if (!searched_.contains(name)) all.push_back(said);
+    for (const auto& [name, said] : passed_over_) all.push_back(said);
     return all;
 }
 

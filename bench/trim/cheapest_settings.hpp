@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -46,7 +45,7 @@ public:
     std::optional<Found> of_variant(const Variant&, const std::vector<int>& left_out, double from, double to, double limit);
     std::optional<Found> of_all(const std::vector<const Descriptor*>&, const std::vector<int>& left_out, double limit);
 
-    std::vector<std::string> passed_over() const;  // after a first look, and searched at no time since: "name: errs by ..."
+    std::vector<std::string> passed_over() const;  // after a first look: "name (its errors)"
 
 private:
     struct Look {
@@ -64,7 +63,6 @@ private:
     std::string best_said_ = "none is within the tolerance yet";
     double tap_rate_;
     std::map<std::string, std::string> passed_over_;  // by variant
-    std::set<std::string> searched_;
 };
 
 }  // namespace jvari::bench::trim

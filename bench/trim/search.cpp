@@ -139,7 +139,6 @@ Path search(Judge& judge, const std::vector<const Descriptor*>& schemes, int jud
         path.steps.push_back({"scheme, rate and modes once more", now.model, now.error, now.cost, true});
     }
     leave_out_what_costs_nothing(s, now, path);
-    path.passed_over = s.passed_over();
     path.found = true;
     return path;
 }

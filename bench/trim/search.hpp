@@ -29,7 +29,7 @@ struct Path {
     std::vector<Step> steps;               // [0]: the whole scene as its scheme takes it unasked; the last is the trimmed model
     bool found = false;                    // the last step is within the tolerance
     std::vector<std::string> tried;        // schemes that represent the whole scene
-    std::vector<std::string> passed_over;  // of their variants, after a first look: "name (its errors)"
+    std::vector<std::string> passed_over;  // variants of the whole scene, after a first look: "name (its errors)"
 };
 
 // Judged by the starts 0 .. judged_starts-1.
