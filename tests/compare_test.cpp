@@ -270,6 +270,7 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
         c.trust.figure.push_back({x, x + 0.001, x + 0.002});
     }
     cell.wall = {5, 0.02, 0.016, 0.026, 0.01, 0.03};
+    cell.processor = {5, 0.018, 0.015, 0.025, 0.01, 0.03};
     cell.worst_block = 0.4;
     c.cells = {cell};
     const bench::store::Table t = bench::compare::cells_of(c);
@@ -278,6 +279,9 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
                                                        {"cost_s_per_s", 0.2},
                                                        {"cost_lower", 0.16},
                                                        {"cost_upper", 0.26},
+                                                       {"processor_s_per_s", 0.18},
+                                                       {"processor_lower", 0.15},
+                                                       {"processor_upper", 0.25},
                                                        {"wall_seconds", 0.02},
                                                        {"wall_seconds_lower", 0.016},
                                                        {"wall_seconds_upper", 0.026},

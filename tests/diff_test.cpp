@@ -142,11 +142,12 @@ TEST(Diff, FindsAPluginThatIsTwoPerCentOffAndNothingElse) {
     EXPECT_EQ(o.code, 4) << o.err;
     const auto j = nlohmann::json::parse(o.out), same = nlohmann::json::parse(content(scratch / "same.json"));
     EXPECT_EQ(same["worse"], 0);
-    for (const auto& f : same["findings"]) EXPECT_EQ(f["column"], "cost_s_per_s") << f;  // two schemes: not told from the machine's doing
+    for (const auto& f : same["findings"])
+        EXPECT_EQ(f["column"], "processor_s_per_s") << f;  // two schemes: not told from the machine's doing
     EXPECT_GT(j["worse"], 2);
     bool seen = false;
     for (const auto& f : j["findings"]) {
-        if (f["column"] == "cost_s_per_s") continue;
+        if (f["column"] == "processor_s_per_s") continue;
         EXPECT_EQ(f["row"].get<std::string>().rfind("honest", 0), 0u) << f;
         seen = seen || (f["column"] == "error_l2_50ms" && f["turn"] == "worse");
     }

@@ -8,11 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
+#include "analysis/error.hpp"
+#include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/trim/trim_record.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/run.hpp"
 
 using namespace jvari;
 using namespace jvari::bench;
@@ -124,9 +128,107 @@ TEST_P(NothingIsCheaper, OnAGridByMoreThanAFifth) {
 INSTANTIATE_TEST_SUITE_P(TwoScenes, NothingIsCheaper,
                          testing::Values(std::pair{"tanpura_c3_release", "5%"}, std::pair{"two_point_bridge", "20%"}));
 
+TEST(Judge, CountsTheCertificateWithTheError) {
+    trim::Request r = request("tanpura_c3_release", "5%");
+    r.duration = 50e-3;  // the window that the measure names
+    r.reference_modes = 266;
+    const trim::Model m{{}, &catalogue().find("modal_two_point"), {176400, 44100, 0, {}}};
+    double error = 0, certificate = 0;
+    {
+        trim::Judge judge(r, catalogue(), silent, counted);
+        error = judge.verdict(m, 0).error, certificate = judge.truth(0).certificate;
+    }
+    ASSERT_GT(error, 0);
+    ASSERT_GT(certificate, 1e-6);
+    for (const double share : {-0.1, 0.9, 1.1}) {  // of the certificate, beyond the error
+        r.within = store::text_of(error + share * certificate);
+        trim::Judge judge(r, catalogue(), silent, counted);
+        EXPECT_EQ(judge.within(judge.verdict(m, 0), 0), share > 1) << share;
+        trim::Verdict flagged = judge.verdict(m, 0);
+        flagged.status = "adhesion";
+        EXPECT_FALSE(judge.within(flagged, 0)) << share;
+    }
+}
+
+TEST(Search, IsWithinAtEachStepAndKeepsNothingThatCouldGo) {
+    trim::Judge judge(request("tanpura_c3_release", "5%"), catalogue(), silent, counted);
+    const trim::Path path = trim::search(judge, {&catalogue().find("modal_two_point")}, 1, silent);
+    ASSERT_TRUE(path.found);
+    const trim::Step& last = path.steps.back();
+    EXPECT_EQ(judge.scene_of(last.model).taps.size(), 1u);
+    for (std::size_t k = 1; k < path.steps.size(); ++k) {
+        EXPECT_TRUE(path.steps[k].within) << path.steps[k].change;
+        EXPECT_TRUE(judge.within(judge.verdict(path.steps[k].model, 0), 0)) << path.steps[k].change;
+    }
+    for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k) {
+        const Reduction& r = judge.reductions()[k];
+        if (!judge.may_go(k) || r.part == Part::contact_stiffness || std::ranges::count(last.model.left_out, k)) continue;
+        trim::Model m = last.model;
+        m.left_out.insert(std::ranges::lower_bound(m.left_out, k), k);
+        if (judge.scene_of(m) == judge.scene_of(last.model)) continue;  // it went with another
+        EXPECT_FALSE(judge.within(judge.verdict(m, 0), 0)) << r.said();
+    }
+}
+
+// Of all schemes the same is found as of the one that is found, and what is passed over serves at no rate.
+TEST(Search, OfAnySchemeFindsTheCheapestAndPassesOverWhatDoesNotServe) {
+    trim::Judge judge(request("tanpura_c3_release", "2%"), catalogue(), silent, counted);
+    std::vector<const Descriptor*> any;
+    for (const char* name : {"finite_difference_explicit", "finite_difference_hamiltonian", "modal_strang", "modal_two_point"})
+        any.push_back(&catalogue().find(name));
+    const trim::Path path = trim::search(judge, any, 1, silent);
+    ASSERT_TRUE(path.found);
+    double cheapest = HUGE_VAL;
+    for (const Descriptor* d : any) {
+        const trim::Path alone = trim::search(judge, {d}, 1, silent);
+        if (alone.found) {
+            cheapest = std::min(cheapest, alone.steps.back().cost);
+            continue;
+        }
+        for (const double rate : {44100.0, 176400.0, 1411200.0})
+            EXPECT_FALSE(judge.within(judge.verdict({{}, d, {rate, 44100, 0, {}}}, 0), 0)) << d->name << " " << rate;
+    }
+    EXPECT_LE(path.steps.back().cost, 1.05 * cheapest);
+    ASSERT_FALSE(path.passed_over.empty());
+    EXPECT_EQ(path.passed_over.front().find("finite_difference"), 0u) << path.passed_over.front();
+}
+
 TEST(Search, SaysWhereNothingServes) {
     trim::Judge judge(request("tanpura_c3_release", "0.0001%"), catalogue(), silent, counted);
     EXPECT_FALSE(trim::search(judge, {&catalogue().find("modal_two_point")}, 1, silent).found);
+}
+
+// A number of modes that serves a first mode does not serve a triangle: the search learns of it by the verification, and each start that
+// is told has its own truth, error and name.
+TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
+    trim::Request r = request("tanpura_c3_release", "3%");
+    r.scheme = "modal_two_point";
+    trim::Judge judge(r, catalogue(), silent, counted);
+    const trim::Path by_one = trim::search(judge, {&catalogue().find(r.scheme)}, 1, silent);
+    ASSERT_TRUE(by_one.found);
+    ASSERT_FALSE(judge.within(judge.verdict(by_one.steps.back().model, 1), 1)) << "another tolerance is needed for this test";
+    const trim::Trimmed t = trim::trimmed(judge, r, catalogue(), silent);
+    ASSERT_TRUE(t.path.found);
+    ASSERT_TRUE(t.independent());
+    ASSERT_GE(t.verified.size(), 3u);
+    std::set<std::string> names;
+    std::set<double> errors;
+    for (const trim::Verified& v : t.verified) {
+        EXPECT_EQ(v.judged_by, v.start + 1 < static_cast<int>(t.verified.size()));
+        EXPECT_TRUE(v.within) << v.said;
+        const Scene scene = trim::started(judge.scene(), v.start);
+        EXPECT_EQ(v.said, trim::name_of_start(scene));
+        names.insert(v.said), errors.insert(v.error);
+        // by hand: the trimmed model against the whole scene, both from this start
+        const jvari::Run truth = run(catalogue().find("exact_contact"), scene, {0, 44100, r.reference_modes, {}});
+        const trim::Model& m = t.last().model;
+        const jvari::Run made = run(*m.scheme, judge.scene_of(m, v.start), m.settings);
+        EXPECT_NEAR(relative_l2(made.trace.column(0), truth.trace.column(0), 44100), v.error, 1e-6) << v.said;
+    }
+    EXPECT_EQ(names.size(), t.verified.size());
+    EXPECT_EQ(errors.size(), t.verified.size());
+    const std::string toml = trim::trimmed_toml(t, judge);
+    EXPECT_NE(toml.find(t.verified.back().said + ", which the search did not know"), std::string::npos) << toml;
 }
 
 TEST(Trim, IsTakenUpWhereItWasStoppedAndVerifiedByAnotherStart) {

@@ -52,6 +52,7 @@ std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
                             v.judged_by ? ""
                             : v.within  ? ", which the search did not know"
                                         : ", which the search did not know: NOT within");
+    if (!t.independent()) text += "every start that there is judged the search: none was left to verify it\n";
     text += fmt::format("{:.3g} times cheaper than the whole scene unasked{}, {:.3g} times than its cheapest model",
                         t.costs.front().median / t.costs.back().median,
                         t.full().within ? "" : fmt::format(" (which errs by {})", text_of(m, t.full().error)),

@@ -21,6 +21,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* cost_columns[] = {"cost_s_per_s",
                                         "cost_lower",
                                         "cost_upper",
+                                        "processor_s_per_s",
+                                        "processor_lower",
+                                        "processor_upper",
                                         "wall_seconds",
                                         "wall_seconds_lower",
                                         "wall_seconds_upper",
@@ -97,6 +100,9 @@ void add_row(store::Table& table, const Comparison& c, const Cell& cell, const s
     row.number("cost_s_per_s", wall / seconds);
     row.number("cost_lower", ran ? cell.wall.lower / seconds : nan);
     row.number("cost_upper", ran ? cell.wall.upper / seconds : nan);
+    row.number("processor_s_per_s", ran ? cell.processor.median / seconds : nan);
+    row.number("processor_lower", ran ? cell.processor.lower / seconds : nan);
+    row.number("processor_upper", ran ? cell.processor.upper / seconds : nan);
     row.number("wall_seconds", wall);
     row.number("wall_seconds_lower", ran ? cell.wall.lower : nan);
     row.number("wall_seconds_upper", ran ? cell.wall.upper : nan);

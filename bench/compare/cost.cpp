@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/compare/time_limit.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::compare {
@@ -14,16 +15,17 @@ constexpr double shortest_sample = 0.02;  // [s]
 constexpr double budget = 10;             // of one cell [s]
 
 struct Timed : Contender {
-    int runs;                     // back to back in one sample
-    int repeats;                  // samples
-    std::vector<double> samples;  // [s] of one run
+    int runs;                                   // back to back in one sample
+    int repeats;                                // samples
+    std::vector<double> samples, of_processor;  // [s] of one run
 };
 
-double sample(const Timed& t) {
+void sample(Timed& t) {
     const auto scheme = make_scheme(*t.cell->scheme, *t.scene, t.cell->settings);
     RunOptions options;
     options.energy = t.probe;
     double seconds = 0;
+    const double from = processor_seconds();
     for (int k = 0; k < t.runs; ++k) {
         const Run r = run(*scheme, *t.scene, t.cell->settings, options);
         seconds += r.wall_seconds;
@@ -31,7 +33,8 @@ double sample(const Timed& t) {
         if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
             t.cell->worst_block = std::fmin(t.cell->worst_block, r.worst_block / deadline);
     }
-    return seconds / t.runs;
+    t.of_processor.push_back((processor_seconds() - from) / t.runs);
+    t.samples.push_back(seconds / t.runs);
 }
 }  // namespace
 
@@ -44,7 +47,7 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
         const double once = std::max(c.cell->summary.wall_seconds, 1e-6);
         const int runs = static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
         const int most = static_cast<int>(std::clamp(budget / (once * runs), 2.0, 1e6));
-        timed.push_back({c, runs, std::min(repeats, most), {}});
+        timed.push_back({c, runs, std::min(repeats, most), {}, {}});
         work += once * runs * timed.back().repeats;
     }
     // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike
@@ -56,11 +59,12 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
             if (round >= t.repeats) continue;
             progress->show(finished / work,
                            fmt::format("round {}: {} at {} Hz", round + 1, t.cell->scheme->name, t.cell->settings.sample_rate));
-            t.samples.push_back(sample(t));
+            sample(t);
             finished += t.cell->summary.wall_seconds * t.runs;
         }
     for (Timed& t : timed) {
         t.cell->wall = spread_of(t.samples);
+        t.cell->processor = spread_of(t.of_processor);
         t.cell->stamp = stamp;
     }
 }

@@ -36,7 +36,7 @@ double dearness(const Descriptor& reference, const Scene& scene) {
 }
 
 bool within_budget(const Descriptor& reference, const Scene& scene, const Size& s) {
-    const double work = scene.duration * s.modes * s.modes * (1 + s.points * s.points / 4.0);
+    const double work = scene.duration * scene.strings.size() * s.modes * s.modes * (1 + s.points * s.points / 4.0);
     return s.points <= most_points && work * dearness(reference, scene) <= budget;
 }
 

@@ -37,30 +37,33 @@ Noise noise_of(const std::vector<Ratio>& ratios) {
     return n;
 }
 
-struct Range {
-    double lower, upper;
+struct Clock {  // the columns of one
+    const char *median, *lower, *upper;
 };
-Range range_of(const store::Table& t, std::size_t i) {
-    return {t.number(i, "cost_lower"), t.number(i, "cost_upper")};
+constexpr Clock wall{"cost_s_per_s", "cost_lower", "cost_upper"};
+constexpr Clock processor{"processor_s_per_s", "processor_lower", "processor_upper"};  // which other programs disturb far less
+
+Clock clock_of(const store::Table& a, const store::Table& b) {
+    return a.column(processor.median) >= 0 && b.column(processor.median) >= 0 ? processor : wall;
 }
 
 // Of a series: worse, better or same.
-Turn turn_of(const Folder& a, const Folder& b, const std::vector<Ratio>& series, const Noise& noise) {
+Turn turn_of(const Folder& a, const Folder& b, const std::vector<Ratio>& series, const Noise& noise, const Clock& clock) {
     const double change = median_of(series) / noise.drift;
     if (change < noise.beyond && change > 1 / noise.beyond) return Turn::same;
     const auto apart = std::count_if(series.begin(), series.end(), [&](const Ratio& r) {
-        const Range was = range_of(a.cells, r.before), is = range_of(b.cells, r.after);
-        return change > 1 ? is.lower / noise.drift > was.upper : is.upper / noise.drift < was.lower;
+        return change > 1 ? b.cells.number(r.after, clock.lower) / noise.drift > a.cells.number(r.before, clock.upper)
+                          : b.cells.number(r.after, clock.upper) / noise.drift < a.cells.number(r.before, clock.lower);
     });
     if (2 * static_cast<std::size_t>(apart) <= series.size()) return Turn::same;
     return change > 1 ? Turn::worse : Turn::better;
 }
 
-std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<CostPair>& pairs) {
+std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<CostPair>& pairs, const Clock& clock) {
     std::vector<std::string> names = store::naming_columns(a.cells);
     std::vector<Ratio> ratios;
     for (const CostPair& p : pairs) {
-        const double was = a.cells.number(p.before, "cost_s_per_s"), is = b.cells.number(p.after, "cost_s_per_s");
+        const double was = a.cells.number(p.before, clock.median), is = b.cells.number(p.after, clock.median);
         if (!(was > 0) || !(is > 0)) continue;
         std::string series;
         for (const std::string& name : names) series += a.cells.at(p.before, name) + "\t";
@@ -71,7 +74,8 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
 }  // namespace
 
 void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>& pairs, Difference& d) {
-    const std::vector<Ratio> ratios = ratios_of(a, b, pairs);
+    const Clock clock = clock_of(a.cells, b.cells);
+    const std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
     if (ratios.empty()) return;
     if (!a.made.same_machine(b.made)) {
         d.notes.push_back(fmt::format("costs are of two machines and are not compared: {} and {}", a.made.machine(), b.made.machine()));
@@ -97,13 +101,13 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>
             fmt::format("the clock was disturbed: costs that changed by less than {:.2f} times are not told apart", noise.beyond));
     for (const auto& [name, cells] : series) {
         d.compared += static_cast<int>(cells.size());
-        const Turn turn = turn_of(a, b, cells, noise);
+        const Turn turn = turn_of(a, b, cells, noise, clock);
         if (turn == Turn::same) continue;
         const std::string detail = few ? fmt::format("{:.2f} times, the machine's doing or the scheme's", median_of(cells))
                                        : fmt::format("{:.2f} times beyond a drift of {:.2f}", median_of(cells) / noise.drift, noise.drift);
         for (const Ratio& r : cells)
-            d.findings.push_back({few ? Turn::moved : turn, r.name, "cost_s_per_s", a.cells.at(r.before, "cost_s_per_s"),
-                                  b.cells.at(r.after, "cost_s_per_s"), detail});
+            d.findings.push_back({few ? Turn::moved : turn, r.name, clock.median, a.cells.at(r.before, clock.median),
+                                  b.cells.at(r.after, clock.median), detail});
     }
 }
 

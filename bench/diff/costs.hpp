@@ -1,5 +1,7 @@
 // Costs of two folders, side by side. Source: the rule of ties of this program (two costs whose quartiles touch are a tie).
 //
+// Compared is processor time, where both folders have it: what other programs take of the machine is not in it. Else wall time.
+//
 // A clock tells two runs of one machine apart only beyond what the machine itself does meanwhile, and that is of two kinds. All cells drift
 // together (another clock frequency, a busy neighbour), and single cells are disturbed. Both are measured by the cells themselves: the
 // drift is the median ratio of all of them, the disturbance 1.4826 times the median distance from it, in logarithms (the standard

@@ -93,7 +93,7 @@ const char* name_of(Turn t) {
 bool is_cost(const std::string& column) {
     return one_of(column,
                   {"pareto", "repeats", "ns_per_step", "times_real_time", "worst_block_of_deadline", "machine", "load", "governor"}) ||
-           begins(column, {"cost_", "wall_seconds"});
+           begins(column, {"cost_", "processor_", "wall_seconds"});
 }
 
 bool is_skipped(const std::string& column) {

@@ -11,15 +11,25 @@ namespace jvari::bench::suite {
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+Json quoted(const Spread& s) {
+    return {store::text_of(s.median), store::text_of(s.lower), store::text_of(s.upper)};
+}
+Spread spread_in(const Json& j, int count) {
+    Spread s = spread_of({});
+    s.count = count;
+    s.median = store::number_of(j.at(0)), s.lower = store::number_of(j.at(1)), s.upper = store::number_of(j.at(2));
+    return s;
+}
 }  // namespace
 
 std::string clock_json(const KeptClock& c, const std::string& identity) {
-    const auto number = [](double x) { return store::text_of(x); };
     return store::sealed(Json{{"clock_of", Json::parse(identity)},
                               {"ran", c.ran},
                               {"repeats", c.wall.count},
-                              {"wall_seconds", {number(c.wall.median), number(c.wall.lower), number(c.wall.upper)}},
-                              {"worst_block", number(c.worst_block)},
+                              {"wall_seconds", quoted(c.wall)},
+                              {"processor_seconds", quoted(c.processor)},
+                              {"worst_block", store::text_of(c.worst_block)},
                               {"stamp", Json::parse(json_of(c.stamp))}}
                              .dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -30,11 +40,9 @@ std::optional<KeptClock> read_clock(const fs::path& path, const std::string& ide
         if (j.at("clock_of") != Json::parse(identity)) return std::nullopt;
         KeptClock c;
         c.ran = j.at("ran");
-        c.wall = spread_of({});
-        c.wall.count = store::whole<int>(j.at("repeats"));
-        c.wall.median = store::number_of(j.at("wall_seconds").at(0));
-        c.wall.lower = store::number_of(j.at("wall_seconds").at(1));
-        c.wall.upper = store::number_of(j.at("wall_seconds").at(2));
+        const int repeats = store::whole<int>(j.at("repeats"));
+        c.wall = spread_in(j.at("wall_seconds"), repeats);
+        c.processor = spread_in(j.at("processor_seconds"), repeats);
         c.worst_block = store::number_of(j.at("worst_block"));
         c.stamp = store::stamp_of(j.at("stamp").dump());
         return c;

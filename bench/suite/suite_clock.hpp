@@ -15,6 +15,7 @@ namespace jvari::bench::suite {
 struct KeptClock {
     bool ran = false;  // the scheme refused or threw: there is nothing to time
     Spread wall{};     // [s]
+    Spread processor{};
     double worst_block = 0;
     store::Stamp stamp;
 };

@@ -38,7 +38,7 @@ void set(store::Table& row, const std::string& column, const std::string& value)
 SuiteRecord record_of(const PlannedCell& planned, const compare::Cell& cell, const Against& against) {
     SuiteRecord r;
     compare::Cell untimed = cell;
-    untimed.wall = spread_of({});
+    untimed.wall = untimed.processor = spread_of({});
     r.row = row_of(planned, untimed, against);
     r.ran = !cell.refused;
     r.duration = cell.summary.duration;
@@ -52,6 +52,7 @@ SuiteRecord record_of(const PlannedCell& planned, const compare::Cell& cell, con
 void add_clock(SuiteRecord& r, const PlannedCell& planned, const KeptClock& clock) {
     compare::Cell cell = planned.cell;
     cell.wall = clock.wall;
+    cell.processor = clock.processor;
     cell.worst_block = clock.worst_block;
     cell.stamp = clock.stamp;
     cell.summary.duration = r.duration;

@@ -176,7 +176,8 @@ std::vector<Clocks> time_set(const SuitePlan& plan, const store::Rows& indices, 
     for (std::size_t t = 0; t < todo.size(); ++t) {
         const compare::Cell& c = cells[t];
         const PlannedCell& planned = plan.cells[indices[todo[t]]];
-        const KeptClock clock{!c.refused, c.refused ? spread_of({}) : c.wall, c.worst_block, c.refused ? store::stamp_now() : c.stamp};
+        const KeptClock clock{!c.refused, c.refused ? spread_of({}) : c.wall, c.refused ? spread_of({}) : c.processor, c.worst_block,
+                              c.refused ? store::stamp_now() : c.stamp};
         if (!folder.empty()) store::write_fresh(folder / clock_file(planned, clock.stamp), clock_json(clock, planned.identity));
         clocks[todo[t]].insert_or_assign(clock.stamp.name, clock);
         into.timed += clock.ran;

@@ -2,7 +2,7 @@
 //
 // A model is a set of parts left out, a scheme with its options, a rate and a number of modes.
 //   1. Of the whole scene, less the taps that are not judged: for each scheme, own and matched compliance, and each rate the fewest modes
-//   that serve; the cheapest stays.
+//   that serve; the cheapest stays (cheapest_settings.hpp).
 //   2. In turn the part that saves most for the error it costs is left out, the fewest modes at half, the same and twice the rate are
 //      sought anew, and what is cheaper stays. Parts that went before are put back in the same way: what one part costs depends on others.
 //   3. Step 1 for what is left: a plainer scene is open to more schemes. What is cheaper stays, and step 2 begins again.
@@ -26,12 +26,13 @@ struct Step {
 };
 
 struct Path {
-    std::vector<Step> steps;         // [0]: the whole scene as its scheme takes it unasked; the last is the trimmed model
-    bool found = false;              // the last step is within the tolerance
-    std::vector<std::string> tried;  // schemes
+    std::vector<Step> steps;               // [0]: the whole scene as its scheme takes it unasked; the last is the trimmed model
+    bool found = false;                    // the last step is within the tolerance
+    std::vector<std::string> tried;        // schemes that represent the whole scene
+    std::vector<std::string> passed_over;  // variants of the whole scene, after a first look: "name (its errors)"
 };
 
-// Judged by the starts 0 .. starts-1. Schemes: of the catalogue, those that declare nothing against themselves, or one by name.
+// Judged by the starts 0 .. judged_starts-1.
 Path search(Judge&, const std::vector<const Descriptor*>& schemes, int judged_starts, const store::Listener&);
 
 }  // namespace jvari::bench::trim

@@ -5,8 +5,8 @@
 namespace jvari::bench::trim {
 
 namespace {
-constexpr double sizes[starts] = {1, 0.8, 0.7};
-constexpr double places[starts] = {0, 0.17, 0.11};  // how far the place moves, of the string's length
+constexpr double sizes[starts] = {1, 0.8, 0.7, 0.9, 0.6};
+constexpr double places[starts] = {0, 0.17, 0.11, 0.05, 0.14};  // how far the place moves, of the string's length
 
 double moved(double position, double length, int start) {
     const double by = places[start] * length;
@@ -18,7 +18,7 @@ struct Start {
     int start;
     Initial operator()(ModeInitial m) const {
         if (start == 1) return TriangleInitial{0.3 * string.length, sizes[start] * m.amplitude, 0.2 * string.length};
-        return ModeInitial{m.number + 1, sizes[start] * m.amplitude};
+        return ModeInitial{m.number + start - 1, sizes[start] * m.amplitude};
     }
     Initial operator()(TriangleInitial t) const {
         t.position = moved(t.position, string.length, start);

@@ -7,8 +7,8 @@
 
 namespace jvari::bench::trim {
 
-constexpr int starts = 3;
-// 0: the scene's own. Further ones have another shape or place, and four fifths or seven tenths of its size.
+constexpr int starts = 5;
+// 0: the scene's own. Further ones have another shape or place, and between six and nine tenths of its size.
 Scene started(Scene, int start);
 std::string name_of_start(const Scene& started);  // of its first string that is set in motion
 

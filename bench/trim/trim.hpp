@@ -23,6 +23,9 @@ struct Trimmed {
     std::vector<Truth> truths;  // of the starts that were used
     std::vector<std::string> not_tried;
     int judged, read_back;
+    bool independent() const {
+        return !verified.empty() && !verified.back().judged_by;
+    }  // a start verified it that the search did not know
     const Step& full() const { return path.steps.front(); }
     const Step& last() const { return path.steps.back(); }
 };

@@ -72,6 +72,7 @@ std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
                             v.judged_by ? ""
                             : v.within  ? ", which the search did not know"
                                         : ", which the search did not know: not within");
+    if (!t.independent()) text += "# Every start that there is judged the search: none was left to verify it.\n";
     text += fmt::format("# It costs {} s of computing per second of sound; {}, unasked, {} for an error of {}.\n",
                         rounded(t.costs.back().median), full.model.settings_text(), rounded(t.costs.front().median),
                         text_of(*judge.target().measure, full.error));
