@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reference/pluck_series.hpp"
 
@@ -62,6 +63,7 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     stride = 2 * size + lanes;
     length = osc.rate * interval / per_row;
     reach = growth * length;
+    if (s.pluck) push_growth_ = 0.5 * std::numbers::pi * seconds() / pluck_window(*s.pluck);
     tail_ = tail(reach, terms);
     modal_tail_ = 10 * std::exp(reach) * tail(length, terms) / std::min(1.0, length);
 

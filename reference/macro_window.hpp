@@ -71,6 +71,7 @@ public:
         double force = 0, change = 0;  // of the pluck [N], and its derivative [N/window]
     };
     Push push_at(double at) const noexcept;
+    double push_growth() const { return plucked_ ? push_growth_ : 0; }  // of the open window: its derivatives grow by so much each
     struct Power {
         double supplied = 0, dissipated = 0;  // [J/window]
     };
@@ -99,7 +100,8 @@ private:
     std::vector<char> none_;
     std::vector<int> sweep_terms_;
     std::vector<double> a_, b_, gains_;  // in units of the window
-    double tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0, thread_force_ = 0;
+    double tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0, thread_force_ = 0,
+                               push_growth_ = 0;
     bool plucked_ = false;
     std::vector<double> kernel_, answer_, reply_, by_thread_, flow_, flow_at_;  // h_ab; kappa_b; F_c of p_c; h_ac; free motion's matrix
     std::vector<double> p_, free_, force_, moments_, reach_, scratch_, impulse_, zeros_, ones_;

@@ -107,13 +107,14 @@ WindowEnergies::Pairs WindowEnergies::pairs_of(const TouchingSet& set) {
 
 int WindowEnergies::plan(const Stretch& s) noexcept {
     const double whole = s.to - s.from;
-    double slowest = HUGE_VAL, fastest = s.growth;
+    const double smooth = std::max(s.growth, window_->push_growth());
+    double slowest = HUGE_VAL, fastest = smooth;
     for (const Complex& rate : s.pairs.rates) {
         slowest = std::min(slowest, std::abs(rate));
         fastest = std::max(fastest, std::abs(rate));
     }
     const auto cut = [&](double growth) { return std::max(1, static_cast<int>(std::ceil(whole * growth / longest))); };
-    int pieces = cut(s.growth);
+    int pieces = cut(smooth);
     split_ = !s.pairs.rates.empty() && slowest * whole / pieces > fast;
     if (!split_) pieces = cut(fastest);
     length_ = whole / pieces;

@@ -331,8 +331,12 @@ TEST(ExactContact, TheC3ReleaseHasTheDigitsOfATwoBasisProgramInLongDouble) {
 TEST(ExactContact, WithoutLossesTheEnergyStaysAndWithThemTheLedgerCloses) {
     Scene pressed = c3();  // the pluck acts on what the contact does within a window
     pressed.strings[0].pluck = Pluck{-0.6, 15e-3, 12, 0.2e-3, 0.02, 0.01};
+    Scene tapped = few_modes();  // a pluck far shorter than the string's fastest period
+    tapped.strings[0].pluck = Pluck{-30, 1e-5, 0, 1e-3, 0.4, 0.02};
+    tapped.duration = 0.02;
+    tapped.strings[0].initial = ModeInitial{1, 1e-3};
     for (const auto& [scene, modes, kept] :
-         {std::tuple{c3(false), 133, true}, {c3(true), 133, false}, {few_modes(), 12, false}, {pressed, 133, false}}) {
+         {std::tuple{c3(false), 133, true}, {c3(true), 133, false}, {few_modes(), 12, false}, {pressed, 133, false}, {tapped, 12, false}}) {
         RunOptions options;
         options.energy = true;
         const jvari::Run r = run(exact_contact, scene, settings(modes), options);
