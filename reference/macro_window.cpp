@@ -1,6 +1,5 @@
 #include "reference/macro_window.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -369,10 +368,7 @@ MacroWindow::Power MacroWindow::series_power(const double* y, const Push& pluck)
 
 // Of what is in series: what the modes read at barrier and thread, the pluck's part counted in, and Y_c - h_c.
 MacroWindow::Readings MacroWindow::readings(const double* y, double thread, double F_e) const noexcept {
-    const auto read = [&](int a) {
-        using Row = Eigen::Map<const Eigen::VectorXd>;
-        return Row(springs.weights.data() + static_cast<long>(a) * osc.padded, osc.padded).dot(Row(y, osc.padded));
-    };
+    const auto read = [&](int a) { return dot(osc, springs.weights.data() + static_cast<long>(a) * osc.padded, y); };
     const double b = contacts > 0 ? read(0) + series_->C.be * F_e : 0, c = threaded() ? read(contacts) + series_->C.ce * F_e : 0;
     return {b, c, series_->lag(c, thread)};
 }

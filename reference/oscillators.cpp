@@ -89,6 +89,13 @@ void fly(const Oscillators& osc, const double* y, const double* u, double t, int
     }
 }
 
+JVARI_CLONES
+double dot(const Oscillators& osc, const double* x, const double* y) {
+    Lanes sum = {};
+    for (int i = 0; i < osc.padded; i += lanes) sum += *reinterpret_cast<const Lanes*>(x + i) * *reinterpret_cast<const Lanes*>(y + i);
+    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+}
+
 double series_tail(double z, int terms) {  // n z^n/n! = z^n/(n-1)!, ratio of successive terms z/n
     if (z >= terms) return HUGE_VAL;
     double term = z;

@@ -36,6 +36,9 @@ void series(const Oscillators&, const double* y, const double* u, const double* 
 void fly(const Oscillators&, const double* y, const double* u, double t, int terms, const double* const* gains, const double* moments,
          int forces, int stride, double* y_out, double* u_out);
 
+// sum_i x_i y_i, of padded rows.
+double dot(const Oscillators&, const double* x, const double* y);
+
 // How many terms a series with |term n| <= n z^n/n! needs until the rest is below `tolerance`, no more than `limit`.
 int terms_for(double z, double tolerance, int limit);
 double series_tail(double z, int terms);  // sum_{n >= terms} n z^n/n!, bounded from above

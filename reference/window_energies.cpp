@@ -43,64 +43,73 @@ WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolera
         rules_.push_back(rule);
     }
     const Rule& finest = rules_.back();
-    legendre_.resize(most_nodes, most_nodes);
-    for (int q = 0; q < most_nodes; ++q)
-        for (int j = 0; j < most_nodes; ++j) legendre_(j, q) = (2 * j + 1) * finest.weight[q] * std::legendre(j, 2 * finest.node[q] - 1);
+    for (int j = 0; j < most_nodes; ++j)
+        for (int q = 0; q < most_nodes; ++q) legendre_.push_back((2 * j + 1) * finest.weight[q] * std::legendre(j, 2 * finest.node[q] - 1));
 
-    const auto row = [&](const std::vector<double>& rows, int a) {
-        return Eigen::Map<const Eigen::VectorXd>(rows.data() + static_cast<long>(a) * M, M);
+    for (int i = 0; i < modes.count(); ++i) loss_.push_back(2 * modes.mass * modes.sigma[i] / seconds);
+    loss_ = w.osc.pad(loss_);
+    const auto row = [&](const std::vector<double>& rows, int a, double factor) {
+        const auto first = rows.begin() + static_cast<long>(a) * M;
+        return w.osc.pad({first, first + M}, factor);
     };
-    loss_ = Eigen::VectorXd::Zero(M + 1);
-    for (int i = 0; i < modes.count(); ++i) loss_[i] = 2 * modes.mass * modes.sigma[i] / seconds;
-    thread_ = pluck_ = Eigen::VectorXd::Zero(M);
+    thread_ = pluck_ = y_ = u_ = lost_ = std::vector<double>(M, 0.0);
     if (w.threaded() && !w.series()) {  // in series the thread moves otherwise than its point
-        thread_ = row(s.weights, w.contacts);
-        loss_[M] = s.r[w.contacts] / w.osc.rate / seconds;
+        thread_ = row(s.weights, w.contacts, 1);
+        thread_loss_ = s.r[w.contacts] / w.osc.rate / seconds;
     }
-    if (s.forces > s.points) pluck_ = row(s.gains, s.points) * (modes.mass * w.osc.rate * w.osc.rate);
+    if (s.forces > s.points) pluck_ = row(s.gains, s.points, modes.mass * w.osc.rate * w.osc.rate);
     moments_.assign(static_cast<std::size_t>(w.contacts + 1) * w.stride, 0.0);
-    y_.assign(M, 0.0);
-    u_ = lost_ = Eigen::VectorXd::Zero(M + 1);
-    const int most_pairs = std::max(1, w.contacts);
-    lost_to_ = gained_by_ = Eigen::MatrixXcd::Zero(most_nodes, most_pairs);
+    lost_to_.assign(static_cast<std::size_t>(w.contacts + 1) * most_nodes, 0.0);
+    gained_by_ = lost_to_;
+}
+
+Complex WindowEnergies::Pairs::against(const std::vector<double>& row, int pair, const Oscillators& osc) const {
+    const double* re = velocity.data() + static_cast<long>(2 * pair) * osc.padded;
+    return {dot(osc, row.data(), re), dot(osc, row.data(), re + osc.padded)};
 }
 
 WindowEnergies::Pairs WindowEnergies::pairs_of(const TouchingSet& set) {
     MacroWindow& w = *window_;
     const int M = w.osc.padded, P = set.pairs();
+    const std::size_t row = moments_.size();
     Pairs p;
     p.rates.assign(set.rates(), set.rates() + P);
-    p.moments = Eigen::MatrixXd::Zero(static_cast<long>(w.contacts + 1) * w.stride, 2 * P);
-    p.velocity = Eigen::MatrixXd::Zero(M + 1, 2 * P);
+    p.moments.assign(2 * P * row, 0.0);
+    if (P == 0) return p;
     const std::vector<double> rest(M, 0.0);
+    std::vector<double> y(M), alone(M), u(M);
     w.open(rest.data(), rest.data(), false, 0);  // the thread alone acts then: what it does is taken off
-    std::vector<double> y(M);
-    Eigen::VectorXd alone(M), u(M);
-    w.state_at(1, moments_.data(), rest.data(), rest.data(), y.data(), alone.data());
+    w.state_at(1, p.moments.data(), rest.data(), rest.data(), y.data(), alone.data());
     for (int k = 0; k < P; ++k) {
         for (std::size_t i = 0; i < set.points().size(); ++i) {
             Complex moment = set.pair_force(static_cast<int>(i), k);
+            double* m = p.moments.data() + 2 * k * row + static_cast<long>(set.points()[i]) * w.stride;
             for (int n = 0; n < w.terms; ++n) {
                 moment /= p.rates[k];
-                p.moments(set.points()[i] * w.stride + n, 2 * k) = moment.real();
-                p.moments(set.points()[i] * w.stride + n, 2 * k + 1) = moment.imag();
+                m[n] = moment.real();
+                m[row + n] = moment.imag();
             }
         }
-        for (int part = 0; part < 2; ++part) {
-            w.state_at(1, p.moments.col(2 * k + part).data(), rest.data(), rest.data(), y.data(), u.data());
-            p.velocity.col(2 * k + part).head(M) = u - alone;
-            p.velocity(M, 2 * k + part) = thread_.dot(u - alone);
+        for (int part = 2 * k; part < 2 * k + 2; ++part) {
+            w.state_at(1, p.moments.data() + part * row, rest.data(), rest.data(), y.data(), u.data());
+            for (int i = 0; i < M; ++i) u[i] -= alone[i];
+            p.velocity.insert(p.velocity.end(), u.begin(), u.end());
+            p.thread.push_back(dot(w.osc, thread_.data(), u.data()));
         }
     }
-    const auto W = [&](int k) { return (p.velocity.col(2 * k) + Complex(0, 1) * p.velocity.col(2 * k + 1)).eval(); };
-    p.product = p.product_of_conjugate = Eigen::MatrixXcd::Zero(P, P);
-    p.pluck = Eigen::VectorXcd::Zero(P);
     for (int k = 0; k < P; ++k) {
+        const auto W = [&](int pair, int i) { return Complex(p.velocity[2 * pair * M + i], p.velocity[(2 * pair + 1) * M + i]); };
+        const auto Y = [&](int pair) { return Complex(p.thread[2 * pair], p.thread[2 * pair + 1]); };
         for (int l = 0; l < P; ++l) {
-            p.product(k, l) = (W(k).array() * W(l).array() * loss_.array()).sum();
-            p.product_of_conjugate(k, l) = (W(k).array() * W(l).conjugate().array() * loss_.array()).sum();
+            Complex product = thread_loss_ * Y(k) * Y(l), of_conjugate = thread_loss_ * Y(k) * std::conj(Y(l));
+            for (int i = 0; i < M; ++i) {
+                product += loss_[i] * W(k, i) * W(l, i);
+                of_conjugate += loss_[i] * W(k, i) * std::conj(W(l, i));
+            }
+            p.product.push_back(product);
+            p.product_of_conjugate.push_back(of_conjugate);
         }
-        p.pluck[k] = (W(k).head(M).array() * pluck_.array()).sum();
+        p.pluck.push_back(p.against(pluck_, k, w.osc));
     }
     return p;
 }
@@ -126,21 +135,23 @@ int WindowEnergies::plan(const Stretch& s) noexcept {
 void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) noexcept {
     MacroWindow& w = *window_;
     const int M = w.osc.padded, P = split_ ? static_cast<int>(s.pairs.rates.size()) : 0;
+    const std::size_t row = moments_.size();
     const double weight = length_ * rule_->weight[q];
-    Eigen::Map<Eigen::VectorXd> moments(moments_.data(), static_cast<long>(moments_.size()));
     for (int k = 0; k < P; ++k) {  // what is left of them is slow
         const Complex z = s.beta[k] * std::exp(s.pairs.rates[k] * (at - s.from));
-        moments -= z.real() * s.pairs.moments.col(2 * k) - z.imag() * s.pairs.moments.col(2 * k + 1);
+        const double *re = s.pairs.moments.data() + 2 * k * row, *im = re + row;
+        for (std::size_t n = 0; n < row; ++n) moments_[n] -= z.real() * re[n] - z.imag() * im[n];
     }
     w.state_near(at, moments_.data(), s.y, s.u, y_.data(), u_.data());
-    if (loss_[M] > 0) u_[M] = thread_.dot(u_.head(M));
-    lost_ = loss_.cwiseProduct(u_);
-    sums.dissipated += weight * lost_.dot(u_);
+    for (int i = 0; i < M; ++i) lost_[i] = loss_[i] * u_[i];
+    const double thread = thread_loss_ > 0 ? dot(w.osc, thread_.data(), u_.data()) : 0;
+    sums.dissipated += weight * (dot(w.osc, lost_.data(), u_.data()) + thread_loss_ * thread * thread);
     const MacroWindow::Push pluck = w.push_at(at);
-    sums.supplied += weight * pluck.force * pluck_.dot(u_.head(M));
+    if (pluck.force != 0) sums.supplied += weight * pluck.force * dot(w.osc, pluck_.data(), u_.data());
     for (int k = 0; k < P; ++k) {
-        lost_to_(q, k) = 2.0 * Complex(lost_.dot(s.pairs.velocity.col(2 * k)), lost_.dot(s.pairs.velocity.col(2 * k + 1)));
-        gained_by_(q, k) = pluck.force * s.pairs.pluck[k];
+        const Complex at_thread(s.pairs.thread[2 * k], s.pairs.thread[2 * k + 1]);
+        lost_to_[k * most_nodes + q] = 2.0 * (s.pairs.against(lost_, k, w.osc) + thread_loss_ * thread * at_thread);
+        gained_by_[k * most_nodes + q] = pluck.force * s.pairs.pluck[k];
     }
     if (w.series()) {
         const auto p = w.series_power(y_.data(), pluck);
@@ -159,8 +170,8 @@ void WindowEnergies::add_pairs(const Stretch& s, double start, Sums& sums) noexc
         for (int j = 0; j < most_nodes; ++j) {
             Complex lost_j = 0, gained_j = 0, integral = 0, power = z;
             for (int q = 0; q < most_nodes; ++q) {
-                lost_j += legendre_(j, q) * lost_to_(q, k);
-                gained_j += legendre_(j, q) * gained_by_(q, k);
+                lost_j += legendre_[j * most_nodes + q] * lost_to_[k * most_nodes + q];
+                gained_j += legendre_[j * most_nodes + q] * gained_by_[k * most_nodes + q];
             }
             double derivative = 1;
             for (int m = 0; m <= j; ++m, power *= z) {
@@ -178,8 +189,8 @@ void WindowEnergies::add_pairs(const Stretch& s, double start, Sums& sums) noexc
             };
             const Complex other = s.pairs.rates[l];
             sums.dissipated +=
-                0.5 * (s.beta[k] * s.beta[l] * s.pairs.product(k, l) * integral(rate, other) +
-                       s.beta[k] * std::conj(s.beta[l]) * s.pairs.product_of_conjugate(k, l) * integral(rate, std::conj(other)))
+                0.5 * (s.beta[k] * s.beta[l] * s.pairs.product[k * P + l] * integral(rate, other) +
+                       s.beta[k] * std::conj(s.beta[l]) * s.pairs.product_of_conjugate[k * P + l] * integral(rate, std::conj(other)))
                           .real();
         }
     }

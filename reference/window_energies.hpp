@@ -7,7 +7,6 @@
 // Legendre series against its exponential, two pairs in closed form: so the nodes follow the string, not the contact.
 #pragma once
 
-#include <Eigen/Core>
 #include <complex>
 #include <vector>
 
@@ -27,11 +26,12 @@ public:
 
     // What the pairs of one touching set do to all that loses or gains, per unit of beta. Those of no set: none.
     struct Pairs {
-        std::vector<std::complex<double>> rates;         // [1/window]
-        Eigen::MatrixXd moments;                         // [contact x stride][2 pair]: real and imaginary part
-        Eigen::MatrixXd velocity;                        // W [mode, thread][2 pair]
-        Eigen::MatrixXcd product, product_of_conjugate;  // W' L W and W' L conj(W), L the losses
-        Eigen::VectorXcd pluck;                          // W_k where the pluck acts
+        std::vector<std::complex<double>> rates;                          // [1/window]
+        std::vector<double> moments;                                      // [2 pair][contact x stride]: real and imaginary part
+        std::vector<double> velocity, thread;                             // W [2 pair][mode], and where the thread is [2 pair]
+        std::vector<std::complex<double>> product, product_of_conjugate;  // W' L W and W' L conj(W) [pair][pair], L the losses
+        std::vector<std::complex<double>> pluck;                          // W_k where the pluck acts
+        std::complex<double> against(const std::vector<double>& row, int pair, const Oscillators&) const;  // row' W_k
     };
     Pairs pairs_of(const TouchingSet&);  // spoils the window that is open
 
@@ -68,15 +68,14 @@ private:
     void add_pairs(const Stretch&, double start, Sums&) noexcept;
 
     MacroWindow* window_;
-    double allowed_;            // error of an integral over a piece, relative
-    std::vector<Rule> rules_;   // the coarsest first
-    Eigen::VectorXd loss_;      // [mode, thread]: J per squared displacement in a window
-    Eigen::VectorXd pluck_;     // velocity where it acts, per mode's displacement in a window
-    Eigen::VectorXd thread_;    // and of the thread's point
-    Eigen::MatrixXd legendre_;  // [degree][node]: values to a Legendre series
-    std::vector<double> moments_, y_;
-    Eigen::VectorXd u_, lost_;
-    Eigen::MatrixXcd lost_to_, gained_by_;  // [node][pair]: S against W_k, and F_e
+    double allowed_;                              // error of an integral over a piece, relative
+    std::vector<Rule> rules_;                     // the coarsest first
+    std::vector<double> loss_;                    // [mode]: J per squared displacement in a window
+    double thread_loss_ = 0;                      // and of the thread's point
+    std::vector<double> thread_, pluck_;          // per mode's displacement in a window, those of thread and pluck, this one per window
+    std::vector<double> legendre_;                // [degree][node]: values to a Legendre series
+    std::vector<double> moments_, y_, u_, lost_;  // of a node
+    std::vector<std::complex<double>> lost_to_, gained_by_;  // [pair][node]: S against W_k, and F_e
     const Rule* rule_ = nullptr;
     double length_ = 0;  // of a piece [window]
     bool split_ = false;
