@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 #include "bench/compare/spread.hpp"
 #include "bench/report/chart_data.hpp"
@@ -241,8 +242,18 @@ TEST(Report, WhatIsSweptHasAChartOfErrorAlongIt) {
     EXPECT_EQ(choices_of(s.charts[0], "base_field"), (std::vector<std::string>{"a", "b"}));
     const Json spec = Json::parse(s.charts[0].spec);
     EXPECT_EQ(spec.at("encoding").at("x").at("axis").at("title"), "tension [N]");
+    using Place = std::tuple<std::string, double, std::string, double>;  // scene, tension, scheme, rate
+    std::map<Place, double> drawn, cells;                                // the error there
+    for (const Json& row : spec.at("datasets").at("rows"))
+        if (row.at("error_l2_10ms").is_number())
+            drawn[{row.at("base"), row.at("at"), row.at("series"), row.at("rate")}] = row.at("error_l2_10ms");
+    const bench::store::Table t = bench::store::read_csv(content(folder / "cells.csv"));
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (const double error = t.number(i, "error_l2_10ms"); std::isfinite(error))
+            cells[{t.at(i, "scene"), t.number(i, "string.0.tension"), t.at(i, "scheme"), t.number(i, "rate")}] = error;
+    EXPECT_EQ(drawn, cells);
     std::set<double> places;
-    for (const Json& row : spec.at("datasets").at("rows")) places.insert(row.at("at").get<double>());
+    for (const auto& [place, error] : drawn) places.insert(std::get<1>(place));
     EXPECT_EQ(places, (std::set<double>{30, 31}));
     ASSERT_EQ(s.charts[0].twins.size(), 2u);
     EXPECT_EQ(s.charts[0].twins[0].file, "sweep-string.0.tension-a.svg");
@@ -344,15 +355,20 @@ TEST(Report, MapsHoldTheirBoundariesAndTheory) {
     EXPECT_EQ(spec.at("encoding").at("x").at("scale").at("type"), "log");
     EXPECT_EQ(Json::parse(s.charts[1].spec).at("encoding").at("x").at("scale").at("type"), "linear");
     int boundaries = 0;
-    std::map<double, std::pair<double, double>> tiles;  // of each place their edges
-    for (const Json& row : spec.at("datasets").at("rows"))
-        if (row.at("kind") == "cell") tiles[row.at("x")] = {row.at("left"), row.at("right")};
-    for (auto tile = tiles.begin(); std::next(tile) != tiles.end(); ++tile) {
-        const auto& [x, edges] = *tile;
-        EXPECT_NEAR(edges.second / std::sqrt(x * std::next(tile)->first), 1, 1e-12) << x;  // half-way on a logarithmic axis
-        EXPECT_NEAR(edges.second / std::next(tile)->second.first, 1, 1e-12) << x;
+    bench::report::Results uneven = bench::report::read_results(folder.path);
+    std::erase_if(uneven.maps.rows, [&](const auto& row) { return row[uneven.maps.column("x")] == "1e+06"; });
+    for (const Json& map : {spec, Json::parse(bench::report::map_section(uneven).charts.at(0).spec)}) {
+        std::map<double, std::pair<double, double>> tiles;  // of each place their edges
+        for (const Json& row : map.at("datasets").at("rows"))
+            if (row.at("kind") == "cell") tiles[row.at("x")] = {row.at("left"), row.at("right")};
+        EXPECT_EQ(tiles.contains(1e6), map == spec);
+        for (auto tile = tiles.begin(); std::next(tile) != tiles.end(); ++tile) {
+            const auto& [x, edges] = *tile;
+            EXPECT_NEAR(edges.second / std::sqrt(x * std::next(tile)->first), 1, 1e-12) << x;  // half-way on a logarithmic axis
+            EXPECT_NEAR(edges.second / std::next(tile)->second.first, 1, 1e-12) << x;
+        }
+        EXPECT_LT(tiles.begin()->second.first, tiles.begin()->first);
     }
-    EXPECT_LT(tiles.begin()->second.first, tiles.begin()->first);
     EXPECT_NE(spec.at("encoding").at("y").at("axis").at("title").get<std::string>().find("[Hz]"), std::string::npos);
     for (const Json& row : spec.at("datasets").at("rows")) {
         if (row.at("kind") != "boundary") continue;
