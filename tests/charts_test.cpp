@@ -227,6 +227,17 @@ TEST(Identity, ASchemeLooksTheSameInAnyCompanyAndLikeNoOther) {
             EXPECT_EQ(all[i].colour, bench::report::families()[bench::report::families().size() - 2].light);
         }
     }
+    const auto dash = [](const char* name) { return bench::report::identities_of({name}).front().dash; };
+    std::set<std::vector<int>> dashes;  // of what is asked of one scheme
+    for (const char* name : {"exact_contact", "exact_contact compliance=own", "exact_contact compliance=matched",
+                             "exact_contact compliance=own tolerance=1e-6", "exact_contact compliance=matched tolerance=1e-6"})
+        EXPECT_TRUE(dashes.insert(dash(name)).second) << name;
+    for (const char* form : {" compliance=own", " compliance=matched"}) {
+        const auto plain = dash((std::string("modal_two_point") + form).c_str());
+        auto more = dash((std::string("exact_contact") + form + " tolerance=1e-6").c_str());
+        more.resize(plain.size());
+        EXPECT_EQ(more, plain) << form;
+    }
     const auto ordered = bench::report::in_order({"modal_explicit_penalty", "a plugin", "finite_difference_theta", "modal_two_point"});
     EXPECT_EQ(ordered, (std::vector<std::string>{"modal_two_point", "finite_difference_theta", "a plugin", "modal_explicit_penalty"}));
 }

@@ -54,12 +54,17 @@ std::string_view scheme_in(std::string_view name) {
     return name.substr(0, name.find_first_of(" ,:"));
 }
 
+// Matched is dashed and as published dotted, whatever else was asked: that adds a dot.
 std::vector<int> dash_of(std::string_view variant) {
-    constexpr int dashes[][2] = {{6, 3}, {2, 3}, {10, 3}, {4, 2}, {1, 2}};
+    constexpr int dashes[][2] = {{10, 3}, {4, 2}, {1, 2}};
+    constexpr std::pair<std::string_view, std::array<int, 2>> forms[] = {{" compliance=matched", {6, 3}}, {" compliance=own", {2, 3}}};
     if (variant.empty()) return {1, 0};
+    for (const auto& [form, dash] : forms)
+        if (variant == form) return {dash[0], dash[1]};
+        else if (variant.find(form) != variant.npos) return {dash[0], dash[1], 1, dash[1]};
     unsigned hash = 0;
     for (const char c : variant) hash = 31 * hash + static_cast<unsigned char>(c);
-    const std::size_t which = variant == " compliance=matched" ? 0 : variant == " compliance=own" ? 1 : hash % std::size(dashes);
+    const std::size_t which = hash % std::size(dashes);
     return {dashes[which][0], dashes[which][1]};
 }
 }  // namespace
