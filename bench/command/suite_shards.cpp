@@ -22,11 +22,12 @@ std::string plan_text(const SuiteRequest& r, const suite::Parts& parts) {
     return store::csv(parts_table(parts, store::program_identity(r.plugins)));
 }
 
-void keep_references(const SuiteRequest& r, suite::SuitePlan& plan) {
+fs::path keep_references(const SuiteRequest& r, suite::SuitePlan& plan) {
     const fs::path folder = fs::path(r.out) / "references";
     std::error_code error;
     fs::create_directories(folder, error);
     suite::keep_references_in(plan, folder);
+    return folder;
 }
 
 std::string quoted(const std::string& word) {  // for a shell
@@ -66,10 +67,9 @@ int run_shard(const SuiteRequest& r, suite::SuitePlan& plan, const suite::Parts&
         throw store::UsageError(
             fmt::format("--shard: {} was written for another suite, or by another program: this one was compiled by {} and uses {}",
                         file.string(), store::machine().compiler, store::machine().vectors));
-    keep_references(r, plan);
+    map::Truths truths(catalogue, keep_references(r, plan));
     const suite::Share own = share_of(parts, shard);
     if (!own.rows.empty()) fs::create_directories(folder / "points", error);
-    map::Truths truths(catalogue);
     const map::MapRun maps =
         run_maps(own.rows, truths, store::program_identity(r.plugins), folder / "points", map::Points::resumed, r.jobs, console);
     const suite::SuiteRun run = run_suite(plan, own.work, folder / "cells", true, r.jobs, console);

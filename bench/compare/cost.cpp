@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <string>
 
 #include "bench/compare/time_limit.hpp"
 #include "schemes/run.hpp"
@@ -36,6 +38,9 @@ void sample(Timed& t) {
     t.of_processor.push_back((processor_seconds() - from) / t.runs);
     t.samples.push_back(seconds / t.runs);
 }
+double seconds_of(const Timed& t) {  // its last sample
+    return t.samples.back() * t.runs;
+}
 }  // namespace
 
 void time_cells(const std::vector<Contender>& contenders, int repeats, const store::Listener& listener) {
@@ -54,13 +59,21 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
     std::stable_sort(timed.begin(), timed.end(),
                      [](const Timed& a, const Timed& b) { return a.cell->settings.sample_rate < b.cell->settings.sample_rate; });
     const auto progress = listener.begin("cost");
+    const auto start = std::chrono::steady_clock::now();
+    const Timed* slowest = nullptr;  // of one sample
     for (int round = 0; round < repeats; ++round)
         for (Timed& t : timed) {
             if (round >= t.repeats) continue;
-            progress->show(finished / work,
-                           fmt::format("round {}: {} at {} Hz", round + 1, t.cell->scheme->name, t.cell->settings.sample_rate));
+            const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            std::string text = fmt::format("round {} of {}, about {:.0f} s left", round + 1, repeats,
+                                           finished > 0 ? elapsed * (work - finished) / finished : work);
+            if (slowest)
+                text += fmt::format("; longest {:.0f} s: {} at {} Hz", seconds_of(*slowest), slowest->cell->scheme->name,
+                                    slowest->cell->settings.sample_rate);
+            progress->show(finished / work, text);
             sample(t);
             finished += t.cell->summary.wall_seconds * t.runs;
+            if (!slowest || seconds_of(t) > seconds_of(*slowest)) slowest = &t;
         }
     for (Timed& t : timed) {
         t.cell->wall = spread_of(t.samples);

@@ -7,6 +7,7 @@
 
 #include "bench/compare/compare.hpp"
 #include "bench/store/records.hpp"
+#include "bench/trust/kept_run.hpp"
 #include "reference/certificate.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
@@ -92,7 +93,13 @@ void Truths::make(Truth& truth, const Trial& t, const compare::ProgressOf& progr
     if (!t.reference.empty()) candidates = {&catalogue_.find(t.reference)};
     for (const Descriptor* d : candidates) try {
             if (!(needed_by(t.scene) - d->represents).empty()) continue;
-            Run r = run(*d, listened(t.scene), reference_settings(*d, t), options);
+            const Scene scene = listened(t.scene);
+            const Settings s = reference_settings(*d, t);
+            Run r = trust::kept_run(
+                catalogue_.is_reference(*d) ? folder_ : "", trust::run_key(*d, scene, s), [&] { return run(*d, scene, s, options); }, 0,
+                [&progress] {
+                    if (progress) progress(0, 1);
+                });
             if (r.status.outcome != Outcome::ok) continue;
             truth.name = d->name;
             truth.trace = std::move(r.trace);

@@ -1,6 +1,7 @@
 // One point of a map: a scheme at its settings on one scene, run for as long as the scene says and judged.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -36,10 +37,10 @@ struct Tried {
     long steps = 0;         // taken
 };
 
-// Runs of references, kept for the trials that share one.
+// Runs of references, kept for the trials that share one; in a folder, for those of other processes too.
 class Truths {
 public:
-    explicit Truths(const compare::Catalogue& c) : catalogue_(c) {}
+    explicit Truths(const compare::Catalogue& c, std::filesystem::path folder = {}) : catalogue_(c), folder_(std::move(folder)) {}
     struct Truth {
         std::once_flag once;
         std::string name;  // "": none represents the scene, or none came to the end
@@ -51,6 +52,7 @@ public:
 private:
     void make(Truth&, const Trial&, const compare::ProgressOf&) const;
     const compare::Catalogue& catalogue_;
+    const std::filesystem::path folder_;
     std::mutex mutex_;
     std::map<std::string, std::unique_ptr<Truth>> truths_;
 };
