@@ -70,6 +70,20 @@ TEST(Charts, TheFrontIsOfSoundCellsAndOfEachChoice) {
     EXPECT_EQ(by_octaves, (std::vector<double>{0.01, 0.02}));
 }
 
+TEST(Charts, AControlIsOnTheFrontOnlyWhereItCompetes) {
+    bench::report::WorkPrecision w = sample();
+    for (const std::size_t i : {0, 1}) w.cells.rows[i][0] = "modal_explicit_penalty";
+    const auto front = [&w] {
+        std::vector<double> x;
+        for (const auto& f : nlohmann::json::parse(bench::report::work_precision_spec(w)).at("datasets").at("fronts"))
+            if (f.at("cost") == "cost_s_per_s" && f.at("error") == "error_l2_50ms") x.push_back(f.at("x"));
+        return x;
+    };
+    EXPECT_EQ(front(), (std::vector<double>{0.03}));
+    w.controls = bench::compare::Controls::compete;
+    EXPECT_EQ(front(), (std::vector<double>{0.01, 0.02}));
+}
+
 TEST(Charts, AnErrorStandsAtErrorAndCertificateTogetherAndWhatIsFlaggedIsHollow) {
     bench::report::WorkPrecision w = sample();
     w.cells.columns.insert(w.cells.columns.end(), {"certificate_l2_50ms", "flags"});

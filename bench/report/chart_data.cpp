@@ -85,7 +85,9 @@ std::string chart_cells(const WorkPrecision& w) {
 std::string chart_fronts(const WorkPrecision& w) {
     const store::Table& t = w.cells;
     Json rows = Json::array();
-    for (const store::Rows& problem : store::alike(t, store::all_rows(t), {"problem"}))
+    store::Rows rivals = store::all_rows(t);
+    std::erase_if(rivals, [&](std::size_t i) { return !compare::may_win(t, i, w.controls); });
+    for (const store::Rows& problem : store::alike(t, rivals, {"problem"}))
         for (const Axis& error : w.errors)
             for (const Axis& cost : w.costs) {
                 const auto front = compare::pareto_front(t, problem, error.column, cost.column);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/compare/cheapest.hpp"
 #include "bench/report/chart_style.hpp"
 #include "bench/store/records.hpp"
 
@@ -34,6 +35,7 @@ struct WorkPrecision {
     std::vector<Goal> goals;
     std::string problem;  // that is shown; "": the first
     Medium medium = Medium::print;
+    compare::Controls controls = compare::Controls::stand_beside;  // on the front too
 };
 
 // Cost across, error up, both logarithmic: a line per series through its rates with its quartiles of cost, the Pareto front behind, noise

@@ -87,6 +87,7 @@ WorkPrecision work_precision_of(const Results& r) {
     WorkPrecision w;
     w.cells = r.cells;
     w.title = r.name + ": error and cost";
+    w.controls = r.controls;
     w.subtitle = r.floors.empty() ? r.source : r.about.substr(0, r.about.rfind(';'));
     w.errors = error_axes(r.cells, taps_of(r), compare::headline_error(r.cells, store::all_rows(r.cells)));
     for (const Axis& a : cost_axes())
