@@ -68,7 +68,7 @@ store::Table ensemble_rows(const MeasuredCell& c) {
     const int asked = c.set.reference_modes.value_or(0);
     const Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : own, {}};
     const Runs theirs = reference_runs(*reference, c.scene, settings, c.tap);
-    const Runs mine = runs_of(c.scheme, c.scene, c.settings, c.tap, 0);
+    const Runs mine = runs_of(c.scheme, c.scene, c.settings, c.tap, ensemble_runs);
     int apart = 0;
     for (const Told& told : told_apart(mine, theirs)) {
         apart += told.apart;
