@@ -75,7 +75,8 @@ TEST(Charts, AControlIsOnTheFrontOnlyWhereItCompetes) {
     for (const std::size_t i : {0, 1}) w.cells.rows[i][0] = "modal_explicit_penalty";
     const auto front = [&w] {
         std::vector<double> x;
-        for (const auto& f : nlohmann::json::parse(bench::report::work_precision_spec(w)).at("datasets").at("fronts"))
+        const auto spec = nlohmann::json::parse(bench::report::work_precision_spec(w));
+        for (const auto& f : spec.at("datasets").at("fronts"))
             if (f.at("cost") == "cost_s_per_s" && f.at("error") == "error_l2_50ms") x.push_back(f.at("x"));
         return x;
     };

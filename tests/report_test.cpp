@@ -290,6 +290,24 @@ TEST(Report, StepsToATrimmedSceneHaveTheLookOfTheirSchemes) {
     }
 }
 
+TEST(Report, ErrorFallsAlongModesInOneLineForEachScheme) {
+    const MadeUp folder({"manifest.json"});
+    std::ofstream(folder / "cells.csv") << "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms\n"
+                                           "1,a,modal_strang,,88200,10,ok,,0.1\n2,a,modal_strang,,88200,20,ok,,0.01\n"
+                                           "3,a,finite_difference_theta,,88200,155,ok,,0.1\n"  // a grid: its nodes go with the rate
+                                           "4,a,finite_difference_theta,,176400,225,ok,,0.05\n";
+    const bench::report::Section s = bench::report::sweep_section(bench::report::read_results(folder.path));
+    ASSERT_EQ(s.charts.size(), 1u);
+    const Json spec = Json::parse(s.charts[0].spec);
+    EXPECT_EQ(spec.at("encoding").at("x").at("axis").at("title"), "modes");
+    const Json rows = spec.at("datasets").at("rows");
+    ASSERT_EQ(rows.size(), 2u);
+    for (const Json& row : rows) EXPECT_EQ(row.at("series"), "modal_strang");
+    EXPECT_EQ(rows[1].at("at"), 20);
+    EXPECT_EQ(rows[1].at("error_l2_50ms"), 0.01);
+    EXPECT_EQ(s.charts[0].twins.at(0).file, "sweep-modes.svg");
+}
+
 TEST(Report, ABusyMachineIsSaid) {
     bench::store::Table cells{{"cost_s_per_s", "cost_lower", "cost_upper"},
                               {{"1", "0.9", "1.1"}, {"1", "0.5", "1.1"}, {"1", "0.75", "1.25"}, {"", "", ""}}};

@@ -27,6 +27,7 @@ TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
         schemes = ["modal_two_point", "sitar_fdm"]
         rates = [44100, 88200, 176400]
         modes = [5, 10]
+        reference_modes = "cell"
         duration = 0.01
         sweep = { "string.0.tension" = [30, 31.5], "tap.0.name" = ["a"] }
         [[cells]]
@@ -48,6 +49,23 @@ TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
     EXPECT_EQ(ids.size(), plan.cells.size());
     EXPECT_EQ(plan.points[1].scene.strings[0].tension, 31.5);
     EXPECT_EQ(plan.points[0].scene.duration, 0.01);
+}
+
+TEST(SuiteFile, TheTruthDoesNotShrinkWithTheModesThatVary) {
+    const auto truth = [](const std::string& more) {
+        return bench::suite::parse_suite("[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\n" + more,
+                                         "a.toml")
+            .sets[0]
+            .reference_modes;
+    };
+    EXPECT_EQ(truth("modes = [5, 10]\n"), 0);  // doubled until nothing moves
+    EXPECT_EQ(truth("modes = [5, 10]\nreference_modes = 64\n"), 64);
+    EXPECT_EQ(truth("modes = [5, 10]\nreference_modes = \"cell\"\n"), std::nullopt);
+    EXPECT_EQ(truth("modes = 5\n"), std::nullopt);
+    EXPECT_EQ(truth(""), std::nullopt);
+    EXPECT_NE(refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n").find("a whole number, 0 or more, or \"cell\""),
+              std::string::npos)
+        << refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n");
 }
 
 TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/statistics.hpp"
 #include "bench/diff/difference.hpp"
@@ -25,23 +26,30 @@ double median_of(const std::vector<Ratio>& ratios) {
 }
 
 struct Noise {
-    double drift = 1;              // times
-    double beyond = least_change;  // times, relative to the drift: a series that lies further out is disturbed by more than the machine
+    double drift = 1;      // times
+    double disturbed = 0;  // of a cell, relative to the drift, in logarithms: a standard deviation
+
+    // Times: the median of so many cells that lies further out is disturbed by more than the machine.
+    double beyond(std::size_t cells) const {
+        const double of_median = std::min(1.0, std::sqrt(std::numbers::pi / 2 / static_cast<double>(cells)));
+        return std::max(least_change, std::exp(disturbances * of_median * disturbed));
+    }
 };
 Noise noise_of(const std::vector<Ratio>& ratios) {
     Noise n;
     n.drift = median_of(ratios);
     std::vector<double> distances;
     for (const Ratio& r : ratios) distances.push_back(std::abs(std::log(r.value / n.drift)));
-    n.beyond = std::max(least_change, std::exp(disturbances * 1.4826 * spread_of(distances).median));
+    n.disturbed = 1.4826 * spread_of(distances).median;
     return n;
 }
 
-struct Clock {  // the columns of one
-    const char *median, *lower, *upper;
+struct Clock {  // the columns of one, and which of them is steadiest
+    const char *median, *lower, *upper, *compared;
 };
-constexpr Clock wall{"cost_s_per_s", "cost_lower", "cost_upper"};
-constexpr Clock processor{"processor_s_per_s", "processor_lower", "processor_upper"};  // which other programs disturb far less
+constexpr Clock wall{"cost_s_per_s", "cost_lower", "cost_upper", "cost_s_per_s"};
+// Other programs disturb it far less, and only to the slower side: its lower quartile least of all.
+constexpr Clock processor{"processor_s_per_s", "processor_lower", "processor_upper", "processor_lower"};
 
 Clock clock_of(const store::Table& a, const store::Table& b) {
     return a.column(processor.median) >= 0 && b.column(processor.median) >= 0 ? processor : wall;
@@ -50,7 +58,8 @@ Clock clock_of(const store::Table& a, const store::Table& b) {
 // Of a series: worse, better or same.
 Turn turn_of(const Folder& a, const Folder& b, const std::vector<Ratio>& series, const Noise& noise, const Clock& clock) {
     const double change = median_of(series) / noise.drift;
-    if (change < noise.beyond && change > 1 / noise.beyond) return Turn::same;
+    const double beyond = noise.beyond(series.size());
+    if (change < beyond && change > 1 / beyond) return Turn::same;
     const auto apart = std::count_if(series.begin(), series.end(), [&](const Ratio& r) {
         return change > 1 ? b.cells.number(r.after, clock.lower) / noise.drift > a.cells.number(r.before, clock.upper)
                           : b.cells.number(r.after, clock.upper) / noise.drift < a.cells.number(r.before, clock.lower);
@@ -63,7 +72,7 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
     std::vector<std::string> names = store::naming_columns(a.cells);
     std::vector<Ratio> ratios;
     for (const CostPair& p : pairs) {
-        const double was = a.cells.number(p.before, clock.median), is = b.cells.number(p.after, clock.median);
+        const double was = a.cells.number(p.before, clock.compared), is = b.cells.number(p.after, clock.compared);
         if (!(was > 0) || !(is > 0)) continue;
         std::string series;
         for (const std::string& name : names) series += a.cells.at(p.before, name) + "\t";
@@ -96,9 +105,10 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>
             fmt::format("the middle cell took {:.2f} times as long: the machine's doing or the program's, which a clock cannot "
                         "tell; each is judged relative to that",
                         noise.drift));
-    if (noise.beyond > least_change)
-        d.notes.push_back(
-            fmt::format("the clock was disturbed: costs that changed by less than {:.2f} times are not told apart", noise.beyond));
+    double beyond = least_change;
+    for (const auto& [name, cells] : series) beyond = std::max(beyond, noise.beyond(cells.size()));
+    if (beyond > least_change)
+        d.notes.push_back(fmt::format("the clock was disturbed: costs that changed by less than {:.2f} times are not told apart", beyond));
     for (const auto& [name, cells] : series) {
         d.compared += static_cast<int>(cells.size());
         const Turn turn = turn_of(a, b, cells, noise, clock);

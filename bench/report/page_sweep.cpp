@@ -1,5 +1,7 @@
 // Error against what a suite sweeps: a chart per key that takes several numbers, a line per scheme, one rate at a time. What else is swept
-// tells lines apart.
+// tells lines apart. Numbers of modes are such a key for schemes that have several at one rate: a grid takes another with each rate.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -17,6 +19,21 @@ using Json = nlohmann::ordered_json;
 bool is_swept(const store::Table& t, const std::string& key) {  // over two numbers at least
     const auto values = distinct(t, key);
     return std::ranges::count_if(values, [](const std::string& v) { return std::isfinite(store::number_of(v)); }) > 1;
+}
+
+// Rows along a key: those that have a number there. Modes no longer tell series apart where they are the key.
+WorkPrecision along(WorkPrecision w, const std::string& key) {
+    const int at = w.cells.column(key), scheme = w.cells.column("scheme"), options = w.cells.column("options"),
+              series = w.cells.column("series");
+    std::erase_if(w.cells.rows, [&](auto& row) {
+        if (!std::isfinite(store::number_of(row[at]))) return true;
+        if (key != "modes") return false;
+        const std::string name = row[scheme] + (options < 0 || row[options].empty() ? "" : " " + row[options]);
+        const bool alone = row[series] == name;  // one number of modes at each rate
+        row[series] = name;
+        return alone;
+    });
+    return w;
 }
 
 // The rows of the charts with what places them: `base`, the scene; `at`, the value of the key; `others`, the values of other keys.
@@ -60,10 +77,11 @@ Section sweep_section(const Results& r) {
     if (w.errors.empty()) return s;
     w.costs.clear();
     std::erase_if(w.cells.rows, [&w](const auto& row) { return row[w.cells.column("status")] == "refused"; });
-    const auto keys = store::swept_keys(without_names(r.cells));
+    auto keys = store::swept_keys(without_names(r.cells));
+    const bool scenes = !keys.empty();
+    keys.emplace_back("modes");
     for (const std::string& key : keys) {
-        WorkPrecision own = w;
-        std::erase_if(own.cells.rows, [&](const auto& row) { return !std::isfinite(store::number_of(row[w.cells.column(key)])); });
+        WorkPrecision own = along(w, key);
         if (!is_swept(own.cells, key)) continue;
         own.errors = error_axes(own.cells, {""}, compare::headline_error(own.cells, store::all_rows(own.cells)));
         if (own.errors.empty()) continue;
@@ -89,7 +107,8 @@ Section sweep_section(const Results& r) {
         s.charts.push_back(std::move(c));
     }
     if (!s.charts.empty())
-        s.notes = {"Each value of the key is a scene of its own, with a reference of its own. Hollow points are not to be trusted."};
+        s.notes = {fmt::format("{}Hollow points are not to be trusted.",
+                               scenes ? "Each value of a scene's key is a scene of its own, with a reference of its own. " : "")};
     return s;
 }
 

@@ -45,7 +45,13 @@ CellSet set_of(const store::SuiteReader& read, const Value& v, const std::string
     if (const Value* x = v.find("tap_rate")) s.tap_rate = number(*x, key("tap_rate"));
     if (const Value* x = v.find("repeats")) s.repeats = count(*x, key("repeats"));
     if (const Value* x = v.find("reference")) s.reference = text(*x, key("reference"));
-    if (const Value* x = v.find("reference_modes")) s.reference_modes = read.none_or(*x, key("reference_modes"));
+    if (s.modes.size() > 1) s.reference_modes = 0;  // a truth that shrank with the cells would call the fewest modes the best
+    if (const Value* x = v.find("reference_modes")) {
+        const auto* word = std::get_if<std::string>(&x->content);
+        if (word && *word != "cell") read.refuse(*x, key("reference_modes"), "a whole number, 0 or more, or \"cell\"");
+        if (word) s.reference_modes.reset();
+        else s.reference_modes = read.none_or(*x, key("reference_modes"));
+    }
     if (const Value* x = v.find("tap")) s.tap = text(*x, key("tap"));
     if (const Value* x = v.find("time_limit_s")) s.time_limit = number(*x, key("time_limit_s"));
     if (const Value* x = v.find("options"))

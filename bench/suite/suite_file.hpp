@@ -6,7 +6,7 @@
 //   rates = [44100]                    modes = 40 or [20, 40]         (absent: as compare)
 //   duration = 0.5      tap_rate = 44100      repeats = 5             [s], [Hz], timed runs
 //   reference = "exact_contact"                                       (absent: the highest that represents the scene)
-//   reference_modes = 0                                               (0: doubled until nothing moves; absent: those of the cell)
+//   reference_modes = 0    (0: doubled until nothing moves, also absent where modes vary; "cell": those of the cell, else absent)
 //   options = { "modal_controls:control" = ["a", "b"], name = "x" }   [SCHEME:]NAME, one value or several to vary
 //   sweep = { "string.0.barrier.0.stiffness" = [1e6, 1e8] }           any scene key, each with the values to vary
 //   measure = ["errors", "cost", "spectrogram", "sound", "dispersion", "ensemble"]   cost goes with errors alone: no speed without an error

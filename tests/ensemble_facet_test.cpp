@@ -1,0 +1,57 @@
+// measure = ["ensemble"]: scheme and reference run from starts of their own, and what is told apart is told by rate.
+#include "bench/suite/ensemble_facet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/compare/catalogue.hpp"
+#include "bench/store/records.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::bench::suite {
+namespace {
+
+store::Table rows_of(const char* scheme, double rate) {
+    static const compare::Catalogue catalogue;
+    Scene scene = read_scene("guitar_over_fret");
+    scene.duration = 0.1;
+    const CellSet set;
+    const Trace none;
+    const Settings settings{rate, 44100, 40, {}};
+    return ensemble_rows({scene, catalogue.find(scheme), settings, none, nullptr, 0, set});
+}
+int apart(const store::Table& t) {
+    EXPECT_EQ(t.at(0, "kind"), "any");
+    return static_cast<int>(t.number(0, "apart"));
+}
+
+TEST(EnsembleFacet, DoesNotTellTheReferenceFromItselfThoughNoStartIsTheSame) {
+    const store::Table t = rows_of("exact_contact", 0);
+    ASSERT_GT(t.rows.size(), 30u);
+    EXPECT_EQ(apart(t), 0);
+    int other = 0;
+    for (std::size_t i = 1; i < t.rows.size(); ++i) other += t.at(i, "reference") != t.at(i, "candidate");
+    EXPECT_GT(2 * other, static_cast<int>(t.rows.size()));  // medians of other runs
+}
+
+TEST(EnsembleFacet, TellsASchemeThatIsAnotherString) {
+    const store::Table t = rows_of("modal_quadratised_two_point_raw", 176400);
+    EXPECT_GT(apart(t), 10);
+    int counted = 0;
+    for (std::size_t i = 1; i < t.rows.size(); ++i) counted += t.number(i, "apart") == 1;
+    EXPECT_EQ(counted, apart(t));
+}
+
+TEST(EnsembleText, NamesTheRateFromWhichOnNothingIsToldApart) {
+    store::Table t;
+    t.columns = {"scene", "scheme", "options", "rate", "modes", "kind", "apart"};
+    for (const auto& [rate, count] : {std::pair{"44100", "3"}, {"88200", "0"}, {"176400", "1"}, {"352800", "0"}, {"705600", "0"}})
+        t.rows.push_back({"s", "a", "", rate, "40", "any", count});
+    EXPECT_NE(ensemble_text(t).find("statistically the reference from 352800 Hz on"), std::string::npos) << ensemble_text(t);
+    t.rows.back().back() = "1";
+    EXPECT_NE(ensemble_text(t).find("told from the reference at the highest rate too"), std::string::npos) << ensemble_text(t);
+}
+
+}  // namespace
+}  // namespace jvari::bench::suite
