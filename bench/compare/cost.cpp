@@ -58,14 +58,16 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
     // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike
     std::stable_sort(timed.begin(), timed.end(),
                      [](const Timed& a, const Timed& b) { return a.cell->settings.sample_rate < b.cell->settings.sample_rate; });
+    int rounds = 0;
+    for (const Timed& t : timed) rounds = std::max(rounds, t.repeats);
     const auto progress = listener.begin("cost");
     const auto start = std::chrono::steady_clock::now();
     const Timed* slowest = nullptr;  // of one sample
-    for (int round = 0; round < repeats; ++round)
+    for (int round = 0; round < rounds; ++round)
         for (Timed& t : timed) {
             if (round >= t.repeats) continue;
             const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-            std::string text = fmt::format("round {} of {}, about {:.0f} s left", round + 1, repeats,
+            std::string text = fmt::format("round {} of {}, about {:.0f} s left", round + 1, rounds,
                                            finished > 0 ? elapsed * (work - finished) / finished : work);
             if (slowest)
                 text += fmt::format("; longest {:.0f} s: {} at {} Hz", seconds_of(*slowest), slowest->cell->scheme->name,
