@@ -145,8 +145,7 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
                             [] { return std::string("nothing is kept but long runs of references"); }));
 }
 
-inline py::dict suite_tables(const std::string& file, const std::string& out, bool resume, int jobs) {
-    const suite::Suite suite = suite::read_suite(file);
+inline py::dict tables_of(const suite::Suite& suite, const std::string& out, bool resume, int jobs) {
     const std::vector<std::string> files = plugins();
     const compare::Catalogue catalogue(files);
     const suite::SuitePlan plan = suite::plan_of(suite, catalogue, files);
@@ -178,6 +177,14 @@ inline py::dict suite_tables(const std::string& file, const std::string& out, bo
     py::dict rows;
     for (const auto& [name, table] : tables) rows[py::str(name)] = rows_of(table);
     return rows;
+}
+inline py::dict suite_tables(const std::string& file, const std::string& out, bool resume, int jobs) {
+    return tables_of(suite::read_suite(file), out, resume, jobs);
+}
+inline py::list suite_rows(const std::string& file, const std::string& out, bool resume, int jobs) {
+    suite::Suite suite = suite::read_suite(file);
+    suite.maps.clear();
+    return tables_of(suite, out, resume, jobs)["cells"];
 }
 
 struct TrimmedRows {

@@ -82,7 +82,8 @@ def compare(
     reference_modes: int | None = None, controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
     options: Mapping[str, _Value] = {}, repeats: int = 5, jobs: int = 0,
 ) -> list[_Row]: ...
-def suite(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> dict[str, list[_Row]]: ...  # "cells", "maps", "boundaries"; SI units
+def suite(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> list[_Row]: ...
+def suite_tables(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> dict[str, list[_Row]]: ...  # "cells", "maps", "boundaries"; SI units
 def trim(
     scene: Scene | str, within: str, of: str = "l2_50ms", tap: str = "", scheme: str = "any", duration: float = 0.05,
     tap_rate: float = 44100, reference: str = "", reference_modes: int = 0, out: str = "", jobs: int = 0,

@@ -125,8 +125,10 @@ void add_studies(py::module_& m) {
           py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("repeats") = 5, py::arg("jobs") = 0,
           "Schemes x rates [Hz] against a reference, as `jvari compare`: a dict per cell, its keys the columns of cells.csv and the bounds "
           "of the errors. None where nothing is known.");
+    m.def("suite", &python::suite_rows, py::arg("file"), py::arg("out") = "", py::arg("resume") = false, py::arg("jobs") = 0,
+          "The cells of a suite, a dict each, its maps aside. out: the folder that keeps them, as `jvari suite --out` does.");
     m.def(
-        "suite", &python::suite_tables, py::arg("file"), py::arg("out") = "", py::arg("resume") = false, py::arg("jobs") = 0,
+        "suite_tables", &python::suite_tables, py::arg("file"), py::arg("out") = "", py::arg("resume") = false, py::arg("jobs") = 0,
         "The tables of a suite by name, each a list of dicts, one per row. \"cells\": the columns of cells.csv and the bounds of the "
         "errors. "
         "\"maps\": a row per point, x and y in the units of x_key and y_key (rate [Hz], duration [s], the scene's in SI), its outcome and "

@@ -157,7 +157,7 @@ class Module(unittest.TestCase):
                 "compare, its reference": lambda: jvari.compare("tanpura_c3", ["modal_two_point"], [44100], reference="sundials", duration=0.2),
                 "suite": lambda: jvari.suite(file),
                 "suite, its references": lambda: jvari.suite(slow_reference, jobs=2),  # two cells wait for one
-                "suite, its maps": lambda: jvari.suite(slow_map),
+                "suite_tables, its maps": lambda: jvari.suite_tables(slow_map),
                 "trim": lambda: jvari.trim("tanpura_c3", "0.0001%", duration=1),
             }.items():
                 with self.subTest(name):
@@ -239,12 +239,12 @@ class Module(unittest.TestCase):
             file = folder + "/a.toml"
             with open(file, "w") as f:
                 f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nduration = 0.01\n')
-            tables = jvari.suite(file, out=folder + "/out")
-            self.assertEqual([row["rate"] for row in tables["cells"]], [44100, 88200])
-            self.assertEqual((tables["maps"], tables["boundaries"]), ([], []))
+            rows = jvari.suite(file, out=folder + "/out")
+            self.assertEqual([row["rate"] for row in rows], [44100, 88200])
             self.assertEqual(os.listdir(folder + "/out"), ["cells"])
             self.assertEqual(len(os.listdir(folder + "/out/cells")), 2)
-            self.assertEqual(jvari.suite(file, out=folder + "/out", resume=True), tables)
+            self.assertEqual(jvari.suite(file, out=folder + "/out", resume=True), rows)
+            self.assertEqual(jvari.suite_tables(file, out=folder + "/out", resume=True), {"cells": rows, "maps": [], "boundaries": []})
 
     def test_a_suites_maps_are_the_programs_rows(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -254,7 +254,7 @@ class Module(unittest.TestCase):
                         'reference = "none"\ntheory = "penalty_limit"\nrefine = 5\nreproduce = false\nset = { "string.0.barrier.0.stiffness" = 4.39e6 }\n'
                         'x = { key = "rate", from = 1e5, to = 1e6, points = 3 }\ny = { key = "string.0.tension", values = [30, 40] }\n'
                         '[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.01\nmeasure = ["dispersion"]\n')
-            tables = jvari.suite(file, out=out)
+            tables = jvari.suite_tables(file, out=out)
             subprocess.run([PROGRAM, "suite", file, "--quiet", "--out", folder + "/whole"], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
             for name, length in (("maps", 6), ("boundaries", 4)):
                 rows, theirs = tables[name], rows_of(f"{folder}/whole/{name}.csv")
@@ -270,7 +270,7 @@ class Module(unittest.TestCase):
             points = os.listdir(out + "/points")
             self.assertEqual(len(points), 6 + 4 * 5)  # with five bisections of each boundary
             at = os.stat(out + "/points/" + points[0]).st_mtime_ns
-            self.assertEqual(jvari.suite(file, out=out, resume=True), tables)
+            self.assertEqual(jvari.suite_tables(file, out=out, resume=True), tables)
             self.assertEqual(os.stat(out + "/points/" + points[0]).st_mtime_ns, at)
 
     def test_a_trim_is_its_path_and_its_needs(self):
