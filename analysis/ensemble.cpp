@@ -82,7 +82,7 @@ std::vector<bool> discoveries(const std::vector<double>& p, double rate) {
     std::sort(sorted.begin(), sorted.end());
     double bound = -1;
     for (std::size_t k = 0; k < sorted.size(); ++k)
-        if (sorted[k] <= rate) bound = sorted[k];
+        if (sorted[k] <= rate * static_cast<double>(k + 1) / static_cast<double>(sorted.size())) bound = sorted[k];
     std::vector<bool> found;
     for (const double one : p) found.push_back(one <= bound);
     return found;
