@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bench/report/figure_chart.hpp"
+#include "bench/report/identity.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/suite/figure_rows.hpp"
 #include "bench/suite/suite_run.hpp"
@@ -228,6 +229,19 @@ TEST(FigureSpec, DrawsTheRowsThatAreChosenInTheirUnitsUnderTheirNames) {
     EXPECT_EQ(spec["encoding"]["color"]["scale"]["domain"], Json::array({"single", "88200.0, b"}));
     EXPECT_EQ(spec["encoding"]["x"]["title"], "time [ms]");
     EXPECT_EQ(spec["title"]["subtitle"], Json::array({"fig. 1: statement"}));
+}
+
+TEST(FigureSpec, ASchemesPointsHaveItsColourAndItsMarker) {
+    const bench::store::Table schemes{{"time_s", "low", "scheme"}, {{"1", "2", "modal_two_point"}, {"1", "3", "modal_explicit_penalty"}}};
+    bench::suite::Figure f = a_figure(bench::suite::FigureKind::points);
+    f.colour = {"scheme"};
+    const Json encoding = Json::parse(bench::report::figure_spec(f, schemes))["encoding"];
+    const auto looks = bench::report::identities_of({"modal_two_point", "modal_explicit_penalty"});
+    ASSERT_NE(looks[0].shape, looks[1].shape);
+    for (std::size_t k = 0; k < looks.size(); ++k) {
+        EXPECT_EQ(encoding["color"]["scale"]["range"][k], looks[k].colour);
+        EXPECT_EQ(encoding["shape"]["scale"]["range"][k], looks[k].shape);
+    }
 }
 
 TEST(FigureSpec, ALogarithmicAxisLeavesOutWhatItCannotShowAndADomainWhatLiesOutside) {

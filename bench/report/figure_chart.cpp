@@ -166,6 +166,12 @@ std::string figure_spec(const suite::Figure& f, const store::Table& t) {
         Json legend;
         if (colours.size() > 1) legend = {{"title", nullptr}, {"orient", "bottom"}, {"direction", "horizontal"}, {"columns", 3}};
         encoding["color"] = {{"field", "c"}, {"type", "nominal"}, {"scale", {{"domain", colours}, {"range", range}}}, {"legend", legend}};
+        if (schemes && f.kind == suite::FigureKind::points) {
+            Json shapes = Json::array();
+            for (const Identity& i : identities) shapes.push_back(i.shape);
+            encoding["shape"] = {
+                {"field", "c"}, {"type", "nominal"}, {"scale", {{"domain", colours}, {"range", shapes}}}, {"legend", legend}};
+        }
     } else {
         mark["color"] = families()[0].light;
     }
