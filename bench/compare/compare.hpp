@@ -31,7 +31,7 @@ struct Cell {
     Errors in_model;       // from that of a string with as many modes as all cells: errors of the scheme alone
     store::Sound sound{};  // of the headline's nut tap, where the run reached its end
     Spread wall{};         // of the timed runs [s], of the whole scene or up to the failure
-    Spread processor{};    // the same in processor time [s], which other programs disturb far less
+    Spread processor{};    // the same in processor time [s], the drift of the machine taken off (cost.cpp)
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
     store::Stamp stamp{};                                           // of the machine that timed it
     int modes() const { return refused ? settings.modes : summary.modes; }

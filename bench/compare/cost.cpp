@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "bench/compare/time_limit.hpp"
@@ -37,6 +38,22 @@ void sample(Timed& t) {
     }
     t.of_processor.push_back((processor_seconds() - from) / t.runs);
     t.samples.push_back(seconds / t.runs);
+}
+// What the machine does in a round (another clock frequency, a busy neighbour) meets the cells of one rate alike, which are next to each
+// other in it. So of every sample goes the median over them of a sample over its cell's own median.
+void take_off_drift(std::span<Timed> of_one_rate, int rounds) {
+    constexpr std::size_t fewest = 3;  // of fewer it cannot be told from theirs
+    std::vector<double> middle;
+    for (const Timed& t : of_one_rate) middle.push_back(spread_of(t.of_processor).median);
+    for (std::size_t round = 0; round < static_cast<std::size_t>(rounds); ++round) {
+        std::vector<double> relative;
+        for (std::size_t k = 0; k < of_one_rate.size(); ++k)
+            if (round < of_one_rate[k].of_processor.size()) relative.push_back(of_one_rate[k].of_processor[round] / middle[k]);
+        if (relative.size() < fewest) return;
+        const double drift = spread_of(relative).median;
+        for (Timed& t : of_one_rate)
+            if (round < t.of_processor.size()) t.of_processor[round] /= drift;
+    }
 }
 double seconds_of(const Timed& t) {  // its last sample
     return t.samples.back() * t.runs;
@@ -77,6 +94,11 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
             finished += t.cell->summary.wall_seconds * t.runs;
             if (!slowest || seconds_of(t) > seconds_of(*slowest)) slowest = &t;
         }
+    for (auto from = timed.begin(), to = from; from != timed.end(); from = to) {
+        to = std::find_if(from, timed.end(),
+                          [&](const Timed& t) { return t.cell->settings.sample_rate != from->cell->settings.sample_rate; });
+        take_off_drift({from, to}, rounds);
+    }
     for (Timed& t : timed) {
         t.cell->wall = spread_of(t.samples);
         t.cell->processor = spread_of(t.of_processor);

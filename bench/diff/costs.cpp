@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "analysis/statistics.hpp"
 #include "bench/diff/difference.hpp"
@@ -14,20 +16,33 @@ namespace jvari::bench::diff {
 
 namespace {
 struct Ratio {
-    std::string series, name;
+    std::string series, rate, name;
     std::size_t before, after;  // rows
     double value;               // after over before
+    double drift = 1;           // of the cells that were timed next to it
+    double change() const { return value / drift; }
 };
 
-double median_of(const std::vector<Ratio>& ratios) {
+template <class Of>
+double median_of(const std::vector<Ratio>& ratios, Of of) {
     std::vector<double> values;
-    for (const Ratio& r : ratios) values.push_back(r.value);
+    for (const Ratio& r : ratios) values.push_back(of(r));
     return spread_of(values).median;
 }
 
+// Cells of one rate are timed in turn, so they drift together; too few of them drift with all.
+void take_off_drift(std::vector<Ratio>& ratios) {
+    const double of_all = median_of(ratios, [](const Ratio& r) { return r.value; });
+    std::map<std::string, std::vector<Ratio>> by_rate;
+    for (const Ratio& r : ratios) by_rate[r.rate].push_back(r);
+    for (Ratio& r : ratios) {
+        const std::vector<Ratio>& beside = by_rate[r.rate];
+        r.drift = beside.size() < fewest_series ? of_all : median_of(beside, [](const Ratio& x) { return x.value; });
+    }
+}
+
 struct Noise {
-    double drift = 1;      // times
-    double disturbed = 0;  // of a cell, relative to the drift, in logarithms: a standard deviation
+    double disturbed = 0;  // of a cell, relative to its drift, in logarithms: a standard deviation
 
     // Times: the median of so many cells that lies further out is disturbed by more than the machine.
     double beyond(std::size_t cells) const {
@@ -36,12 +51,7 @@ struct Noise {
     }
 };
 Noise noise_of(const std::vector<Ratio>& ratios) {
-    Noise n;
-    n.drift = median_of(ratios);
-    std::vector<double> distances;
-    for (const Ratio& r : ratios) distances.push_back(std::abs(std::log(r.value / n.drift)));
-    n.disturbed = 1.4826 * spread_of(distances).median;
-    return n;
+    return {1.4826 * median_of(ratios, [](const Ratio& r) { return std::abs(std::log(r.change())); })};
 }
 
 struct Clock {  // the columns of one, and which of them is steadiest
@@ -57,12 +67,12 @@ Clock clock_of(const store::Table& a, const store::Table& b) {
 
 // Of a series: worse, better or same.
 Turn turn_of(const Folder& a, const Folder& b, const std::vector<Ratio>& series, const Noise& noise, const Clock& clock) {
-    const double change = median_of(series) / noise.drift;
+    const double change = median_of(series, [](const Ratio& r) { return r.change(); });
     const double beyond = noise.beyond(series.size());
     if (change < beyond && change > 1 / beyond) return Turn::same;
     const auto apart = std::count_if(series.begin(), series.end(), [&](const Ratio& r) {
-        return change > 1 ? b.cells.number(r.after, clock.lower) / noise.drift > a.cells.number(r.before, clock.upper)
-                          : b.cells.number(r.after, clock.upper) / noise.drift < a.cells.number(r.before, clock.lower);
+        return change > 1 ? b.cells.number(r.after, clock.lower) / r.drift > a.cells.number(r.before, clock.upper)
+                          : b.cells.number(r.after, clock.upper) / r.drift < a.cells.number(r.before, clock.lower);
     });
     if (2 * static_cast<std::size_t>(apart) <= series.size()) return Turn::same;
     return change > 1 ? Turn::worse : Turn::better;
@@ -76,7 +86,7 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
         if (!(was > 0) || !(is > 0)) continue;
         std::string series;
         for (const std::string& name : names) series += a.cells.at(p.before, name) + "\t";
-        ratios.push_back({series, p.name, p.before, p.after, is / was});
+        ratios.push_back({series, a.cells.at(p.before, "rate"), p.name, p.before, p.after, is / was});
     }
     return ratios;
 }
@@ -84,7 +94,7 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
 
 void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>& pairs, Difference& d) {
     const Clock clock = clock_of(a.cells, b.cells);
-    const std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
+    std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
     if (ratios.empty()) return;
     if (!a.made.same_machine(b.made)) {
         d.notes.push_back(fmt::format("costs are of two machines and are not compared: {} and {}", a.made.machine(), b.made.machine()));
@@ -92,19 +102,23 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>
     }
     if (a.made.system != b.made.system)
         d.notes.push_back(fmt::format("costs are of one machine under two systems: {} and {}", a.made.system, b.made.system));
+    std::set<std::string> names;
+    for (const Ratio& r : ratios) names.insert(r.series);
+    const bool few = names.size() < fewest_series;
+    if (!few) take_off_drift(ratios);
     std::vector<std::pair<std::string, std::vector<Ratio>>> series;
     for (const Ratio& r : ratios) {
         auto it = std::find_if(series.begin(), series.end(), [&r](const auto& s) { return s.first == r.series; });
         if (it == series.end()) it = series.insert(series.end(), {r.series, {}});
         it->second.push_back(r);
     }
-    const bool few = series.size() < fewest_series;
     const Noise noise = few ? Noise{} : noise_of(ratios);
-    if (noise.drift > told || noise.drift < 1 / told)
+    const auto drift_of = [](const std::vector<Ratio>& of) { return median_of(of, [](const Ratio& r) { return r.drift; }); };
+    if (const double drift = drift_of(ratios); drift > told || drift < 1 / told)
         d.notes.push_back(
             fmt::format("the middle cell took {:.2f} times as long: the machine's doing or the program's, which a clock cannot "
                         "tell; each is judged relative to that",
-                        noise.drift));
+                        drift));
     double beyond = least_change;
     for (const auto& [name, cells] : series) beyond = std::max(beyond, noise.beyond(cells.size()));
     if (beyond > least_change)
@@ -113,8 +127,9 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>
         d.compared += static_cast<int>(cells.size());
         const Turn turn = turn_of(a, b, cells, noise, clock);
         if (turn == Turn::same) continue;
-        const std::string detail = few ? fmt::format("{:.2f} times, the machine's doing or the scheme's", median_of(cells))
-                                       : fmt::format("{:.2f} times beyond a drift of {:.2f}", median_of(cells) / noise.drift, noise.drift);
+        const double change = median_of(cells, [](const Ratio& r) { return r.change(); });
+        const std::string detail = few ? fmt::format("{:.2f} times, the machine's doing or the scheme's", change)
+                                       : fmt::format("{:.2f} times beyond a drift of {:.2f}", change, drift_of(cells));
         for (const Ratio& r : cells)
             d.findings.push_back({few ? Turn::moved : turn, r.name, clock.median, a.cells.at(r.before, clock.median),
                                   b.cells.at(r.after, clock.median), detail});
