@@ -17,6 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr auto under_way = std::chrono::milliseconds(4000);  // after its start a program has begun what lasts
+#else
+constexpr auto under_way = std::chrono::milliseconds(1000);
+#endif
+
 struct How {
     bool terminal = false;  // in place of files: stdout and stderr
     bool ignoring = false;  // SIGINT
@@ -174,7 +180,7 @@ TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
              {{"certify", "tanpura_c3", "--out", scratch / "c.json"}, "until all runs of a certificate are done"},
          }) {
         Started nowhere(scratch, arguments);
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        std::this_thread::sleep_for(under_way);
         nowhere.send(SIGINT);
         EXPECT_EQ(nowhere.end(), SIGINT) << arguments.front();
         EXPECT_NE(content(scratch / "stderr").find("interrupted: nothing is kept, " + said), std::string::npos)
