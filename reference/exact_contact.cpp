@@ -168,10 +168,7 @@ void ExactContact::write(const Block& out, int row) const noexcept {
     readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(), bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
     const double F_e = pluck_.empty() ? 0 : force(pluck_[0], row_ / tap_rate_);
     if (window_.series()) add_series(out, row, *window_.series(), window_.forces(y_.data(), thread_force_, F_e), F_e);
-    if (!out.energy) return;
-    out.energy[row] = stored(F_e);
-    out.energy[out.stride + row] = energies_.supplied;
-    out.energy[2 * out.stride + row] = energies_.dissipated;
+    if (out.energy) write_energy(out, row, stored(F_e), energies_.supplied, energies_.dissipated);
 }
 
 bool ExactContact::interval(const Block& out) noexcept {

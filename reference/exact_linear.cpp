@@ -103,11 +103,7 @@ void ExactLinear::reset() noexcept {
 Status ExactLinear::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
         readout_.write(out, row, state_.y.data(), state_.v.data(), 1, 0, 0);
-        if (out.energy) {
-            out.energy[row] = stored();
-            out.energy[out.stride + row] = supplied_;
-            out.energy[2 * out.stride + row] = dissipated_;
-        }
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         next_row(out);
     }
     return {};

@@ -104,11 +104,7 @@ Status IntegratedContact::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
         readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate, sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
         if (series()) add_series(out, row, *series(), flight_.window.forces(y_.data(), flight_.thread_force, 0), 0);
-        if (out.energy) {
-            out.energy[row] = stored();
-            out.energy[out.stride + row] = sums_.energies.supplied;
-            out.energy[2 * out.stride + row] = sums_.energies.dissipated;
-        }
+        if (out.energy) write_energy(out, row, stored(), sums_.energies.supplied, sums_.energies.dissipated);
         if (!interval(out)) return {Outcome::not_converged, row_};
         ++row_;
     }

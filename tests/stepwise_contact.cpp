@@ -130,11 +130,7 @@ void StepwiseContact::reset() noexcept {
 Status StepwiseContact::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
         readout_.write(out, row, y_.data(), u_.data(), osc_.rate, bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
-        if (out.energy) {
-            out.energy[row] = stored();
-            out.energy[out.stride + row] = supplied_;
-            out.energy[2 * out.stride + row] = dissipated_;
-        }
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         if (!interval(out)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
         ++row_;
     }

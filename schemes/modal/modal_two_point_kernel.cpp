@@ -276,9 +276,7 @@ Status advance(TwoPoint& m, const Block& out) {
         }
         m.impulse_b = m.impulse_c = 0;
         if (out.energy) {
-            out.energy[row] = stored<kind, thread, compliance>(m);
-            out.energy[out.stride + row] = m.supplied;
-            out.energy[2 * out.stride + row] = m.dissipated;
+            write_energy(out, row, stored<kind, thread, compliance>(m), m.supplied, m.dissipated);
             m.supplied = m.dissipated = 0;
             if (!steps_of_row<kind, thread, true, compliance>(m, out)) return {};
         } else if (!steps_of_row<kind, thread, false, compliance>(m, out)) {

@@ -292,11 +292,9 @@ Status SitarWaveguide<planes>::advance(const Block& out) noexcept {
         double finite = 0;
         for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(w_.taps[k]);
         if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
-        if (out.energy) {
-            out.energy[row] = s_.wave_energy(rail_slopes() + peg_slopes());
-            out.energy[out.stride + row] = 0;
-            out.energy[2 * out.stride + row] = s_.wave_energy(slopes_dissipated_) + ledger_.dissipated;
-        }
+        if (out.energy)
+            write_energy(out, row, s_.wave_energy(rail_slopes() + peg_slopes()), 0,
+                         s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
         slopes_dissipated_ = 0;
         ledger_.next_row();
         if (pending_.empty() && peg_.empty()) coast(w_.steps_per_row, out);

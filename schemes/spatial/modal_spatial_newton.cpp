@@ -240,9 +240,7 @@ private:
         if (p_.missing)
             for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += forces_.on_tap(k);
         if (!out.energy) return;
-        out.energy[row] = stored();
-        out.energy[out.stride + row] = supplied_;
-        out.energy[2 * out.stride + row] = dissipated_;
+        write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
 

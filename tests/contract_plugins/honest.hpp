@@ -53,11 +53,7 @@ public:
                 out.tap[n + k * out.stride] = sum;
             }
             const double now = stored();
-            if (out.energy) {
-                out.energy[n] = now;
-                out.energy[n + out.stride] = 0;
-                out.energy[n + 2 * out.stride] = before_ - now;
-            }
+            if (out.energy) write_energy(out, n, now, 0, before_ - now);
             spoil(out, n);
             before_ = now;
             for (std::size_t i = 0; i < y_.size(); ++i) {
