@@ -70,10 +70,9 @@ private:
     MacroWindow window_;
     std::vector<BarrierLaw> law_;
     CollocatedContact collocation_;
-    std::vector<std::optional<TouchingSet>>
-        sets_;  // by the bits of their points; empty where there are too many contacts or a law is no spring
     WindowEnergies spending_;
-    std::vector<WindowEnergies::Pairs> pairs_{1};  // of each of sets_; the first: none
+    std::vector<std::optional<WindowEnergies::Touch>>
+        sets_;  // by the bits of their points; empty where there are too many contacts or a law is no spring
     Readout readout_;
     std::vector<Pluck> pluck_;                // none or one
     double tap_rate_, tolerance_, interval_;  // of an interval: windows
@@ -93,9 +92,7 @@ private:
     std::vector<double> r_, path_, moments_, moment_;
     std::vector<std::complex<double>> amplitude_;
     std::vector<int> touched_;
-    TouchingSet* set_ = nullptr;
-    const WindowEnergies::Pairs* split_ = nullptr;
-    std::vector<std::complex<double>> beta_;
+    WindowEnergies::Touch* touch_ = nullptr;    // of the springs that touch; nullptr: none do, or what does goes by collocation
     bool collocated_ = false, onward_ = false;  // this phase, and the one before
     int count_ = 0;                             // moments of this phase
 };
@@ -123,20 +120,16 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     touched_.reserve(contacts);
     for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
     amplitude_.assign(contacts * contacts + 1, 0.0);
-    beta_.assign(contacts + 1, 0.0);
     const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
     if (springs && contacts <= most_sets_of) {
         sets_.resize(1u << contacts);
-        pairs_.resize(sets_.size());
         for (unsigned bits = 1; bits < sets_.size(); ++bits) {
             std::vector<int> points;
             std::vector<double> k;
             for (int a = 0; a < contacts; ++a)
                 if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].stiffness());
             TouchingSet set(window_, points, k);
-            if (!set.solves()) continue;
-            pairs_[bits] = spending_.pairs_of(set);
-            sets_[bits] = std::move(set);
+            if (set.solves()) sets_[bits] = {set, spending_.pairs_of(set)};
         }
     }
     reset();
@@ -240,18 +233,17 @@ void ExactContact::settle() noexcept {
     unsigned bits = 0;
     for (int a = 0; a < w.contacts; ++a)
         if (touching_[a]) touched_.push_back(a), bits |= a < most_sets_of ? 1u << a : 0;
-    set_ = !touched_.empty() && !sets_.empty() && sets_[bits] ? &*sets_[bits] : nullptr;
-    split_ = &pairs_[set_ ? bits : 0];
+    touch_ = !touched_.empty() && !sets_.empty() && sets_[bits] ? &*sets_[bits] : nullptr;
 }
 
 Gap ExactContact::gap(int a, int terms) const noexcept {
-    const int pairs = set_ ? set_->pairs() : 0;
+    const int pairs = touch_ ? touch_->set.pairs() : 0;
     return {touching_[a] ? -1.0 : 1.0,
             path_.data() + static_cast<long>(a) * window_.stride,
             terms,
-            set_ ? set_->growth() : window_.reach,
+            touch_ ? touch_->set.growth() : window_.reach,
             amplitude_.data() + a * pairs,
-            set_ ? set_->rates() : nullptr,
+            touch_ ? touch_->set.rates() : nullptr,
             pairs};
 }
 
@@ -269,16 +261,16 @@ int ExactContact::next_crossing(double& end, int terms) noexcept {
 double ExactContact::phase(double now, double left, bool probe) noexcept {
     MacroWindow& w = window_;
     settle();
-    collocated_ = !touched_.empty() && !set_;
+    collocated_ = !touched_.empty() && !touch_;
     std::fill(known_zero_.begin(), known_zero_.end(), 0);
     double end = left;
     int crossed = -1;
     if (touched_.empty()) {
         std::copy(r_.begin(), r_.end(), path_.begin());
         crossed = next_crossing(end, w.size);
-    } else if (set_) {
-        set_->solve(r_.data(), path_.data(), amplitude_.data());
-        end = std::min(left, set_->span());
+    } else if (touch_) {
+        touch_->set.solve(r_.data(), path_.data(), amplitude_.data());
+        end = std::min(left, touch_->set.span());
         crossed = next_crossing(end, w.size);
     } else {
         end = collocated(left, crossed);
@@ -291,7 +283,7 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
     for (double x = w.reach * end; count_ < w.terms && x > negligible; x *= w.reach * end / count_) ++count_;
     const auto moments_until = [&](double until, int count) {
         for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
-            if (set_) set_->moments(i, path_.data(), amplitude_.data(), until, count, at(moment_, i));
+            if (touch_) touch_->set.moments(i, path_.data(), amplitude_.data(), until, count, at(moment_, i));
             else collocation_.moments(i, until, count, at(moment_, i));
     };
     if (probe && end > 0) {
@@ -306,10 +298,8 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
             for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
                 for (int n = 0; n < w.terms; ++n) M[touched_[i] * w.stride + n] += at(moment_, i)[n];
         };
-        for (int k = 0; set_ && k < set_->pairs(); ++k) beta_[k] = set_->beta(k);
-        spending_.spend({now, now + end, set_ ? set_->growth() : w.reach, y_.data(), u_.data(), *split_, beta_.data()}, all_moments,
-                        energies_);
-        if (!touched_.empty() && !set_) energies_.dissipated += collocation_.dissipated();
+        spending_.spend({now, now + end, y_.data(), u_.data(), touch_}, all_moments, energies_);
+        if (!touched_.empty() && !touch_) energies_.dissipated += collocation_.dissipated();
     }
     moments_until(end, count_);
     move_on(end, left);

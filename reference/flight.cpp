@@ -42,7 +42,7 @@ Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int l
     }
     tolerance_ = std::max(tolerance_, 2 * (w.truncation() + w.rounding()));
     const auto no_forces = [&](double, double* M) { std::fill_n(M, none_.size() - w.stride, 0.0); };
-    if (probe) energies_.spend({0, landing.length, w.reach, y, u, no_pairs_, nullptr}, no_forces, sums.energies);
+    if (probe) energies_.spend({0, landing.length, y, u}, no_forces, sums.energies);
     w.state_at(landing.length, none_.data(), y, u, y, u);
     sums.thread += w.thread_impulse();
     thread_force = w.thread_force();

@@ -35,7 +35,6 @@ private:
     double longest_plucked_ = 1, tolerance_ = 0;  // of a window under the pluck [window]
     std::vector<double> r_, none_;
     WindowEnergies energies_;
-    WindowEnergies::Pairs no_pairs_;
 };
 
 }  // namespace jvari

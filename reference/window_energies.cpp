@@ -6,8 +6,6 @@
 #include <cmath>
 #include <memory>
 
-#include "reference/touching_set.hpp"
-
 namespace jvari {
 
 namespace {
@@ -24,21 +22,20 @@ Complex mean_exponential(Complex z) {
     for (int n = 2; n < 20; ++n) sum += term *= z / double(n);
     return sum;
 }
-// Of f^2 where f grows by e^growth: n!^4/((2n + 1)(2n)!^3) (2 growth)^2n
-double gauss_error(int n, double growth) {
-    return std::exp(4 * std::lgamma(n + 1) - 3 * std::lgamma(2 * n + 1) + 2 * n * std::log(2 * growth)) / (2 * n + 1);
+// f may grow by so much for the error of f^2 by n nodes, n!^4/((2n + 1)(2n)!^3) (2 growth)^2n, to be `allowed`.
+double growth_for(int n, double allowed) {
+    return 0.5 * std::exp((std::log(allowed * (2 * n + 1)) - 4 * std::lgamma(n + 1) + 3 * std::lgamma(2 * n + 1)) / (2 * n));
 }
 }  // namespace
 
-WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolerance)
-    : window_(&w), allowed_(std::max(rounding, of_tolerance * tolerance)) {
+WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolerance) : window_(&w) {
     const int M = w.osc.padded;
     const Springs& s = w.springs;
     const double seconds = w.seconds();
     for (int n = 2; n <= most_nodes; ++n) {
         const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> table(
             gsl_integration_glfixed_table_alloc(n), gsl_integration_glfixed_table_free);
-        Rule rule{n, {}, {}};
+        Rule rule{n, growth_for(n, std::max(rounding, of_tolerance * tolerance)), {}, {}};
         for (int q = 0; q < n; ++q) gsl_integration_glfixed_point(0, 1, q, &rule.node[q], &rule.weight[q], table.get());
         rules_.push_back(rule);
     }
@@ -116,30 +113,31 @@ WindowEnergies::Pairs WindowEnergies::pairs_of(const TouchingSet& set) {
 
 int WindowEnergies::plan(const Stretch& s) noexcept {
     const double whole = s.to - s.from;
-    const double smooth = std::max(s.growth, window_->push_growth());
+    const double smooth = std::max(s.touch ? s.touch->set.growth() : window_->reach, window_->push_growth());
     double slowest = HUGE_VAL, fastest = smooth;
-    for (const Complex& rate : s.pairs.rates) {
-        slowest = std::min(slowest, std::abs(rate));
-        fastest = std::max(fastest, std::abs(rate));
+    for (int k = 0; s.touch && k < s.touch->set.pairs(); ++k) {
+        const double rate = std::abs(s.touch->pairs.rates[k]);
+        slowest = std::min(slowest, rate);
+        fastest = std::max(fastest, rate);
     }
     const auto cut = [&](double growth) { return std::max(1, static_cast<int>(std::ceil(whole * growth / longest))); };
     int pieces = cut(smooth);
-    split_ = !s.pairs.rates.empty() && slowest * whole / pieces > fast;
+    split_ = std::isfinite(slowest) && slowest * whole / pieces > fast;
     if (!split_) pieces = cut(fastest);
     length_ = whole / pieces;
     rule_ = &rules_.back();
-    for (auto r = rules_.rbegin(); !split_ && r != rules_.rend() && gauss_error(r->nodes, fastest * length_) < allowed_; ++r) rule_ = &*r;
+    for (auto r = rules_.rbegin(); !split_ && r != rules_.rend() && fastest * length_ < r->growth; ++r) rule_ = &*r;
     return pieces;
 }
 
 void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) noexcept {
     MacroWindow& w = *window_;
-    const int M = w.osc.padded, P = split_ ? static_cast<int>(s.pairs.rates.size()) : 0;
+    const int M = w.osc.padded, P = split_ ? s.touch->set.pairs() : 0;
     const std::size_t row = moments_.size();
     const double weight = length_ * rule_->weight[q];
     for (int k = 0; k < P; ++k) {  // what is left of them is slow
-        const Complex z = s.beta[k] * std::exp(s.pairs.rates[k] * (at - s.from));
-        const double *re = s.pairs.moments.data() + 2 * k * row, *im = re + row;
+        const Complex z = s.touch->set.beta(k) * std::exp(s.touch->pairs.rates[k] * (at - s.from));
+        const double *re = s.touch->pairs.moments.data() + 2 * k * row, *im = re + row;
         for (std::size_t n = 0; n < row; ++n) moments_[n] -= z.real() * re[n] - z.imag() * im[n];
     }
     w.state_near(at, moments_.data(), s.y, s.u, y_.data(), u_.data());
@@ -149,9 +147,10 @@ void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) no
     const MacroWindow::Push pluck = w.push_at(at);
     if (pluck.force != 0) sums.supplied += weight * pluck.force * dot(w.osc, pluck_.data(), u_.data());
     for (int k = 0; k < P; ++k) {
-        const Complex at_thread(s.pairs.thread[2 * k], s.pairs.thread[2 * k + 1]);
-        lost_to_[k * most_nodes + q] = 2.0 * (s.pairs.against(lost_, k, w.osc) + thread_loss_ * thread * at_thread);
-        gained_by_[k * most_nodes + q] = pluck.force * s.pairs.pluck[k];
+        const Pairs& p = s.touch->pairs;
+        const Complex at_thread(p.thread[2 * k], p.thread[2 * k + 1]);
+        lost_to_[k * most_nodes + q] = 2.0 * (p.against(lost_, k, w.osc) + thread_loss_ * thread * at_thread);
+        gained_by_[k * most_nodes + q] = pluck.force * p.pluck[k];
     }
     if (w.series()) {
         const auto p = w.series_power(y_.data(), pluck);
@@ -162,9 +161,10 @@ void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) no
 
 // int e^(lambda (t - from)) P_j dt of a piece: by parts, exact; P_j^(m)(1) = (j + m)!/(2^m m! (j - m)!).
 void WindowEnergies::add_pairs(const Stretch& s, double start, Sums& sums) noexcept {
-    const int P = static_cast<int>(s.pairs.rates.size());
+    const Pairs& p = s.touch->pairs;
+    const int P = s.touch->set.pairs();
     for (int k = 0; k < P; ++k) {
-        const Complex rate = s.pairs.rates[k], z = 0.5 * rate * length_;
+        const Complex rate = p.rates[k], beta = s.touch->set.beta(k), z = 0.5 * rate * length_;
         const Complex first = std::exp(rate * (start - s.from)), last = std::exp(rate * (start + length_ - s.from));
         Complex lost = 0, gained = 0;
         for (int j = 0; j < most_nodes; ++j) {
@@ -181,17 +181,16 @@ void WindowEnergies::add_pairs(const Stretch& s, double start, Sums& sums) noexc
             lost += lost_j * integral;
             gained += gained_j * integral;
         }
-        sums.dissipated += 0.5 * length_ * (s.beta[k] * lost).real();
-        sums.supplied += 0.5 * length_ * (s.beta[k] * gained).real();
+        sums.dissipated += 0.5 * length_ * (beta * lost).real();
+        sums.supplied += 0.5 * length_ * (beta * gained).real();
         for (int l = 0; l < P; ++l) {
             const auto integral = [&](Complex a, Complex b) {  // of e^((a + b)(t - from))
                 return std::exp((a + b) * (start - s.from)) * mean_exponential((a + b) * length_) * length_;
             };
-            const Complex other = s.pairs.rates[l];
-            sums.dissipated +=
-                0.5 * (s.beta[k] * s.beta[l] * s.pairs.product[k * P + l] * integral(rate, other) +
-                       s.beta[k] * std::conj(s.beta[l]) * s.pairs.product_of_conjugate[k * P + l] * integral(rate, std::conj(other)))
-                          .real();
+            const Complex other = p.rates[l], beta_l = s.touch->set.beta(l);
+            sums.dissipated += 0.5 * (beta * beta_l * p.product[k * P + l] * integral(rate, other) +
+                                      beta * std::conj(beta_l) * p.product_of_conjugate[k * P + l] * integral(rate, std::conj(other)))
+                                         .real();
         }
     }
 }

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "reference/macro_window.hpp"
+#include "reference/touching_set.hpp"
 
 namespace jvari {
-
-class TouchingSet;
 
 class WindowEnergies {
 public:
@@ -24,7 +23,7 @@ public:
         double supplied = 0, dissipated = 0;  // [J]
     };
 
-    // What the pairs of one touching set do to all that loses or gains, per unit of beta. Those of no set: none.
+    // What the pairs of one touching set do to all that loses or gains, per unit of beta; of a soft set: none.
     struct Pairs {
         std::vector<std::complex<double>> rates;                          // [1/window]
         std::vector<double> moments;                                      // [2 pair][contact x stride]: real and imaginary part
@@ -34,13 +33,16 @@ public:
         std::complex<double> against(const std::vector<double>& row, int pair, const Oscillators&) const;  // row' W_k
     };
     Pairs pairs_of(const TouchingSet&);  // spoils the window that is open
+    struct Touch {
+        TouchingSet set;
+        Pairs pairs;
+    };
 
     // Between two instants of the window that is open on (y, u).
     struct Stretch {
-        double from, to, growth;  // of the motion but for its pairs, in a window
+        double from, to;
         const double *y, *u;
-        const Pairs& pairs;                // they began at `from`
-        const std::complex<double>* beta;  // [pair]
+        const Touch* touch = nullptr;  // solved at `from`; nullptr: no springs touch
     };
     // moments(at, M) gives the contact forces' moments M[contact][stride].
     template <class Moments>
@@ -61,6 +63,7 @@ private:
     static constexpr int most_nodes = 12;
     struct Rule {  // Gauss-Legendre on 0 ... 1
         int nodes;
+        double growth;  // of what it integrates well over a piece, in powers of e
         double node[most_nodes], weight[most_nodes];
     };
     int plan(const Stretch&) noexcept;  // how many pieces; sets what is below
@@ -68,7 +71,6 @@ private:
     void add_pairs(const Stretch&, double start, Sums&) noexcept;
 
     MacroWindow* window_;
-    double allowed_;                              // error of an integral over a piece, relative
     std::vector<Rule> rules_;                     // the coarsest first
     std::vector<double> loss_;                    // [mode]: J per squared displacement in a window
     double thread_loss_ = 0;                      // and of the thread's point
