@@ -32,13 +32,12 @@ double median_of(const std::vector<Ratio>& ratios, Of of) {
 
 // Cells of one rate are timed in turn, so they drift together; too few of them drift with all.
 void take_off_drift(std::vector<Ratio>& ratios) {
-    const double of_all = median_of(ratios, [](const Ratio& r) { return r.value; });
+    const auto middle = [](const std::vector<Ratio>& of) { return median_of(of, [](const Ratio& r) { return r.value; }); };
     std::map<std::string, std::vector<Ratio>> by_rate;
     for (const Ratio& r : ratios) by_rate[r.rate].push_back(r);
-    for (Ratio& r : ratios) {
-        const std::vector<Ratio>& beside = by_rate[r.rate];
-        r.drift = beside.size() < fewest_series ? of_all : median_of(beside, [](const Ratio& x) { return x.value; });
-    }
+    std::map<std::string, double> drift;
+    for (const auto& [rate, beside] : by_rate) drift[rate] = middle(beside.size() < fewest_series ? ratios : beside);
+    for (Ratio& r : ratios) r.drift = drift[r.rate];
 }
 
 struct Noise {
