@@ -58,7 +58,7 @@ TEST(FileLock, WhoWaitsForAReferenceMayBeToldToEnd) {
     append(scratch / "key.run.lock", "elsewhere boot pid:[1] 1 1");
     struct Enough {};
     int asked = 0;
-    const auto waiting = [&asked] {
+    const auto waiting = [&asked](long, long) {
         if (++asked == 4) throw Enough{};
     };
     EXPECT_THROW(bench::trust::kept_run(

@@ -43,8 +43,8 @@ std::string entries_text(const Certificate& c) {
     std::string text = fmt::format("  {:>2}  {:<44} {:<14} {:>9} {:>9}\n", "", "reference", "status", "until", "cost");
     for (std::size_t i = 0; i < c.entries.size(); ++i) {
         const auto& e = c.entries[i];
-        const std::string name = e.reference + (e.sample_rate > 0 ? fmt::format(" at {:.10g} Hz", e.sample_rate) : "") +
-                                 (e.options.empty() ? "" : " " + store::options_text(e.options)) +
+        const std::string name = store::variant_name(e.reference + (e.sample_rate > 0 ? fmt::format(" at {:.10g} Hz", e.sample_rate) : ""),
+                                                     store::options_text(e.options)) +
                                  (e.doubled.empty() ? "" : ", twice the " + e.doubled);
         if (!e.reason.empty()) text += fmt::format("  {:>2}  {:<44} refused: {}\n", i + 1, name, e.reason);
         else

@@ -72,10 +72,9 @@ std::string table_text(const suite::SuitePlan& plan, const suite::SuiteRun& run,
         ++statuses[row.at(0, "status")];
         std::string what = c.point->scene.name;
         for (const auto& [key, value] : c.point->swept) what += " " + key + "=" + value;
-        const std::string options = store::options_text(c.cell.settings.options);
         const double cost = row.number(0, "cost_s_per_s");
-        rows.push_back({what, c.cell.scheme->name + (options.empty() ? "" : " " + options), row.at(0, "rate"), row.at(0, "modes"),
-                        row.at(0, "status"), compare::error_text(compare::bound_of(row, 0, headline), "{:.2e}"),
+        rows.push_back({what, store::variant_name(c.cell.scheme->name, store::options_text(c.cell.settings.options)), row.at(0, "rate"),
+                        row.at(0, "modes"), row.at(0, "status"), compare::error_text(compare::bound_of(row, 0, headline), "{:.2e}"),
                         std::isnan(cost) ? "" : fmt::format("{:.3g}", cost), row.at(0, "reason")});
     }
     std::array<std::size_t, 8> widths{};

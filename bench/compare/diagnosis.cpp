@@ -26,9 +26,8 @@ std::string rate_text(double hertz) {
 }
 
 std::string cell_name(const store::Table& cells, std::size_t row) {
-    const std::string& options = cells.at(row, "options");
     const double rate = cells.number(row, "rate");
-    return cells.at(row, "scheme") + (options.empty() ? "" : " " + options) + (std::isnan(rate) ? "" : " at " + rate_text(rate));
+    return store::variant_name(cells.at(row, "scheme"), cells.at(row, "options")) + (std::isnan(rate) ? "" : " at " + rate_text(rate));
 }
 
 std::optional<std::size_t> least(const store::Table& cells, const store::Rows& rows, const std::string& column) {

@@ -28,7 +28,7 @@ WorkPrecision along(WorkPrecision w, const std::string& key) {
     std::erase_if(w.cells.rows, [&](auto& row) {
         if (!std::isfinite(store::number_of(row[at]))) return true;
         if (key != "modes") return false;
-        const std::string name = row[scheme] + (options < 0 || row[options].empty() ? "" : " " + row[options]);
+        const std::string name = store::variant_name(row[scheme], options < 0 ? "" : row[options]);
         const bool alone = row[series] == name;  // one number of modes at each rate
         row[series] = name;
         return alone;

@@ -10,9 +10,9 @@ namespace {
 store::Table labelled(store::Table path) {
     path.columns.insert(path.columns.end(), {"label", "series"});
     for (std::size_t i = 0; i < path.rows.size(); ++i) {
-        const std::string &scheme = path.at(i, "scheme"), &options = path.at(i, "options");
         auto& row = path.rows[i];
-        const std::string label = fmt::format("{}. {}", row[0], row[1]), series = scheme + (options.empty() ? "" : " ") + options;
+        const std::string label = fmt::format("{}. {}", row[0], row[1]),
+                          series = store::variant_name(path.at(i, "scheme"), path.at(i, "options"));
         row.insert(row.end(), {label, series});
     }
     return path;

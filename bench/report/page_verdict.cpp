@@ -64,7 +64,7 @@ store::Table table_of(const store::Table& own, const std::string& name, compare:
         std::string certain = bounded ? "at most that much, with what the truth is uncertain to" : "measured";
         if (!ties.empty()) certain += "; a tie with " + ties;
         if (!perhaps.empty()) certain += "; perhaps for less " + perhaps;
-        t.rows.push_back({wanted(cheapest, i), cheapest.at(i, "scheme") + (options.empty() ? "" : " " + options),
+        t.rows.push_back({wanted(cheapest, i), store::variant_name(cheapest.at(i, "scheme"), options),
                           rate_text(cheapest.number(i, "rate")), (bounded ? "\u2264 " : "") + error_text(bounded ? bound : error, measure),
                           fmt::format("{:.2g} ms", 1e3 * cheapest.number(i, "cost_s_per_s")), certain});
     }

@@ -77,9 +77,8 @@ void name_rows(store::Table& t, const std::string& scene) {
     std::map<std::string, std::set<std::string>> modes;  // of a scheme on a problem at a rate
     const auto place = [&](std::size_t i) { return problems[i] + "|" + names[i] + "|" + t.at(i, "rate"); };
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        const std::string& options = t.at(i, "options");
         problems.push_back(problem_of(t, i, keys, scene));
-        names.push_back(t.at(i, "scheme") + (options.empty() ? "" : " " + options));
+        names.push_back(store::variant_name(t.at(i, "scheme"), t.at(i, "options")));
         modes[place(i)].insert(t.at(i, "modes"));
     }
     std::set<std::string> several;  // schemes with more than one number of modes at a rate; without a rate, modes are its steps

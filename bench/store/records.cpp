@@ -29,6 +29,10 @@ std::string options_text(const Options& options) {
     return text;
 }
 
+std::string variant_name(const std::string& scheme, const std::string& options) {
+    return options.empty() ? scheme : scheme + " " + options;
+}
+
 int Table::column(const std::string& name) const {
     const auto found = std::find(columns.begin(), columns.end(), name);
     return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());

@@ -12,8 +12,9 @@ namespace jvari::bench::store {
 std::string text_of(double);
 double number_of(const std::string&);  // NaN for "" and for what is no number
 
-using Options = std::vector<std::pair<std::string, std::string>>;  // of a scheme: name, value
-std::string options_text(const Options&);                          // "control=none tolerance=1e-9"
+using Options = std::vector<std::pair<std::string, std::string>>;                 // of a scheme: name, value
+std::string options_text(const Options&);                                         // "control=none tolerance=1e-9"
+std::string variant_name(const std::string& scheme, const std::string& options);  // "sitar_fdm control=none", or the scheme alone
 
 struct Table {
     std::vector<std::string> columns;

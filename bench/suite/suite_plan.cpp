@@ -117,8 +117,7 @@ SuitePlan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const
 std::string what_of(const PlannedCell& c) {
     std::string text = c.point->scene.name;
     for (const auto& [key, value] : c.point->swept) text += " " + key + "=" + value;
-    const std::string options = store::options_text(c.cell.settings.options);
-    text += ": " + std::string(c.cell.scheme->name) + (options.empty() ? "" : " " + options);
+    text += ": " + store::variant_name(c.cell.scheme->name, store::options_text(c.cell.settings.options));
     if (c.cell.settings.sample_rate > 0) text += fmt::format(" at {} Hz", c.cell.settings.sample_rate);
     return text;
 }

@@ -17,7 +17,7 @@ constexpr double first_looks[] = {1, 4};  // multiples of the tap rate
 }  // namespace
 
 std::string Variant::name() const {
-    return options.empty() ? scheme->name : fmt::format("{} {}", scheme->name, store::options_text(options));
+    return store::variant_name(scheme->name, store::options_text(options));
 }
 
 std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene) {

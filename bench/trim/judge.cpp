@@ -65,8 +65,7 @@ double timed(Scheme& scheme, const Scene& scene, const Settings& settings) {
 }  // namespace
 
 std::string Model::settings_text() const {
-    std::string text = scheme->name;
-    if (!settings.options.empty()) text += " " + store::options_text(settings.options);
+    std::string text = store::variant_name(scheme->name, store::options_text(settings.options));
     if (settings.modes > 0) text += fmt::format(", {} modes", settings.modes);
     return text + fmt::format(", {:g} Hz", settings.sample_rate);
 }

@@ -34,7 +34,7 @@ double covering(const Certificate::ByWindow& values, double end, double reached)
 }
 
 std::string name_of(const Certificate::Entry& e) {
-    return e.reference + (e.options.empty() ? "" : " " + store::options_text(e.options));
+    return store::variant_name(e.reference, store::options_text(e.options));
 }
 
 struct Evidence {
@@ -71,7 +71,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
         return e.reference == reference && e.options == options && e.doubled.empty() && e.reason.empty();
     });
     if (mine == c.entries.end()) {
-        t.missing = "the certificate of this scene has no " + reference + (options.empty() ? "" : " " + store::options_text(options));
+        t.missing = "the certificate of this scene has no " + store::variant_name(reference, store::options_text(options));
         return t;
     }
     std::vector<Evidence> independent, same;

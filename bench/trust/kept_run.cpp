@@ -95,12 +95,12 @@ std::optional<Run> read_run(const fs::path& path, const std::string& key) noexce
 }
 
 Run kept_run(const fs::path& folder, const std::string& key, const std::function<Run()>& make, double least,
-             const std::function<void()>& waiting) {
+             const std::function<void(long, long)>& waiting) {
     if (folder.empty()) return make();
     const fs::path path = folder / (key + ".run");
     std::optional<Run> kept;
     const auto there = [&] {
-        if (waiting) waiting();
+        if (waiting) waiting(0, 1);
         std::error_code error;
         return fs::exists(path, error) && (kept = read_run(path, key));
     };
