@@ -50,4 +50,19 @@ EnergyBalance energy_balance(const Trace& trace) {
     return energy_balance(trace.energy_column(0), trace.energy_column(1), trace.energy_column(2));
 }
 
+EnergyGain energy_gain(const Trace& t) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (t.energy.empty() || t.rows < 1) return {nan, nan};
+    const auto stored = t.energy_column(0), supplied = t.energy_column(1), dissipated = t.energy_column(2);
+    double budget = std::abs(stored[0]), ledger = stored[0], gain = 0, last = 0;
+    for (long n = 1; n < t.rows; ++n) {
+        budget += std::abs(supplied[n]);
+        ledger += supplied[n] - std::max(dissipated[n], 0.0);
+        last = std::max(last, std::abs(stored[n]));
+        if (budget > 0) gain = std::max(gain, (stored[n] - ledger) / budget);
+    }
+    if (!(budget > 0) && last == 0) return {nan, nan};
+    return {budget, gain};
+}
+
 }  // namespace jvari

@@ -26,4 +26,11 @@ struct EnergyBalance {
 EnergyBalance energy_balance(std::span<const double> stored, std::span<const double> supplied, std::span<const double> dissipated);
 EnergyBalance energy_balance(const Trace&);  // all NaN where the run was not probed
 
+// What a run gained, for schemes whose balance need not close: all by size, and a loss that feeds energy in counts as none.
+struct EnergyGain {
+    double budget;   // stored at the start and all that was supplied [J]
+    double largest;  // excess of the stored energy over the ledger, relative to the budget at that row
+};
+EnergyGain energy_gain(const Trace&);  // NaN where the run was not probed, or its columns are empty
+
 }  // namespace jvari

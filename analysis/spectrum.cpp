@@ -195,6 +195,24 @@ std::vector<double> centroid_track(const Spectrogram& s) {
     return track;
 }
 
+double centroid_difference(std::span<const double> candidate, std::span<const double> reference, double rate) {
+    constexpr int window = 2048, hop = 512;
+    if (candidate.size() < reference.size()) return inf;
+    const Spectrogram c = spectrogram(candidate.first(reference.size()), rate, window, hop), r = spectrogram(reference, rate, window, hop);
+    const auto of_c = centroid_track(c), of_r = centroid_track(r);
+    const auto power_of = [](std::span<const double> bins) { return std::accumulate(bins.begin(), bins.end(), 0.0); };
+    double strongest = 0, sum = 0;
+    int frames = 0;
+    for (int m = 0; m < r.frames; ++m) strongest = std::max(strongest, power_of(r.frame(m)));
+    for (int m = 0; m < r.frames; ++m) {
+        if (!(power_of(r.frame(m)) > 1e-6 * strongest)) continue;
+        if (!std::isfinite(of_c[m])) return inf;
+        sum += (of_c[m] - of_r[m]) * (of_c[m] - of_r[m]);
+        ++frames;
+    }
+    return frames > 0 ? std::sqrt(sum / frames) : nan;
+}
+
 std::vector<double> spectral_envelope(const PowerSpectrum& spectrum, double width_hz) {
     const long bins = static_cast<long>(spectrum.power.size());
     const long half = bins > 0 ? std::lround(std::max(0.0, 0.5 * width_hz / spectrum.bin_hz)) : 0;

@@ -74,6 +74,10 @@ StftDifference multi_resolution_stft_difference(std::span<const double> candidat
 // Spectral centroid of each frame [Hz]: sum f P/sum P over the bins' powers; NaN where a frame holds none.
 std::vector<double> centroid_track(const Spectrogram&);
 
+// Root mean square difference of two centroid tracks [Hz], frames of 2048 rows every 512, over those within 60 dB of the reference's
+// strongest.
+double centroid_difference(std::span<const double> candidate, std::span<const double> reference, double rate);
+
 // Upper envelope [dB]: at each bin the largest level within half of `width_hz` on either side. A width above the spacing of the
 // partials joins their peaks.
 std::vector<double> spectral_envelope(const PowerSpectrum&, double width_hz);

@@ -5,7 +5,10 @@
 #include <dlfcn.h>
 #include <sys/auxv.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace jvari {
 
@@ -18,6 +21,16 @@ inline std::filesystem::path installed(const char* what) {
     for (auto at = std::filesystem::canonical(file, error); at.has_relative_path(); at = at.parent_path())
         if (auto place = at.parent_path() / "share" / "jvari" / what; std::filesystem::exists(place, error)) return place;
     return {};
+}
+
+// What a library has: the names of its .toml files, sorted. None where there is no such folder.
+inline std::vector<std::string> toml_names(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 }  // namespace jvari

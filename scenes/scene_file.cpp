@@ -42,12 +42,7 @@ std::string path_of(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> library_scenes() {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(library(), error))
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
+    return toml_names(library());
 }
 
 std::string library_text(const std::string& name) {

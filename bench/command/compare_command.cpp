@@ -134,9 +134,7 @@ int compare_command(const CompareCall& r) {
     const int code = code_of(c);
     console.print_json(store::indented({{"scene", c.scene.name},
                                         {"reference", c.reference_name},
-                                        {"status", code == exit_code::done      ? "ok"
-                                                   : code == exit_code::refused ? "refused"
-                                                                                : "failed"},
+                                        {"status", exit_code::status(code)},
                                         {"manifest", Json::parse(manifest)},
                                         {"cells", Json::parse(store::rows_json(compare::with_bounds(cells)))},
                                         {"cheapest", Json::parse(store::rows_json(cheapest))},

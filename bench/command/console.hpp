@@ -10,7 +10,10 @@ namespace jvari::bench::command {
 
 namespace exit_code {
 constexpr int done = 0, bad_usage = 2, refused = 3, run_failed = 4;
+constexpr const char* status(int code) {  // as --json says it
+    return code == done ? "ok" : code == refused ? "refused" : "failed";
 }
+}  // namespace exit_code
 
 // Before any file is opened: none takes the number of a standard stream that the caller closed; and what cannot be written, to a pipe that
 // nobody reads or past a limit of file size, is an error of writing (Unwritable) where by default it would be a signal and the end.

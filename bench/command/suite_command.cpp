@@ -182,9 +182,8 @@ int suite_command(const SuiteRequest& r) {
     if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);
     if (!missing.empty()) console.note(missing_text(missing));
     const int code = missing.empty() ? code_of(run.records) : exit_code::run_failed;
-    const char* status = code == exit_code::done ? "ok" : code == exit_code::refused ? "refused" : "failed";
     console.print_json(store::indented({{"suite", suite.name},
-                                        {"status", status},
+                                        {"status", exit_code::status(code)},
                                         {"ran", run.ran},
                                         {"timed", run.timed},
                                         {"read_back", run.read_back},

@@ -13,30 +13,6 @@ namespace jvari::bench::compare {
 namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double power_of(std::span<const double> bins) {
-    double sum = 0;
-    for (double p : bins) sum += p;
-    return sum;
-}
-
-// Root mean square difference of the centroid tracks [Hz], frames of 2048 rows, over the frames within 60 dB of the reference's strongest.
-double centroid_difference(std::span<const double> candidate, std::span<const double> reference, double rate) {
-    constexpr int window = 2048, hop = 512;
-    if (candidate.size() < reference.size()) return std::numeric_limits<double>::infinity();
-    const Spectrogram c = spectrogram(candidate.first(reference.size()), rate, window, hop), r = spectrogram(reference, rate, window, hop);
-    const auto of_c = centroid_track(c), of_r = centroid_track(r);
-    double strongest = 0, sum = 0;
-    int frames = 0;
-    for (int m = 0; m < r.frames; ++m) strongest = std::max(strongest, power_of(r.frame(m)));
-    for (int m = 0; m < r.frames; ++m) {
-        if (!(power_of(r.frame(m)) > 1e-6 * strongest)) continue;
-        if (!std::isfinite(of_c[m])) return std::numeric_limits<double>::infinity();
-        sum += (of_c[m] - of_r[m]) * (of_c[m] - of_r[m]);
-        ++frames;
-    }
-    return frames > 0 ? std::sqrt(sum / frames) : nan;
-}
-
 std::vector<double> errors_of(std::span<const double> c, std::span<const double> r, double rate) {
     const StftDifference stft = multi_resolution_stft_difference(c, r, rate);
     return {relative_l2(c, r, rate, {0, 10e-3}),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/energy.hpp"
 #include "analysis/error.hpp"
 #include "bench/compare/summary.hpp"
 
@@ -17,24 +18,6 @@ constexpr std::array all = {Verdict::sound,          Verdict::unjudged,      Ver
                             Verdict::energy_gaining, Verdict::not_converged, Verdict::diverged,   Verdict::refused};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double listening_points[] = {0.3, 0.437};  // of the length: no low mode has a node at both
-
-struct Energy {
-    double budget = nan;  // E at the end: stored at the start and all that was supplied, by its size [J]
-    double gain = nan;    // largest excess over the ledger, each relative to E at that row
-};
-Energy energy_of(const Trace& t) {
-    if (t.energy.empty() || t.rows < 1) return {};
-    const auto stored = t.energy_column(0), supplied = t.energy_column(1), dissipated = t.energy_column(2);
-    double budget = std::abs(stored[0]), ledger = stored[0], gain = 0, last = 0;
-    for (long n = 1; n < t.rows; ++n) {
-        budget += std::abs(supplied[n]);
-        ledger += supplied[n] - std::max(dissipated[n], 0.0);  // a loss that feeds energy in is no loss
-        last = std::max(last, std::abs(stored[n]));
-        if (budget > 0) gain = std::max(gain, (stored[n] - ledger) / budget);
-    }
-    if (!(budget > 0) && last == 0) return {};  // the columns are left empty
-    return {budget, gain};
-}
 
 double largest(std::span<const double> values) {  // infinite where a value is not finite
     double most = 0;
@@ -88,8 +71,8 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& sett
     Figures f;
     f.status = run.status;
     f.balance = d.balance;
-    const Energy energy = energy_of(run.trace);
-    f.energy_gain = energy.gain;
+    const EnergyGain energy = energy_gain(run.trace);
+    f.energy_gain = energy.largest;
     f.displacement = f.pull = f.error = nan;
     const double least = compare::fact(run.facts, facts::smallest_contact_force);
     for (int k = 0; k < run.trace.taps(); ++k) {

@@ -161,12 +161,7 @@ Suite read_suite(const std::string& name) {
 }
 
 std::vector<std::string> library_suites() {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(library(), error))
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
+    return toml_names(library());
 }
 
 std::vector<SuitePoint> points_of(const Suite& suite) {
