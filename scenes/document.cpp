@@ -47,7 +47,7 @@ std::vector<std::string> parts_of(std::string_view path) {
 }  // namespace
 
 const Value* Value::find(std::string_view key) const {
-    const auto* table = std::get_if<Table>(&content);
+    const auto* table = std::get_if<TomlTable>(&content);
     if (!table) return nullptr;
     const auto member = std::find_if(table->begin(), table->end(), [key](const Member& m) { return m.key == key; });
     return member == table->end() ? nullptr : &member->value;
@@ -61,7 +61,7 @@ std::string Value::found() const {
         std::string operator()(const std::string& s) const { return found_text(s); }
         std::string operator()(const Moment&) const { return "a date or time"; }
         std::string operator()(const Array&) const { return "an array"; }
-        std::string operator()(const Table&) const { return "a table"; }
+        std::string operator()(const TomlTable&) const { return "a table"; }
     };
     return std::visit(Says{}, content);
 }
@@ -119,7 +119,7 @@ struct Reading {
         Value v;
         v.place = place ? place : line > 0 ? line : 1;
         if (const auto* table = node.as_table()) {
-            Table members;
+            TomlTable members;
             for (const auto& [key, child] : *table) members.push_back({std::string(key.str()), value(child, level + 1)});
             const auto line_of = [](const Member& m) { return m.value.place; };
             std::stable_sort(members.begin(), members.end(), [&](const Member& a, const Member& b) { return line_of(a) < line_of(b); });
@@ -158,7 +158,7 @@ struct Reading {
 Value override_value(std::string_view text, const Reading& reading) {
     const auto one = [&](std::string_view value) {
         Value root = reading.parse("value = " + std::string(value));
-        auto& table = std::get<Table>(root.content);
+        auto& table = std::get<TomlTable>(root.content);
         if (table.size() != 1) throw SceneFileError(reading.at(0) + ": found a line break in the value");
         return std::move(table.front().value);
     };
@@ -188,14 +188,14 @@ Value& reach(Value& root, const std::vector<std::string>& path, const std::strin
             const auto index = is_index(part) ? index_in(part) : std::nullopt;
             if (!index || *index > array->size())
                 refuse(is_index(part) ? "index " + part : found_text(part), "an index from 0 to " + std::to_string(array->size()));
-            if (*index == array->size()) array->push_back({Table{}, place});
+            if (*index == array->size()) array->push_back({TomlTable{}, place});
             at = &(*array)[*index];
-        } else if (auto* table = std::get_if<Table>(&at->content)) {
+        } else if (auto* table = std::get_if<TomlTable>(&at->content)) {
             if (part.empty()) throw SceneFileError(where + ": found an empty part in the key, expected key.path=value");
             const auto member = std::find_if(table->begin(), table->end(), [&](const Member& m) { return m.key == part; });
             if (member == table->end()) {
                 const bool array_follows = i + 1 < path.size() && is_index(path[i + 1]);
-                table->push_back({part, array_follows ? Value{Array{}, place} : Value{Table{}, place}});
+                table->push_back({part, array_follows ? Value{Array{}, place} : Value{TomlTable{}, place}});
                 at = &table->back().value;
             } else {
                 at = &member->value;

@@ -12,11 +12,11 @@ namespace jvari {
 struct Value;
 struct Member;
 using Array = std::vector<Value>;
-using Table = std::vector<Member>;
+using TomlTable = std::vector<Member>;
 struct Moment {};  // a date or a time: TOML has them, scenes do not
 
 struct Value {
-    std::variant<bool, std::int64_t, double, std::string, Moment, Array, Table> content;
+    std::variant<bool, std::int64_t, double, std::string, Moment, Array, TomlTable> content;
     int place = 1;  // line of the file, or -1 - i for the i-th override
 
     const Value* find(std::string_view key) const;  // nullptr: no table, or not in it

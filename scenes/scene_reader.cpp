@@ -82,10 +82,10 @@ public:
 
     template <class Part>
     void read(Part& part) {
-        if (!std::holds_alternative<Table>(table_.content)) fail(table_, path_, table_.found(), "a table");
+        if (!std::holds_alternative<TomlTable>(table_.content)) fail(table_, path_, table_.found(), "a table");
         Names names{table_};
         fields(names, part);
-        for (const Member& m : std::get<Table>(table_.content)) refuse_unknown(m, names);
+        for (const Member& m : std::get<TomlTable>(table_.content)) refuse_unknown(m, names);
         fields(*this, part);
     }
 

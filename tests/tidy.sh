@@ -1,7 +1,6 @@
 #!/bin/sh
 # clang-tidy (14) with the checks of .clang-tidy; every finding is an error. Exit 77 where clang-tidy is missing.
-# usage: tidy.sh headers (of all folders but bench, which needs no build) | BUILD all | BUILD BASE (sources changed since a commit) |
-#        BUILD FILES ...
+# usage: tidy.sh headers (all in one, which needs no build) | BUILD all | BUILD BASE (sources changed since a commit) | BUILD FILES ...
 cd "$(dirname "$0")/.." || exit 2
 [ "$1" = headers ] || [ $# -ge 2 ] || { echo "usage: tidy.sh headers | BUILD all|BASE|FILES ..." >&2; exit 2; }
 tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || { echo "no clang-tidy here" >&2; exit 77; }
@@ -12,7 +11,7 @@ judge() {
     exit 0
 }
 if [ "$1" = headers ]; then
-    find scenes schemes reference analysis -name '*.hpp' | sort | sed 's|.*|#include "&"|' >"$said/headers.cpp"
+    find scenes schemes reference analysis bench -name '*.hpp' | sort | sed 's|.*|#include "&"|' >"$said/headers.cpp"
     "$tidy" --quiet --config-file=.clang-tidy "$said/headers.cpp" -- -std=c++20 -I. >"$said/text" 2>/dev/null
     judge
 fi

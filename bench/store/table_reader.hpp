@@ -1,5 +1,4 @@
-// What every table of a suite file is read by, so that messages carry file, line and key as those of scenes do. Not to be included beside
-// bench/store/records.hpp, whose Table is another.
+// What every table of a suite file is read by, so that messages carry file, line and key as those of scenes do.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +21,7 @@ public:
         throw SceneFileError(document_.place(v.place) + ": " + key + ": found " + v.found() + ", expected " + expected);
     }
     void only(const Value& table, const std::string& within, const std::vector<std::string>& known) const {
-        for (const Member& m : std::get<Table>(table.content))
+        for (const Member& m : std::get<TomlTable>(table.content))
             if (std::find(known.begin(), known.end(), m.key) == known.end())
                 throw SceneFileError(document_.place(m.value.place) + ": " + within + unknown("key", m.key, known));
     }
@@ -50,7 +49,7 @@ public:
     std::string toml(const Value& v, const std::string& key) const {  // a value as it could stand behind --set key=
         if (const auto* s = std::get_if<std::string>(&v.content)) return quote(*s);
         if (const auto* x = std::get_if<double>(&v.content)) return number_text(*x);
-        if (std::holds_alternative<Table>(v.content) || std::holds_alternative<Moment>(v.content)) refuse(v, key, "a value");
+        if (std::holds_alternative<TomlTable>(v.content) || std::holds_alternative<Moment>(v.content)) refuse(v, key, "a value");
         if (const auto* items = std::get_if<Array>(&v.content)) {
             std::string text = "[";
             for (const Value& item : *items) text += (text.size() > 1 ? ", " : "") + toml(item, key);
@@ -73,8 +72,8 @@ public:
         if (all.empty()) refuse(v, key, "at least one value");
         return all;
     }
-    const Table& table(const Value& v, const std::string& key) const {
-        if (const auto* t = std::get_if<Table>(&v.content)) return *t;
+    const TomlTable& table(const Value& v, const std::string& key) const {
+        if (const auto* t = std::get_if<TomlTable>(&v.content)) return *t;
         refuse(v, key, "a table");
     }
     std::string place(const Value& v) const { return document_.place(v.place); }

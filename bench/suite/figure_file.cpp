@@ -17,9 +17,9 @@ struct Entry {  // a value and the way to it
     std::string key;
 
     [[noreturn]] void refuse(const std::string& expected) const { read->refuse(*value, key, expected); }
-    const Table& table() const { return read->table(*value, key); }
-    const Table& table(const std::vector<std::string>& known) const {
-        const Table& t = table();
+    const TomlTable& table() const { return read->table(*value, key); }
+    const TomlTable& table(const std::vector<std::string>& known) const {
+        const TomlTable& t = table();
         read->only(*value, key + ": ", known);
         return t;
     }
@@ -87,7 +87,7 @@ struct Entry {  // a value and the way to it
 
 std::string dump(const Value& v) {
     std::string text;
-    if (const auto* table = std::get_if<Table>(&v.content)) {
+    if (const auto* table = std::get_if<TomlTable>(&v.content)) {
         for (const Member& m : *table) text += (text.empty() ? "" : ",") + m.key + "=" + dump(m.value);
         return "{" + text + "}";
     }
