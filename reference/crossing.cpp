@@ -23,6 +23,18 @@ Gap::Values Gap::at(double u, int terms) const noexcept {
     return v;
 }
 
+Gap::Values Gap::at_start() const noexcept {
+    Values v = {sign * p[0], sign * p[1], sign * p[2], sign * p[0], sign * p[1], sign * p[2], 0};
+    for (int k = 0; k < pairs; ++k) {
+        const std::complex<double> b1 = lambda[k] * b[k];
+        v.g += sign * b[k].real();
+        v.slope += sign * b1.real();
+        v.curvature += sign * (lambda[k] * b1).real();
+        v.amplitude += std::sqrt(std::norm(b[k]));
+    }
+    return v;
+}
+
 int Gap::terms_until(double u) const noexcept {
     const double z = growth * u;
     return z < 0.04 ? std::min(size, 8) : z < 0.6 ? std::min(size, 16) : size;  // z^8/8! and z^16/16! are below 1e-15 and 1e-16
@@ -50,54 +62,73 @@ double safe_step(double g, double slope, double curvature, double third, double 
     double reach = std::min(cap, 4 * first);
     return std::max(first, std::min(reach, by(bend + third * reach / 3)));
 }
-// first_crossing from `from` on, where the gap is `v`; where there is none, v becomes the gap at `end`.
-double crossing_within(const Gap& gap, double from, double end, double bound, Gap::Values& v) noexcept {
-    const int terms = gap.terms_until(end);
+
+struct Bounds {  // of derivatives from the start to `until`
+    double until;
+    int terms;
+    double second, third, slow_third;
+};
+Bounds bounds_until(const Gap& gap, double until) noexcept {
+    Bounds b{until, gap.terms_until(until), 0, 0, 0};
     double of_slow[2];
-    sweep_functions().bound(gap.p, terms, end, of_slow);
-    double second = of_slow[0], third = of_slow[1];
+    sweep_functions().bound(gap.p, b.terms, until, of_slow);
+    b.second = of_slow[0], b.third = b.slow_third = of_slow[1];
     for (int k = 0; k < gap.pairs; ++k) {
-        const double rate = std::sqrt(std::norm(gap.lambda[k])), size = std::sqrt(std::norm(gap.b[k]));
-        second += size * rate * rate;
-        third += size * rate * rate * rate;
+        const double square = std::norm(gap.lambda[k]), size = std::sqrt(std::norm(gap.b[k]));
+        b.second += size * square;
+        b.third += size * square * std::sqrt(square);
     }
-    const double least = std::max(1e-16 * end, second > 0 ? std::sqrt(bound / second) : end);  // over it no dip is deeper than bound/8
-    const auto crossing_between = [&](double low, double high, double x) {                     // Newton kept inside: g(low) >= 0 > g(high)
-        for (int i = 0; i < 100; ++i) {
-            const auto at = gap.at(x, terms);
-            (at.g < 0 ? high : low) = x;
-            double next = x - at.g / at.slope;
-            const bool inside = next > low && next < high;
-            if (!inside) next = 0.5 * (low + high);
-            if (inside && std::abs(next - x) <= 1e-9 * (high - low)) return next;  // quadratic: one more would be below rounding
-            if (std::abs(next - x) <= 1e-16 * end || next == low || next == high) return next;
-            x = next;
+    return b;
+}
+
+// g(low) >= 0 > g(high), and at x, one of them or between, g is `at`: Halley's iteration kept inside.
+double crossing_between(const Gap& gap, double low, double high, double x, Gap::Values at, const Bounds& b, double bound) noexcept {
+    for (int i = 0; i < 100; ++i) {
+        const double newton = at.g / at.slope, bend = 0.5 * at.curvature / at.slope, step = newton / (1 - newton * bend);
+        double next = x - step;
+        const double allowed = std::max(1e-17 * b.until, 1e-3 * bound / std::abs(at.slope));  // the second: rounding of g
+        if (std::abs(step) <= allowed) return std::clamp(next, low, high);
+        if (next > low && next < high) {
+            const double rest = std::abs(step * step * step) * (bend * bend + b.third / std::abs(6 * at.slope));
+            if (rest <= allowed) return next;
+        } else {
+            next = 0.5 * (low + high);
+            if (next == low || next == high) return next;
         }
-        return x;
-    };
+        x = next;
+        at = gap.at(x, b.terms);
+        (at.g < 0 ? high : low) = x;
+    }
+    return x;
+}
+
+// first_crossing from `from` on, where the gap is `v`; where there is none, v becomes the gap at the end of the bounds.
+double crossing_within(const Gap& gap, double from, const Bounds& b, double bound, Gap::Values& v) noexcept {
+    const double end = b.until, third = b.third;
+    const double least = std::max(1e-16 * end, b.second > 0 ? std::sqrt(bound / b.second) : end);  // over it no dip is deeper than bound/8
     double u = from, before = from;
     for (;;) {
-        if (v.g < -bound && u > from) return crossing_between(before, u, u);
+        if (v.g < -bound && u > from) return crossing_between(gap, before, u, u, v, b, bound);
         if (u >= end) return 2;
         const double left = end - u;
         if (v.slope < 0 && v.g > 0) {  // no more than one crossing as far as the slope keeps its sign for certain
             const double newton = v.g / -v.slope, span = std::min(2 * newton, left);
             if ((std::max(0.0, v.curvature) + span * third) * span < -0.9 * v.slope) {
                 if (span == left) {
-                    const auto last = gap.at(end, terms);
+                    const auto last = gap.at(end, b.terms);
                     if (last.g >= 0) {
                         v = last;
                         return 2;
                     }
                 }
-                return crossing_between(u, u + span, std::min(u + newton, end));
+                return crossing_between(gap, u, u + span, u, v, b, bound);
             }
         }
         double step = safe_step(std::max(0.0, v.g), v.slope, v.curvature, third, left);
-        if (gap.pairs > 0) step = std::max(step, safe_step(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, of_slow[1], left));
+        if (gap.pairs > 0) step = std::max(step, safe_step(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, b.slow_third, left));
         before = u;
         u = std::min(end, u + std::max(step, least));
-        v = gap.at(u, terms);
+        v = gap.at(u, b.terms);
     }
 }
 }  // namespace
@@ -105,11 +136,13 @@ double crossing_within(const Gap& gap, double from, double end, double bound, Ga
 double first_crossing(const Gap& gap, double end, double bound) noexcept {
     double fastest = 0;
     for (int k = 0; k < gap.pairs; ++k) fastest = std::max(fastest, gap.lambda[k].imag());
-    Gap::Values v = gap.at(0, 8);
+    Gap::Values v = gap.at_start();
+    const Bounds whole = bounds_until(gap, end);
+    if (safe_step(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end) >= end) return 2;
     double from = 0;
     for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {  // a stage has its own terms and bounds: early ones are cheap
         if (to > 0.5 * end) to = end;
-        const double crossing = crossing_within(gap, from, to, bound, v);
+        const double crossing = crossing_within(gap, from, to == end ? whole : bounds_until(gap, to), bound, v);
         if (crossing <= end || to == end) return crossing;
         from = to;
     }

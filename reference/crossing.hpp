@@ -4,7 +4,7 @@
 //
 // Steps are taken that cannot pass a crossing: over a step d, g stays above g + g'd + g''d^2/2 - A d^3/6 with A a bound of |g'''|, or the
 // slow part alone stays above the sum of the amplitudes of the pairs. So nothing is sampled and nothing is missed, except dips that stay
-// above -bound. Near a crossing the derivative has one sign and Newton's iteration finishes. Amplitudes may not grow: Re lambda_k <= 0.
+// above -bound. Near a crossing the derivative has one sign and Halley's iteration finishes. Amplitudes may not grow: Re lambda_k <= 0.
 #pragma once
 
 #include <complex>
@@ -27,6 +27,7 @@ struct Gap {
         double amplitude;                         // sum |b_k| e^(Re lambda_k u)
     };
     Values at(double u, int terms) const noexcept;
+    Values at_start() const noexcept;
     Values at(double u) const noexcept { return at(u, size); }
     int terms_until(double u) const noexcept;       // in whole vectors
     double depth_bound(double end) const noexcept;  // of |g| in [0, end]

@@ -17,12 +17,6 @@ const std::vector<double> inverse_factorial = [] {
 namespace {
 constexpr double unit_rounding = 16 * 2.3e-16;  // of a gap, relative to sum |g_i| (|y_i| + |u_i|)
 
-const std::vector<double> inverse = [] {
-    std::vector<double> f{0.0};
-    for (int n = 1; n <= 2 * longest_series; ++n) f.push_back(1.0 / n);
-    return f;
-}();
-
 double tail(double z, int terms) {  // sum_{n >= terms} z^n/n!
     double term = 1;
     for (int n = 1; n <= terms; ++n) term *= z / n;
@@ -31,8 +25,7 @@ double tail(double z, int terms) {  // sum_{n >= terms} z^n/n!
 }  // namespace
 
 void powers(double u, int count, double* e) noexcept {
-    e[0] = 1;
-    for (int n = 1; n < count; ++n) e[n] = e[n - 1] * (u * inverse[n]);
+    sweep_functions().powers(u, count, inverse_factorial.data(), e);
 }
 
 WindowChoice choose_window(double tolerance, double reach) {
@@ -62,6 +55,7 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     stride = 2 * size + lanes;
     length = osc.rate * interval / per_row;
     reach = growth * length;
+    for (int n = 0; n < terms; ++n) slower_.push_back(std::pow(reach, -n));
     if (s.pluck) push_growth_ = 0.5 * std::numbers::pi * seconds() / pluck_window(*s.pluck);
     tail_ = tail(reach, terms);
     modal_tail_ = 10 * std::exp(reach) * tail(length, terms) / std::min(1.0, length);
@@ -262,8 +256,7 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
         double* f = free_.data() + b * stride;
         std::fill(f + terms, f + size, 0.0);
         f[0] -= s.height[b];
-        double scale = 1;
-        for (int n = 0; n < terms; ++n, scale /= reach) largest = std::max(largest, std::abs(f[n]) * scale);
+        for (int n = 0; n < terms; ++n) largest = std::max(largest, std::abs(f[n]) * slower_[n]);
         most = std::max(most, reach_[b] + std::abs(s.height[b]) + s.pluck_reach);
     }
     truncation_ = largest * tail_ + modal_tail_ * most;

@@ -100,6 +100,7 @@ private:
     std::vector<char> none_;
     std::vector<int> sweep_terms_;
     std::vector<double> a_, b_, gains_;  // in units of the window
+    std::vector<double> slower_;         // reach^-n
     double tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0, thread_force_ = 0,
                                push_growth_ = 0;
     bool plucked_ = false;
@@ -108,7 +109,7 @@ private:
     std::vector<const double*> acting_, acting_moments_;
 };
 
-void powers(double u, int count, double* e) noexcept;  // u^n/n!, n < count
+void powers(double u, int count, double* e) noexcept;  // u^n/n!, n < count, and some more: in whole vectors
 extern const std::vector<double> inverse_factorial;
 
 }  // namespace jvari

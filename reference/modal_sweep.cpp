@@ -40,12 +40,14 @@ constexpr double inverse_factorials[24] = {1.0 / 1,
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
-template <int K>  // K vectors of modes from i on
+// K vectors of modes from i on. One or two outputs are summed on the way; for more the derivatives are kept.
+template <int fixed_outputs, int K>
 HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum, double* HWY_RESTRICT kept) {
+    constexpr bool keep = fixed_outputs < 0;
     const D d;
-    const int N = static_cast<int>(hn::Lanes(d)), outputs = m.outputs, stride = m.count;
+    const int N = static_cast<int>(hn::Lanes(d)), outputs = keep ? m.outputs : fixed_outputs, stride = m.count;
     const int terms = m.terms[i / sweep_lanes];
-    V d0[K], d1[K], a[K], b[K];
+    V d0[K], d1[K], a[K], b[K], g[keep ? 1 : fixed_outputs][K];
     for (int k = 0; k < K; ++k) {
         const int at = i + k * N;
         a[k] = hn::LoadU(d, m.a + at);
@@ -53,31 +55,60 @@ HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum,
         d0[k] = hn::LoadU(d, m.y + at);
         d1[k] = hn::LoadU(d, m.u + at);
     }
+    const auto load_weights = [&](int o, V* w) {
+        for (int k = 0; k < K; ++k) w[k] = hn::LoadU(d, m.weights + static_cast<long>(o) * m.modes + i + k * N);
+    };
     for (int o = 0; o < outputs; ++o) {
+        V* w = g[keep ? 0 : o];
+        load_weights(o, w);
         V size = hn::LoadU(d, sum + (o * (stride + 1) + stride) * N);
-        for (int k = 0; k < K; ++k)
-            size = hn::MulAdd(hn::Abs(hn::LoadU(d, m.weights + static_cast<long>(o) * m.modes + i + k * N)),
-                              hn::Add(hn::Abs(d0[k]), hn::Abs(d1[k])), size);
+        for (int k = 0; k < K; ++k) size = hn::MulAdd(hn::Abs(w[k]), hn::Add(hn::Abs(d0[k]), hn::Abs(d1[k])), size);
         hn::StoreU(size, d, sum + (o * (stride + 1) + stride) * N);
     }
-    for (int n = 0; n < terms; ++n)
+    for (int n = 0; n < terms; ++n) {
+        for (int o = 0; !keep && o < outputs; ++o) {
+            double* out = sum + (o * (stride + 1) + n) * N;
+            V total = hn::LoadU(d, out);
+            for (int k = 0; k < K; ++k) total = hn::MulAdd(g[o][k], d0[k], total);
+            hn::StoreU(total, d, out);
+        }
         for (int k = 0; k < K; ++k) {
-            hn::StoreU(d0[k], d, kept + (n * K + k) * N);
+            if (keep) hn::StoreU(d0[k], d, kept + (n * K + k) * N);
             const V next = hn::NegMulSub(a[k], d1[k], hn::Mul(b[k], d0[k]));
             d0[k] = d1[k];
             d1[k] = next;
         }
-    for (int o = 0; o < outputs; ++o) {
-        const double* weight = m.weights + static_cast<long>(o) * m.modes + i;
-        V g[K];
-        for (int k = 0; k < K; ++k) g[k] = hn::LoadU(d, weight + k * N);
+    }
+    for (int o = 0; keep && o < outputs; ++o) {
+        load_weights(o, g[0]);
         for (int n = 0; n < terms; ++n) {
             double* out = sum + (o * (stride + 1) + n) * N;
             V total = hn::LoadU(d, out);
-            for (int k = 0; k < K; ++k) total = hn::MulAdd(g[k], hn::LoadU(d, kept + (n * K + k) * N), total);
+            for (int k = 0; k < K; ++k) total = hn::MulAdd(g[0][k], hn::LoadU(d, kept + (n * K + k) * N), total);
             hn::StoreU(total, d, out);
         }
     }
+}
+template <int outputs>
+void read_blocks(const ModalSweep& m, double* HWY_RESTRICT sum, double* HWY_RESTRICT kept) {
+    const int N = static_cast<int>(hn::Lanes(D()));
+    int i = 0;
+    for (; i + 4 * N <= m.modes; i += 4 * N) read_block<outputs, 4>(m, i, sum, kept);
+    for (; i < m.modes; i += N) read_block<outputs, 1>(m, i, sum, kept);
+}
+// The sums over the lanes of N vectors, one in each lane.
+HWY_INLINE V fold(const double* rows) {
+    const D d;
+#if HWY_TARGET == HWY_SCALAR
+    return hn::LoadU(d, rows);
+#else
+    const int N = static_cast<int>(hn::Lanes(d));
+    V r[8];
+    for (int i = 0; i < N; ++i) r[i] = hn::LoadU(d, rows + i * N);
+    for (int width = N / 2; width > 0; width /= 2)
+        for (int i = 0; i < width; ++i) r[i] = hn::Add(hn::ConcatEven(d, r[2 * i + 1], r[2 * i]), hn::ConcatOdd(d, r[2 * i + 1], r[2 * i]));
+    return r[0];
+#endif
 }
 void read(const ModalSweep& m) {
     const D d;
@@ -85,13 +116,13 @@ void read(const ModalSweep& m) {
     double* HWY_RESTRICT sum = m.scratch;                                // [output][stride + 1][N], reach the last
     double* HWY_RESTRICT kept = m.scratch + outputs * (stride + 1) * N;  // [term][K][N]
     for (int i = 0; i < outputs * (stride + 1) * N; i += N) hn::StoreU(hn::Zero(d), d, sum + i);
-    int i = 0;
-    for (; i + 4 * N <= m.modes; i += 4 * N) read_block<4>(m, i, sum, kept);
-    for (; i < m.modes; i += N) read_block<1>(m, i, sum, kept);
+    if (outputs == 1) read_blocks<1>(m, sum, kept);
+    else if (outputs == 2) read_blocks<2>(m, sum, kept);
+    else read_blocks<-1>(m, sum, kept);
     for (int o = 0; o < outputs; ++o) {
-        for (int n = 0; n < stride; ++n)
-            m.p[o * m.stride + n] = hn::GetLane(hn::SumOfLanes(d, hn::LoadU(d, sum + (o * (stride + 1) + n) * N)));
-        m.reach[o] = hn::GetLane(hn::SumOfLanes(d, hn::LoadU(d, sum + (o * (stride + 1) + stride) * N)));
+        const double* of_output = sum + o * (stride + 1) * N;
+        for (int n = 0; n < stride; n += N) hn::StoreU(fold(of_output + n * N), d, m.p + o * m.stride + n);
+        m.reach[o] = hn::GetLane(hn::SumOfLanes(d, hn::LoadU(d, of_output + stride * N)));
     }
 }
 
@@ -174,8 +205,8 @@ void combine(double* out, int size, const double* x, int count, const double* A,
     for (; size >= N; size -= N, out += N, A += N) combine_in<1>(out, x, count, A, step);
 }
 
-template <int first, int last, bool absolute>
-HWY_INLINE void evaluate_at(const double* p, int size, double u, double* out) {
+// u^lane; `later` becomes u^N
+HWY_INLINE V first_powers(double u, V& later) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     const V lane = hn::Iota(d, 0.0), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), four = hn::Set(d, 4.0), six = hn::Set(d, 6.0);
@@ -183,9 +214,23 @@ HWY_INLINE void evaluate_at(const double* p, int size, double u, double* out) {
     const auto low = hn::Or(hn::Eq(lane, one), hn::Eq(lane, hn::Set(d, 3.0)));
     const auto odd = hn::Or(low, hn::Or(hn::Eq(lane, hn::Set(d, 5.0)), hn::Eq(lane, hn::Set(d, 7.0))));
     const auto second = hn::Or(hn::And(hn::Ge(lane, two), hn::Lt(lane, four)), hn::Ge(lane, six));
-    V power = hn::Mul(hn::IfThenElse(odd, hn::Set(d, u), one),
-                      hn::Mul(hn::IfThenElse(second, hn::Set(d, u2), one), hn::IfThenElse(hn::Ge(lane, four), hn::Set(d, u4), one)));
-    const V later = hn::Set(d, N == 8 ? u4 * u4 : N == 4 ? u4 : N == 2 ? u2 : u);
+    later = hn::Set(d, N == 8 ? u4 * u4 : N == 4 ? u4 : N == 2 ? u2 : u);
+    return hn::Mul(hn::IfThenElse(odd, hn::Set(d, u), one),
+                   hn::Mul(hn::IfThenElse(second, hn::Set(d, u2), one), hn::IfThenElse(hn::Ge(lane, four), hn::Set(d, u4), one)));
+}
+void powers(double u, int count, const double* inverse_factorial, double* e) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    V later, power = first_powers(u, later);
+    for (int n = 0; n < count; n += N, power = hn::Mul(power, later))
+        hn::StoreU(hn::Mul(power, hn::LoadU(d, inverse_factorial + n)), d, e + n);
+}
+
+template <int first, int last, bool absolute>
+HWY_INLINE void evaluate_at(const double* p, int size, double u, double* out) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    V later, power = first_powers(u, later);
     V sum[last - first];
     for (int k = 0; k < last - first; ++k) sum[k] = hn::Zero(d);
     for (int n = 0; n < size; n += N, power = hn::Mul(power, later)) {
@@ -253,7 +298,7 @@ void scale_rows(double* out, const double* row, const double* A, const double* r
 }
 
 const SweepFunctions* functions() {
-    static constexpr SweepFunctions table = {read, move, combine, evaluate, bound, factor, substitute, scale_rows};
+    static constexpr SweepFunctions table = {read, move, combine, powers, evaluate, bound, factor, substitute, scale_rows};
     return &table;
 }
 

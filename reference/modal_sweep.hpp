@@ -27,6 +27,8 @@ struct SweepFunctions {
     void (*move)(const ModalSweep&);
     // out[i] += sum_j x_j A[j step + i], i < size: shifts, convolutions and matrices, by the step. size: a multiple of 8
     void (*combine)(double* out, int size, const double* x, int count, const double* A, long step);
+    // e[n] = u^n/n!, n < count in whole vectors of at most 8
+    void (*powers)(double u, int count, const double* inverse_factorial, double* e);
     // out[k] = sum_n p[n + k] u^n/n!, k < 3, n < size <= 24: a motion of derivatives p at u, and its first two derivatives there
     void (*evaluate)(const double* p, int size, double u, double* out);
     // The same of |p[n + k]| for k = 2, 3: bounds of the second and third derivatives up to u

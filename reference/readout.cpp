@@ -2,6 +2,17 @@
 
 namespace jvari {
 
+namespace {
+double weighted_sum(const double* w, const double* y, int count) {
+    double sum[8] = {};
+    int i = 0;
+    for (; i + 8 <= count; i += 8)
+        for (int k = 0; k < 8; ++k) sum[k] += w[i + k] * y[i + k];
+    for (; i < count; ++i) sum[0] += w[i] * y[i];
+    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+}
+}  // namespace
+
 Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count()) {
     for (const Tap& tap : scene.taps) {
         quantity_.push_back(tap.quantity);
@@ -18,13 +29,8 @@ void Readout::write(const Block& out, int row, const double* y, const double* u,
         double v = 0;
         switch (quantity_[k]) {
             case Quantity::displacement:
-            case Quantity::nut_force:
-                for (int i = 0; i < modes_; ++i) v += w[i] * y[i];
-                break;
-            case Quantity::velocity:
-                for (int i = 0; i < modes_; ++i) v += w[i] * u[i];
-                v *= rate;
-                break;
+            case Quantity::nut_force: v = weighted_sum(w, y, modes_); break;
+            case Quantity::velocity: v = weighted_sum(w, u, modes_) * rate; break;
             case Quantity::bridge_force: v = bridge; break;
             case Quantity::thread_force: v = thread; break;
             case Quantity::driving_force: v = -(bridge + thread); break;
