@@ -1,21 +1,13 @@
-// Source: convergence.hpp. gsl_fit_wlinear takes weights as inverse variances; ours are relative, so its covariance is scaled by the
-// scatter it found, chi^2/(n - 2).
 #include "analysis/convergence.hpp"
 
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_fit.h>
-
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "analysis/line.hpp"
 
 namespace jvari {
 
 namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
-
 bool serves(double rate, double error) {
     return std::isfinite(rate) && rate > 0 && std::isfinite(error) && error > 0;
 }
@@ -32,15 +24,8 @@ Order observed_order(std::span<const double> rate, std::span<const double> error
         y.push_back(std::log(error[i]));
         w.push_back(wi);
     }
-    const int n = static_cast<int>(x.size());
-    const auto [first, last] = std::minmax_element(x.begin(), x.end());
-    if (n < 2 || *first == *last) return {nan, nan, nan, nan, n};
-
-    double intercept, slope, cov00, cov01, cov11, chisq, total = 0;
-    gsl_fit_wlinear(x.data(), 1, w.data(), 1, y.data(), 1, n, &intercept, &slope, &cov00, &cov01, &cov11, &chisq);
-    for (double wi : w) total += wi;
-    const double t = n > 2 ? gsl_cdf_tdist_Pinv(0.5 * (1 + confidence), n - 2) : 0;
-    return {-slope, n > 2 ? t * std::sqrt(cov11 * chisq / (n - 2)) : inf, std::exp(intercept), std::sqrt(chisq / total), n};
+    const Line line = fitted_line(x, y, w, confidence);
+    return {-line.slope, line.half_width, std::exp(line.intercept), line.scatter, static_cast<int>(x.size())};
 }
 
 }  // namespace jvari

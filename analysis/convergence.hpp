@@ -1,8 +1,7 @@
 // Order of convergence with its confidence.
 //
-// error = C rate^-order is a straight line in logarithms: weighted least squares (GSL), its scatter estimated from the residuals,
-// the interval from Student's t with two degrees of freedom fewer than points. Leaves out: which rates are in the asymptotic range;
-// `scatter` shows where they are not (near contact the order is about 1, and late windows saturate).
+// error = C rate^-order is a straight line in logarithms (line.hpp). Leaves out: which rates are in the asymptotic range; `scatter` shows
+// where they are not (near contact the order is about 1, and late windows saturate).
 #pragma once
 
 #include <span>

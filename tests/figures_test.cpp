@@ -6,11 +6,14 @@
 #include "bench/report/figure_chart.hpp"
 #include "bench/report/identity.hpp"
 #include "bench/report/vega.hpp"
+#include "bench/sound/radiation.hpp"
 #include "bench/suite/figure_rows.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "command_line.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
 #include "suite_text.hpp"
 
 namespace jvari::test {
@@ -155,6 +158,85 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     const bench::store::Table centroid = rows(bench::suite::Facet::centroid);
     ASSERT_EQ(centroid.rows.size(), 9u);
     for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(centroid.number(i, "centroid_hz"), f, 0.2);
+}
+
+// Two modes that sound as loud: their centroid lies between them, and of a band that holds one it is that one.
+TEST(FigureRows, OfACentroidKnowOnlyTheirBand) {
+    const auto centroid_of = [](const std::string& band) {
+        const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+            [[cells]]
+            scenes = ["free_string"]
+            schemes = ["modal_two_point"]
+            rates = [44100]
+            modes = 2
+            duration = 0.2
+            measure = ["centroid"]
+            centroid = { taps = ["nut"], window = 0.1, hop = 0.1)" + band +
+                                                                        " }",
+                                                                    "a.toml");
+        const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+        const auto records = bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records;
+        return bench::suite::rows_of(bench::suite::Facet::centroid, plan, records).number(0, "centroid_hz");
+    };
+    const auto modes = modes_of(read_scene("free_string").strings[0], 2);
+    const double first = modes.omega0[0] / (2 * std::numbers::pi), second = modes.omega0[1] / (2 * std::numbers::pi);
+    EXPECT_NEAR(centroid_of(", to_hz = 200"), first, 0.5);
+    EXPECT_NEAR(centroid_of(", from_hz = 200, to_hz = 400"), second, 0.5);
+    EXPECT_GT(centroid_of(""), first + 20);
+    EXPECT_LT(centroid_of(""), second - 20);
+    EXPECT_TRUE(std::isnan(centroid_of(", from_hz = 21000")) || centroid_of(", from_hz = 21000") > 21000);
+}
+
+TEST(FigureRows, OfAPressureAreTheForceThroughTheBodysResponse) {
+    const std::string set = R"(
+        [[cells]]
+        scenes = ["tanpura_c3"]
+        schemes = ["modal_two_point"]
+        rates = [44100]
+        modes = 40
+        duration = 0.02
+        measure = ["errors", "trace"]
+        reference_modes = "cell"
+        trace = { taps = ["bridge_pressure", "nut_pressure"], windows = [[0, 1]] }
+    )";
+    try {
+        const bench::suite::Suite suite = bench::suite::parse_suite(set, "a.toml");
+        bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+        FAIL() << "a pressure without a body was planned";
+    } catch (const bench::store::UsageError& e) {
+        EXPECT_STREQ(e.what(), "scene tanpura_c3: trace: tap bridge_pressure: the scene has no body.bridge");
+    }
+    const bench::suite::Suite suite = bench::suite::parse_suite(
+        set + "sweep = { \"body.bridge\" = [\"synthetic_bridge.wav\"], \"body.nut\" = [\"synthetic_nut.wav\"] }", "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const auto records = bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records;
+    const bench::store::Table rows = bench::suite::rows_of(bench::suite::Facet::trace, plan, records);
+    EXPECT_EQ(records[0].row.column("error_l2_whole_bridge_pressure"), -1);  // what is drawn alone has no error
+
+    Scene scene = plan.points[0].scene;
+    const Body body = scene.body.value();
+    scene.taps = {{"driving", Quantity::driving_force, {}, 0}, {"nut", Quantity::nut_force, {}, 0}};
+    Settings settings;
+    settings.sample_rate = settings.tap_rate = 44100;
+    settings.modes = 40;
+    const auto two_point = std::ranges::find_if(schemes(), [](const Descriptor& d) { return std::string("modal_two_point") == d.name; });
+    const Trace trace = run(*two_point, scene, settings).trace;
+    for (const auto& [tap, column, file] : {std::tuple{"bridge_pressure", 0, body.bridge}, {"nut_pressure", 1, body.nut}}) {
+        const auto response = bench::sound::impulse_response(file, 44100, "body");
+        const auto force = trace.column(column);
+        double largest = 0;
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+            if (rows.at(i, "tap") != tap) continue;
+            double sum = 0;
+            for (std::size_t k = 0; k <= n && k < response.size(); ++k) sum += response[k] * force[n - k];
+            EXPECT_NEAR(rows.number(i, "value"), sum, 1e-9) << tap << " " << n;
+            largest = std::max(largest, std::abs(sum));
+            ++n;
+        }
+        EXPECT_EQ(n, force.size()) << tap;
+        EXPECT_GT(largest, 1e-6) << tap;
+    }
 }
 
 TEST(FigureRows, TheExtentOfARampHasTheFirstAndTheLastRowOfEachInterval) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "analysis/line.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/suite/suite_run.hpp"
 
@@ -175,6 +176,92 @@ TEST(Tanpura, Figure8TheDrivingForceGrowsForHalfASecondByItself) {
         EXPECT_NEAR(when, 0.53, 0.06) << tap;
         EXPECT_GT(attack, 0.6 * largest) << tap;
         EXPECT_LT(attack, 0.85 * largest) << tap;
+    }
+}
+
+// Of the two ends' forces and pressures: how large the largest of the first 0.1 s is beside the largest at all, and when that is.
+TEST(Tanpura, Figure8bASyntheticBodyAlmostTakesTheAttackFromTheNutAndAQuarterOfItFromTheBridge) {
+    const bench::store::Table t = committed(tanpura + "extent.csv");
+    const std::map<std::string, double> expected{{"driving", 0.63}, {"bridge_pressure", 0.47}, {"nut", 0.78}, {"nut_pressure", 0.20}};
+    for (const auto& [tap, part] : expected) {
+        const Series low = series(t, {{"tap", tap}}, "time_s", "low"), high = series(t, {{"tap", tap}}, "time_s", "high");
+        double attack = 0, largest = 0, when = 0;
+        for (const auto& [time, top] : high) {
+            const double size = std::max(top, -low.at(time));
+            if (time < 0.1) attack = std::max(attack, size);
+            if (size > largest) largest = size, when = time;
+        }
+        EXPECT_NEAR(attack / largest, part, 0.01) << tap;
+        EXPECT_NEAR(when, 0.57, 0.03) << tap;
+    }
+}
+
+// The slope of a string's centroid [Hz/s] from 0.3 to 1.15 s after its pluck: its precursor is there, and its next formant not yet.
+Line descent(const bench::store::Table& t, std::map<std::string, std::string> where, const std::string& string,
+             const std::string& stiffness, double pluck) {
+    where["tap"] = "string_" + string;
+    where["string." + string + ".bending_stiffness"] = stiffness;
+    std::vector<double> time, centroid;
+    for (const auto& [x, y] : series(t, where, "time_s", "centroid_hz"))
+        if (pluck + 0.3 < x && x < pluck + 1.15) time.push_back(x), centroid.push_back(y);
+    EXPECT_EQ(time.size(), 9u);
+    return fitted_line(time, centroid);
+}
+bool falls(const Line& l) {
+    return l.slope < -l.half_width;
+}
+
+struct Descent {
+    const char *string, *rate, *options;
+    double stiff, stiff_half, without, without_half;  // [Hz/s]
+};
+TEST(Tanpura, Figure11ThePrecursorFallsAfterEachPluckAndWithoutStiffnessNothingDoesAt44100Hz) {
+    const bench::store::Table t = committed(tanpura + "centroid.csv");
+    const std::map<std::string, double> pluck{{"0", 0.0}, {"1", 1.2}, {"2", 1.8}, {"3", 2.4}};
+    const Descent all[] = {
+        {"0", "44100", "compliance=own", -156, 62, 138, 259},     {"1", "44100", "compliance=own", -510, 255, 69, 361},
+        {"2", "44100", "compliance=own", -637, 247, 66, 324},     {"3", "44100", "compliance=own", -72, 32, 17, 23},
+        {"0", "44100", "compliance=matched", -134, 54, -8, 35},   {"1", "44100", "compliance=matched", -381, 249, 8, 44},
+        {"2", "44100", "compliance=matched", -482, 234, 30, 52},  {"3", "44100", "compliance=matched", -61, 36, 1, 23},
+        {"0", "176400", "compliance=own", -147, 63, -273, 186},   {"1", "176400", "compliance=own", -594, 239, -257, 161},
+        {"2", "176400", "compliance=own", -727, 243, -231, 121},  {"3", "176400", "compliance=own", -65, 35, 4, 35},
+        {"0", "176400", "compliance=matched", -137, 55, -5, 29},  {"1", "176400", "compliance=matched", -402, 248, 9, 47},
+        {"2", "176400", "compliance=matched", -502, 230, 27, 49}, {"3", "176400", "compliance=matched", -61, 36, 1, 22},
+    };
+    for (const Descent& d : all) {
+        const std::string what = std::string(d.string) + " " + d.rate + " " + d.options;
+        const std::map<std::string, std::string> where{{"rate", d.rate}, {"options", d.options}};
+        const Line stiff = descent(t, where, d.string, "6.03e-05", pluck.at(d.string)),
+                   without = descent(t, where, d.string, "0", pluck.at(d.string));
+        EXPECT_TRUE(falls(stiff)) << what;
+        EXPECT_EQ(falls(without), d.without < -d.without_half) << what;
+        EXPECT_NEAR(stiff.slope, d.stiff, 0.6) << what;
+        EXPECT_NEAR(stiff.half_width, d.stiff_half, 0.6) << what;
+        EXPECT_NEAR(without.slope, d.without, 0.6) << what;
+        EXPECT_NEAR(without.half_width, d.without_half, 0.6) << what;
+    }
+}
+
+TEST(Tanpura, Figure11ThePrecursorOfTheFirstStringFallsInARunOfToday) {
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+        [[cells]]
+        scenes = ["tanpura_drone"]
+        schemes = ["modal_two_point"]
+        rates = [44100]
+        options = { "compliance" = ["own", "matched"] }
+        sweep = { "string.0.bending_stiffness" = [6.03e-5, 0.0] }
+        duration = 1.2
+        taps = [{ name = "string_0", quantity = "driving_force", string = 0 }]
+        measure = ["centroid"]
+        centroid = { taps = ["string_0"], window = 0.0928, hop = 0.0928, from_hz = 980, to_hz = 3920 }
+    )",
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const bench::store::Table made = bench::suite::rows_of(bench::suite::Facet::centroid, plan,
+                                                           bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
+    for (const char* options : {"compliance=own", "compliance=matched"}) {
+        EXPECT_TRUE(falls(descent(made, {{"options", options}}, "0", "6.03e-05", 0))) << options;
+        EXPECT_FALSE(falls(descent(made, {{"options", options}}, "0", "0", 0))) << options;
     }
 }
 

@@ -50,7 +50,7 @@ std::string manifest_of(const suite::Suite& suite, const suite::SuitePlan& plan)
     std::map<std::string, std::string> scenes;  // of what is swept the first
     for (const suite::PlannedCell& c : plan.cells) {
         sources[c.cell.scheme->name] = c.cell.scheme->source;
-        if (!scenes.contains(c.point->scene.name)) scenes[c.point->scene.name] = write_scene(suite::without_profile_taps(c.point->scene));
+        if (!scenes.contains(c.point->scene.name)) scenes[c.point->scene.name] = write_scene(suite::without_drawn_taps(c.point->scene));
     }
     Json manifest = Json::parse(store::made_by());
     manifest.update({{"suite", suite.name},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/spectrum.hpp"
+#include "bench/sound/radiation.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/suite/figure_rows.hpp"
 
@@ -14,14 +15,36 @@ namespace jvari::bench::suite {
 namespace {
 constexpr const char* profile_tap = "profile_";
 
+// A pressure is a filter of a force, whose tap has its name.
+struct Pressure {
+    const char* tap;
+    Quantity force;
+    const char* key;
+    std::string Body::*response;
+};
+constexpr Pressure pressures[] = {{"bridge_pressure", Quantity::driving_force, "body.bridge", &Body::bridge},
+                                  {"nut_pressure", Quantity::nut_force, "body.nut", &Body::nut}};
+const Pressure* pressure_of(const std::string& tap) {
+    const auto* p = std::ranges::find_if(pressures, [&tap](const Pressure& one) { return tap == one.tap; });
+    return p == std::end(pressures) ? nullptr : p;
+}
+bool is_drawn_alone(const Tap& t) {
+    return t.name.rfind(profile_tap, 0) == 0 || pressure_of(t.name);
+}
+
 std::string short_text(double x) {
     return std::isfinite(x) ? fmt::format("{:.8g}", x) : "";
 }
 
-std::span<const double> column_of(const MeasuredCell& m, const std::string& tap) {
-    if (tap == "energy") return m.trace.energy.empty() ? std::span<const double>() : m.trace.energy_column(0);
+std::vector<double> column_of(const MeasuredCell& m, const std::string& tap) {
+    const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
+    if (tap == "energy") return m.trace.energy.empty() ? std::vector<double>() : copy(m.trace.energy_column(0));
     const auto name = std::find(m.trace.names.begin(), m.trace.names.end(), tap);
-    return m.trace.column(static_cast<int>(name - m.trace.names.begin()));
+    const auto x = m.trace.column(static_cast<int>(name - m.trace.names.begin()));
+    const Pressure* p = pressure_of(tap);
+    if (!p) return copy(x);
+    return sound::Radiation(sound::impulse_response(*m.scene.body.*p->response, m.trace.tap_rate, p->key), m.trace.tap_rate,
+                            m.scene.body->sections)(x);
 }
 
 double position_of(const ProfileRows& p, int i) {
@@ -33,11 +56,17 @@ Scene with_figure_taps(Scene scene, const FigureFacets& f) {
     scene.taps.insert(scene.taps.end(), f.taps.begin(), f.taps.end());
     std::vector<std::string> names{"energy"};
     for (const Tap& t : scene.taps) names.push_back(t.name);
-    const auto must_be_there = [&names](const auto& facet, const char* key) {
+    const auto must_be_there = [&](const auto& facet, const char* key) {
         if (!facet) return;
-        for (const std::string& tap : facet->taps)
-            if (std::find(names.begin(), names.end(), tap) == names.end())
-                throw store::UsageError(std::string(key) + ": " + store::unknown("tap", tap, names));
+        for (const std::string& tap : facet->taps) {
+            if (std::find(names.begin(), names.end(), tap) != names.end()) continue;
+            const Pressure* p = pressure_of(tap);
+            if (!p) throw store::UsageError(std::string(key) + ": " + store::unknown("tap", tap, names));
+            if (!scene.body || ((*scene.body).*p->response).empty())
+                throw store::UsageError(fmt::format("{}: tap {}: the scene has no {}", key, tap, p->key));
+            scene.taps.push_back({tap, p->force, {}, 0});
+            names.push_back(tap);
+        }
     };
     must_be_there(f.trace, "trace");
     must_be_there(f.extent, "extent");
@@ -50,8 +79,8 @@ Scene with_figure_taps(Scene scene, const FigureFacets& f) {
     return scene;
 }
 
-Scene without_profile_taps(Scene scene) {
-    std::erase_if(scene.taps, [](const Tap& t) { return t.name.rfind(profile_tap, 0) == 0; });
+Scene without_drawn_taps(Scene scene) {
+    std::erase_if(scene.taps, is_drawn_alone);
     return scene;
 }
 
@@ -124,7 +153,7 @@ store::Table centroid_rows(const MeasuredCell& m) {
         for (int i = 0; i < s.frames; ++i) {
             double power = 0, moment = 0;
             for (int k = 0; k < s.bins; ++k)
-                if (k * s.bin_hz >= f.from_hz) power += s.frame(i)[k], moment += k * s.bin_hz * s.frame(i)[k];
+                if (k * s.bin_hz >= f.from_hz && k * s.bin_hz <= f.to_hz) power += s.frame(i)[k], moment += k * s.bin_hz * s.frame(i)[k];
             t.rows.push_back({tap, short_text(s.centre + i * s.hop), short_text(power > 0 ? moment / power : NAN)});
         }
     }

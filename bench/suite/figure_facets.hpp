@@ -5,12 +5,15 @@
 //   extent   = { taps = ["nut"], intervals = 400 }                         smallest and largest in each of equal parts of the run
 //   profile  = { instants = [0.049], from = 0, to = 1, positions = 101 }   displacement along string 0 at the row nearest each instant
 //   envelope = { taps = ["nut"], width_hz = 200, to_hz = 2e4, points = 200 }     upper envelope of the run's spectrum (Hann)
-//   centroid = { taps = ["nut"], window = 0.02, hop = 0.01, from_hz = 500 }      of the power above from_hz, frame by frame
+//   centroid = { taps = ["nut"], window = 0.02, hop = 0.01, from_hz = 500, to_hz = 8e3 }     of the power between them, frame by frame
 //
-// A tap "energy" is the energy stored. Values carry eight digits: they are for drawing and for findings, not for comparing bits.
+// A tap "energy" is the energy stored; "bridge_pressure" and "nut_pressure" are what the scene's body makes of the driving force of all
+// strings, and of their force on the nut (bench/sound/radiation.hpp). Values carry eight digits: they are for drawing and for findings, not
+// for comparing bits.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,7 +43,7 @@ struct EnvelopeRows {
 struct CentroidRows {
     std::vector<std::string> taps;
     double window = 0, hop = 0;  // [s]
-    double from_hz = 0;
+    double from_hz = 0, to_hz = HUGE_VAL;
 };
 struct FigureFacets {
     std::vector<Tap> taps;
@@ -54,6 +57,6 @@ struct FigureFacets {
 
 // The scene with the taps that the set asks for; those of a profile come last. Throws BadScene, and UsageError for a tap that is not there.
 Scene with_figure_taps(Scene, const FigureFacets&);
-Scene without_profile_taps(Scene);  // what rows of errors are made for
+Scene without_drawn_taps(Scene);  // without those of pressures and profiles: what rows of errors are made for
 
 }  // namespace jvari::bench::suite

@@ -208,9 +208,10 @@ FigureFacets figure_facets_of(const store::SuiteReader& read, const Value& set, 
                                   x->need("points").count(100'000)};
     }
     if (const auto x = e.at("centroid")) {
-        x->table({"taps", "window", "hop", "from_hz"});
-        f.centroid = CentroidRows{x->need("taps").texts(), x->need("window").positive(), x->need("hop").positive(),
-                                  x->at("from_hz") ? x->need("from_hz").number(0) : 0};
+        x->table({"taps", "window", "hop", "from_hz", "to_hz"});
+        f.centroid =
+            CentroidRows{x->need("taps").texts(), x->need("window").positive(), x->need("hop").positive(),
+                         x->at("from_hz") ? x->need("from_hz").number(0) : 0, x->at("to_hz") ? x->need("to_hz").positive() : HUGE_VAL};
     }
     const std::pair<const char*, bool> facets[] = {
         {"trace", f.trace.has_value()},       {"extent", f.extent.has_value()},     {"profile", f.profile.has_value()},

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 store::Table row_of(const PlannedCell& planned, const compare::Cell& cell,
                     const Against& against) {  // compare's row of a comparison of this cell alone
     compare::Comparison c;
-    c.scene = without_profile_taps(planned.point->scene);
+    c.scene = without_drawn_taps(planned.point->scene);
     c.headline = compare::headline_of(c.scene);
     c.floor = against.floor;
     c.trust = against.trust;
