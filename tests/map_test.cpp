@@ -198,6 +198,45 @@ TEST(Maps, ASteppedReferenceIsMadeForEachRateAndAContinuousOneOnce) {
     EXPECT_EQ(at("44100", "exact_contact"), at("88200", "exact_contact"));
 }
 
+TEST(Maps, WhereAnExplicitSchemeWithItsComplianceMatchedLosesLastingContactIsKnown) {
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+        [[map]]
+        name = "a"
+        scene = "tanpura_c3"
+        schemes = ["modal_explicit_penalty", "modal_strang"]
+        x = { key = "rate", values = [44100, 58800, 88200, 132300] }
+        modes = 80
+        options = { "modal_explicit_penalty:compliance" = "matched" }
+        duration = 0.02
+        reference = "none"
+        theory = "penalty_limit"
+        refine = 7
+    )",
+                                                                "a.toml");
+    int compared = 0;
+    for (const bench::map::Boundary& b : run_of(suite).boundaries)
+        if (std::isfinite(b.theory)) {
+            ++compared;
+            EXPECT_NE(b.low, bench::map::Verdict::sound);
+            EXPECT_EQ(b.high, bench::map::Verdict::sound);
+            EXPECT_LT(std::abs(b.relative_difference()), 0.005) << b.scheme->name << ": " << b.theory;
+        }
+    EXPECT_EQ(compared, 2);
+}
+
+TEST(Maps, AReferenceWithModesOfItsOwnIsTheSameForEveryPoint) {
+    const bench::compare::Catalogue catalogue;
+    bench::map::Truths truths(catalogue);
+    const auto error = [&](const char* modes, int reference_modes) {
+        const bench::map::Trial t = bench::map::trial_of("tanpura_c3_release", catalogue.find("modal_two_point"), "exact_contact",
+                                                         {{"rate", "705600"}, {"modes", modes}, {"duration", "0.005"}}, reference_modes);
+        return run_trial(t, truths).figures.error;
+    };
+    EXPECT_LT(error("20", 0), 0.02);  // within a string of 20 modes
+    EXPECT_GT(error("20", 80), 0.1);  // of 80
+    EXPECT_DOUBLE_EQ(error("80", 80), error("80", 0));
+}
+
 TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
     const bench::suite::Suite suite = bench::suite::parse_suite(R"(
         [[map]]

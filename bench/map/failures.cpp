@@ -52,13 +52,13 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
 
 void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>& all) {
     store::Table index;
-    index.columns = {"file", "scheme", "rate", "modes", "options", "reference", "outcome", "step", "detail"};
+    index.columns = {"file", "scheme", "rate", "modes", "options", "reference", "reference_modes", "outcome", "step", "detail"};
     for (const Reproducer& r : all) {
         store::write_fresh(folder / r.file, scene_text(r));
         const Settings& s = r.trial.settings;
         index.rows.push_back({r.file, r.trial.scheme->name, store::text_of(s.sample_rate), std::to_string(s.modes),
-                              store::options_text(s.options), r.trial.reference, name_of(r.expected.verdict),
-                              std::to_string(r.expected.step), r.expected.detail});
+                              store::options_text(s.options), r.trial.reference, std::to_string(r.trial.reference_modes),
+                              name_of(r.expected.verdict), std::to_string(r.expected.step), r.expected.detail});
     }
     store::write_fresh(folder / "index.csv", store::csv(index));
 }
@@ -67,7 +67,13 @@ std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const
     const store::Table index = store::read_csv(store::read_whole(folder / "index.csv"));
     std::vector<Reproducer> all;
     for (std::size_t i = 0; i < index.rows.size(); ++i) {
-        Reproducer r{index.at(i, "file"), {&catalogue.find(index.at(i, "scheme")), {}, {}, index.at(i, "reference")}, {}};
+        Reproducer r{index.at(i, "file"),
+                     {&catalogue.find(index.at(i, "scheme")),
+                      {},
+                      {},
+                      index.at(i, "reference"),
+                      static_cast<int>(index.number(i, "reference_modes"))},
+                     {}};
         r.trial.scene = read_scene((folder / r.file).string());
         Settings& s = r.trial.settings;
         s.sample_rate = index.number(i, "rate");

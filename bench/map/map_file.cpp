@@ -74,8 +74,8 @@ MapAxis axis_of(const store::SuiteReader& read, const Value& v, const std::strin
 Map map_of(const store::SuiteReader& read, const Value& v, const std::string& within) {
     read.table(v, within);
     read.only(v, within + ": ",
-              {"name", "scene", "schemes", "x", "y", "duration", "amplitude", "rate", "modes", "options", "set", "reference", "theory",
-               "refine", "reproduce"});
+              {"name", "scene", "schemes", "x", "y", "duration", "amplitude", "rate", "modes", "options", "set", "reference",
+               "reference_modes", "theory", "refine", "reproduce"});
     Map m;
     for (const char* name : {"name", "scene", "x"})
         if (!v.find(name)) throw SceneFileError(read.place(v) + ": " + within + ": the key " + name + " is missing");
@@ -104,6 +104,7 @@ Map map_of(const store::SuiteReader& read, const Value& v, const std::string& wi
             if (key == (*axis == 'x' ? m.x : m.y).key)
                 read.refuse(*v.find(axis)->find("key"), within + "." + axis + ".key", "a key that is not set for all points as well");
     if (const Value* x = v.find("reference")) m.reference = read.text(*x, within + ".reference");
+    if (const Value* x = v.find("reference_modes")) m.reference_modes = read.count(*x, within + ".reference_modes");
     if (const Value* x = v.find("refine")) m.refine = read.count(*x, within + ".refine");
     if (m.refine > 0 && m.x.at.empty()) read.refuse(*v.find("refine"), within + ".refine", "an axis x of numbers");
     if (const Value* x = v.find("reproduce")) {

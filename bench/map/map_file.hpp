@@ -6,6 +6,7 @@
 //   y = { key = "string.0.barrier.0.stiffness", values = [1e4, 1e16] }       (absent: one row)
 //   duration = 0.01    amplitude = 1    rate = 44100    modes = 40    options = { grid = 100 }    set = { "string.0.tension" = 30 }
 //   reference = "exact_contact" or "none"                      (absent: the highest that represents the scene)
+//   reference_modes = 1064                                     of the reference, the same at every point (absent: those of the point)
 //   theory = "grid_limit"                                      a boundary that is known: map_theory.hpp
 //   refine = 12                                                bisections of each boundary along x (absent: 0)
 //   reproduce = false                                          its failures are not minimised (absent: they are)
@@ -40,6 +41,7 @@ struct Map {
     std::vector<std::string> schemes;
     MapAxis x, y;                   // y without a key: one row
     std::vector<Assignment> fixed;  // the same at every point
+    int reference_modes = 0;        // 0: those of the point
     int refine = 0;
     bool reproduce = true;
 };

@@ -122,7 +122,7 @@ std::string axis_text(const MapAxis& axis, double x) {
     return axis.whole ? std::to_string(std::lround(x)) : store::text_of(x);
 }
 
-// Where the theory's margin changes its sign between the ends of the axis.
+// Where the theory's margin changes its sign between the ends of the axis, from its first point on where the theory has something to say.
 double theory_along(const PointPlace& row) {
     const MapAxis& axis = row.map->x;
     if (row.map->theory.empty() || axis.at.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -131,7 +131,9 @@ double theory_along(const PointPlace& row) {
         const double margin = theory_margin(row.map->theory, *t.scheme, t.scene, t.settings);
         return std::isnan(margin) ? Verdict::refused : margin > 0 ? Verdict::sound : Verdict::diverged;
     };
-    const Bracket ends{axis.at.front(), axis.at.back(), side(axis.at.front()), side(axis.at.back())};
+    std::size_t first = 0;
+    while (first + 1 < axis.at.size() && side(axis.at[first]) == Verdict::refused) ++first;
+    const Bracket ends{axis.at[first], axis.at.back(), side(axis.at[first]), side(axis.at.back())};
     if (ends.at_low == ends.at_high || ends.at_low == Verdict::refused || ends.at_high == Verdict::refused)
         return std::numeric_limits<double>::quiet_NaN();
     const Bracket b = bisect(ends, 60, axis.whole, side);
@@ -160,7 +162,7 @@ Trial trial_at(const PointPlace& p) {
     all.emplace_back(p.map->x.key, p.x);
     if (!p.map->y.key.empty()) all.emplace_back(p.map->y.key, p.y);
     try {
-        return trial_of(p.map->scene, *p.scheme, p.map->reference, all);
+        return trial_of(p.map->scene, *p.scheme, p.map->reference, all, p.map->reference_modes);
     } catch (const store::UsageError& e) {
         throw store::UsageError("map " + p.map->name + ": " + e.what());
     }

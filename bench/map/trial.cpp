@@ -21,7 +21,7 @@ Settings reference_settings(const Descriptor& reference, const Trial& t) {
     Settings s;
     s.sample_rate = reference.clock == Clock::continuous ? 0 : 8 * t.settings.sample_rate;
     s.tap_rate = t.settings.tap_rate;
-    s.modes = t.settings.modes > 0 ? t.settings.modes : modes_for(t.scene, t.settings);
+    s.modes = t.reference_modes > 0 ? t.reference_modes : t.settings.modes > 0 ? t.settings.modes : modes_for(t.scene, t.settings);
     return s;
 }
 }  // namespace
@@ -30,8 +30,9 @@ double row_rate(double rate) {
     return rate / std::max(1.0, std::round(rate / 44100));
 }
 
-Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::string& reference, const std::vector<Assignment>& all) {
-    Trial t{&scheme, {}, {}, reference};
+Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::string& reference, const std::vector<Assignment>& all,
+               int reference_modes) {
+    Trial t{&scheme, {}, {}, reference, reference_modes};
     std::vector<std::string> overrides;
     std::optional<double> duration;
     double amplitude = 1;
@@ -62,7 +63,8 @@ std::string identity_of(const Trial& t) {
                 {"tap_rate", store::text_of(t.settings.tap_rate)},
                 {"modes", t.settings.modes},
                 {"options", options},
-                {"reference", t.reference}}
+                {"reference", t.reference},
+                {"reference_modes", t.reference_modes}}
         .dump();
 }
 

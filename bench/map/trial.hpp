@@ -19,12 +19,14 @@ struct Trial {
     const Descriptor* scheme;
     Scene scene;
     Settings settings;
-    std::string reference;  // "none"; a name; "": the first of the references that represents the scene
+    std::string reference;    // "none"; a name; "": the first of the references that represents the scene
+    int reference_modes = 0;  // 0: those of this trial
 };
 
 // The trial that the assignments describe; keys as an axis of a map has them. `rate` is 44100 Hz unless set. Rows are taken at the rate
 // divided by the whole number that brings it nearest to 44.1 kHz. Throws SceneFileError, BadScene, UsageError.
-Trial trial_of(const std::string& scene, const Descriptor&, const std::string& reference, const std::vector<Assignment>&);
+Trial trial_of(const std::string& scene, const Descriptor&, const std::string& reference, const std::vector<Assignment>&,
+               int reference_modes = 0);
 
 double row_rate(double sample_rate);
 

@@ -29,6 +29,8 @@
 
 namespace jvari {
 
+extern const Descriptor modal_explicit_penalty;
+
 namespace {
 
 struct TrueEnergyContact {  // what both have in common
@@ -91,9 +93,13 @@ double stiffness_limit(const ModalString& m) {
 
 using Made = std::unique_ptr<Scheme>;
 
+ModalArray explicit_gain(const ModalString& string) {
+    return ModalArray(string.size, string.dt * string.dt / string.mass);
+}
+
 Made made_explicit(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     ModalString string = modal_string(descriptor, scene, settings);
-    const ModalArray gain(string.size, string.dt * string.dt / string.mass), inertia(string.count, string.mass);
+    const ModalArray gain = explicit_gain(string), inertia(string.count, string.mass);
     if (choice_option(settings, compliance_option) == "matched") return explicit_in_series(descriptor, scene, std::move(string), gain);
     ExplicitContact contact;
     contact.law = string.barrier;
@@ -128,9 +134,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // C = 2 R cos(omega dt), C~ = R^2. The thread is its spring alone: its damper acts on y^{n+1} - y^{n-1} = 0.
 double penalty_margin(const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.front();
-    if (s.barriers.empty() || choice_option(settings, compliance_option) == "matched") return nan;
+    if (s.barriers.empty()) return nan;
     const auto* barrier = std::get_if<LumpedBarrier>(&s.barriers.front());
     if (!barrier || barrier->exponent != 1) return nan;
+    if (choice_option(settings, compliance_option) == "matched")
+        return series_margin(modal_explicit_penalty, scene, settings, explicit_gain);
     const double dt = 1 / settings.sample_rate;
     const Modes modes = modes_of(s, modes_for(s, settings));
     const auto g = footprint_weights(modes, barrier->position, barrier->width);

@@ -14,19 +14,29 @@
 
 namespace jvari {
 
+extern const Descriptor modal_strang;
+
 namespace {
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    ModalString string = modal_string(descriptor, scene, settings);
+ModalArray gain_of(const ModalString& string) {
     const double dt = string.dt;
     ModalArray gain;
     for (int i = 0; i < string.count; ++i) {
         const double w = string.omega[i], wave = w > 0 ? std::sin(w * dt) / w : w < 0 ? std::sinh(w * dt) / w : dt;
         gain.push_back(dt * std::exp(-string.sigma[i] * dt) * wave / string.mass);
     }
+    return gain;
+}
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    ModalString string = modal_string(descriptor, scene, settings);
+    const ModalArray gain = gain_of(string);
     return explicit_in_series(descriptor, scene, std::move(string), gain);
 }
 
+double margin(const Scene& scene, const Settings& settings) {
+    return series_margin(modal_strang, scene, settings, gain_of);
+}
 }  // namespace
 
 extern const Descriptor modal_strang = {.name = "modal_strang",
@@ -34,6 +44,7 @@ extern const Descriptor modal_strang = {.name = "modal_strang",
                                         .represents = modal_features,
                                         .balance = Balance::none,
                                         .clock = Clock::stepped,
-                                        .make = made};
+                                        .make = made,
+                                        .limit = {"penalty_limit", margin}};
 
 }  // namespace jvari

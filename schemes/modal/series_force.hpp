@@ -56,6 +56,10 @@ struct SeriesForce {
     }
 };
 
+// The factor, less 1, by which what lasts in contact (exponent 1) and the thread could be stiffer before the highest root passes z = -1;
+// NaN where there is no such contact, or no such scheme.
+double series_margin(const Descriptor&, const Scene&, const Settings&, ModalArray (*gain_of)(const ModalString&));
+
 // The explicit scheme with these gains (modal_three_point.hpp) and what is missing of its compliance in series.
 std::unique_ptr<Scheme> explicit_in_series(const Descriptor&, const Scene&, ModalString, const ModalArray& gain);
 
