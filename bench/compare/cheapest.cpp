@@ -151,8 +151,8 @@ std::string ties_text(const store::Table& t, std::size_t row) {
 std::string cheapest_text(const store::Table& t) {
     std::string text, last;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        std::string scene = t.rows[i][0];
-        for (int k = 1; k < t.column("measure"); ++k)
+        std::string scene = t.at(i, "scene");
+        for (int k = t.column("scene") + 1; k < t.column("measure"); ++k)
             if (!t.rows[i][k].empty()) scene += " " + t.columns[k] + "=" + t.rows[i][k];
         if (scene != last) text += fmt::format("{}the cheapest scheme on {}\n", text.empty() ? "" : "\n", scene);
         last = scene;
@@ -162,11 +162,10 @@ std::string cheapest_text(const store::Table& t) {
         else if (t.at(i, "status") == "none") text += t.at(i, "why").empty() ? "none\n" : fmt::format("none\n    {}\n", t.at(i, "why"));
         else {
             const std::string tied = ties_text(t, i);
-            text +=
-                fmt::format("{}{} {}, {:.3g} s per s{}{}\n", t.at(i, "scheme"), t.at(i, "options").empty() ? "" : " " + t.at(i, "options"),
-                            t.at(i, "rate").empty() ? "with " + t.at(i, "modes") + " modes" : "at " + t.at(i, "rate") + " Hz",
-                            t.number(i, "cost_s_per_s"), tied.empty() ? "" : "; a tie with " + tied,
-                            perhaps.empty() ? "" : "; perhaps for less " + perhaps);
+            text += fmt::format("{} {}, {:.3g} s per s{}{}\n", store::variant_name(t.at(i, "scheme"), t.at(i, "options")),
+                                t.at(i, "rate").empty() ? "with " + t.at(i, "modes") + " modes" : "at " + t.at(i, "rate") + " Hz",
+                                t.number(i, "cost_s_per_s"), tied.empty() ? "" : "; a tie with " + tied,
+                                perhaps.empty() ? "" : "; perhaps for less " + perhaps);
         }
     }
     if (t.column("machine") >= 0) text += "cells were timed on several machines: each has its own cheapest\n";

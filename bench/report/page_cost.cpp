@@ -11,7 +11,7 @@ namespace {
 store::Table elements_of(const store::Table& t) {
     store::Table elements = t;
     std::erase_if(elements.rows, [&t](const auto& row) { return std::isnan(store::number_of(row[t.column("extra_ns")])); });
-    for (auto& row : elements.rows) row[1] = row[t.column("what")];  // coloured by the element
+    for (auto& row : elements.rows) row[t.column("series")] = row[t.column("what")];  // coloured by the element
     return elements;
 }
 

@@ -10,10 +10,9 @@ namespace {
 store::Table labelled(store::Table path) {
     path.columns.insert(path.columns.end(), {"label", "series"});
     for (std::size_t i = 0; i < path.rows.size(); ++i) {
-        auto& row = path.rows[i];
-        const std::string label = fmt::format("{}. {}", row[0], row[1]),
+        const std::string label = fmt::format("{}. {}", path.at(i, "step"), path.at(i, "change")),
                           series = store::variant_name(path.at(i, "scheme"), path.at(i, "options"));
-        row.insert(row.end(), {label, series});
+        path.rows[i].insert(path.rows[i].end(), {label, series});
     }
     return path;
 }
