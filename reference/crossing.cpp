@@ -9,7 +9,7 @@ Gap::Values Gap::at(double u, int terms) const noexcept {
     double s[3];
     sweep_functions().evaluate(p, terms, u, s);
     for (double& x : s) x *= sign;
-    Values v = {s[0], s[1], s[2], s[0], s[1], s[2], 0};
+    Values v = {s[0], s[1], s[2], 0, s[0], s[1], s[2], 0};
     for (int k = 0; k < pairs; ++k) {
         const double decay = std::exp(lambda[k].real() * u), phase = lambda[k].imag() * u;
         const double c = decay * std::cos(phase), o = decay * std::sin(phase), lr = lambda[k].real(), li = lambda[k].imag();
@@ -17,19 +17,22 @@ Gap::Values Gap::at(double u, int terms) const noexcept {
         const double re = br * c - bi * o, im = br * o + bi * c, re1 = lr * re - li * im, im1 = lr * im + li * re;
         v.g += re;
         v.slope += re1;
-        v.curvature += lr * re1 - li * im1;
+        const double re2 = lr * re1 - li * im1, im2 = lr * im1 + li * re1;
+        v.curvature += re2;
+        v.third += lr * re2 - li * im2;
         v.amplitude += decay * std::sqrt(br * br + bi * bi);
     }
     return v;
 }
 
 Gap::Values Gap::at_start() const noexcept {
-    Values v = {sign * p[0], sign * p[1], sign * p[2], sign * p[0], sign * p[1], sign * p[2], 0};
+    Values v = {sign * p[0], sign * p[1], sign * p[2], 0, sign * p[0], sign * p[1], sign * p[2], 0};
     for (int k = 0; k < pairs; ++k) {
-        const std::complex<double> b1 = lambda[k] * b[k];
+        const std::complex<double> b1 = lambda[k] * b[k], b2 = lambda[k] * b1;
         v.g += sign * b[k].real();
         v.slope += sign * b1.real();
-        v.curvature += sign * (lambda[k] * b1).real();
+        v.curvature += sign * b2.real();
+        v.third += sign * (lambda[k] * b2).real();
         v.amplitude += std::sqrt(std::norm(b[k]));
     }
     return v;
@@ -41,8 +44,8 @@ int Gap::terms_until(double u) const noexcept {
 }
 
 double Gap::depth_bound(double end) const noexcept {
-    double sum = 0, power = 1;
-    for (int n = 0; n < size; power *= end / ++n) sum += std::abs(p[n]) * power;
+    double sum = sign * p[0], power = end;
+    for (int n = 1; n < size; ++n, power *= end) sum += std::abs(p[n]) * power;  // end <= 1, and 1/n! left out
     for (int k = 0; k < pairs; ++k) sum += std::abs(b[k]);
     return sum;
 }
@@ -63,28 +66,45 @@ double safe_step(double g, double slope, double curvature, double third, double 
     return std::max(first, std::min(reach, by(bend + third * reach / 3)));
 }
 
+// That g + slope t + curvature t^2/2 - third t^3/6 >= 0 is certain for all t up to d: it stays above a concave parabola.
+bool safe_over(double g, double slope, double curvature, double third, double d) {
+    return g >= 0 && g + d * (slope - 0.5 * d * (std::max(0.0, -curvature) + third * d / 3)) >= 0;
+}
+// That g falls all the way to d, and is negative there: its slope stays below a convex parabola.
+bool falls_through(const Gap::Values& v, double third, double d) {
+    return v.slope + d * (v.curvature + 0.5 * third * d) < 0 && v.g + d * (v.slope + d * (0.5 * v.curvature + third * d / 6)) < 0;
+}
+double householder_step(const Gap::Values& v) {  // of order 3, of order 4 where the slow part has no third derivative
+    const double newton = v.g / v.slope, bend = 0.5 * newton * v.curvature / v.slope;
+    return newton * (1 - bend) / (1 - 2 * bend + newton * newton * v.third / (6 * v.slope));
+}
+
+struct PairBounds {  // of derivatives
+    double second = 0, third = 0;
+    explicit PairBounds(const Gap& gap) {
+        for (int k = 0; k < gap.pairs; ++k) {
+            const double square = std::norm(gap.lambda[k]), size = std::sqrt(std::norm(gap.b[k]));
+            second += size * square;
+            third += size * square * std::sqrt(square);
+        }
+    }
+};
 struct Bounds {  // of derivatives from the start to `until`
     double until;
     int terms;
     double second, third, slow_third;
 };
-Bounds bounds_until(const Gap& gap, double until) noexcept {
-    Bounds b{until, gap.terms_until(until), 0, 0, 0};
-    double of_slow[2];
-    sweep_functions().bound(gap.p, b.terms, until, of_slow);
-    b.second = of_slow[0], b.third = b.slow_third = of_slow[1];
-    for (int k = 0; k < gap.pairs; ++k) {
-        const double square = std::norm(gap.lambda[k]), size = std::sqrt(std::norm(gap.b[k]));
-        b.second += size * square;
-        b.third += size * square * std::sqrt(square);
-    }
-    return b;
+Bounds bounds_until(const Gap& gap, const PairBounds& pairs, double until) noexcept {
+    const int terms = gap.terms_until(until);
+    double slow[2];
+    sweep_functions().bound(gap.p, terms, until, slow);
+    return {until, terms, slow[0] + pairs.second, slow[1] + pairs.third, slow[1]};
 }
 
-// g(low) >= 0 > g(high), and at x, one of them or between, g is `at`: Halley's iteration kept inside.
+// g(low) >= 0 > g(high), and at x, one of them or between, g is `at`: Householder's iteration kept inside.
 double crossing_between(const Gap& gap, double low, double high, double x, Gap::Values at, const Bounds& b, double bound) noexcept {
     for (int i = 0; i < 100; ++i) {
-        const double newton = at.g / at.slope, bend = 0.5 * at.curvature / at.slope, step = newton / (1 - newton * bend);
+        const double step = householder_step(at), bend = 0.5 * at.curvature / at.slope;
         double next = x - step;
         const double allowed = std::max(1e-17 * b.until, 1e-3 * bound / std::abs(at.slope));  // the second: rounding of g
         if (std::abs(step) <= allowed) return std::clamp(next, low, high);
@@ -111,17 +131,14 @@ double crossing_within(const Gap& gap, double from, const Bounds& b, double boun
         if (v.g < -bound && u > from) return crossing_between(gap, before, u, u, v, b, bound);
         if (u >= end) return 2;
         const double left = end - u;
-        if (v.slope < 0 && v.g > 0) {  // no more than one crossing as far as the slope keeps its sign for certain
-            const double newton = v.g / -v.slope, span = std::min(2 * newton, left);
-            if ((std::max(0.0, v.curvature) + span * third) * span < -0.9 * v.slope) {
-                if (span == left) {
-                    const auto last = gap.at(end, b.terms);
-                    if (last.g >= 0) {
-                        v = last;
-                        return 2;
-                    }
-                }
-                return crossing_between(gap, u, u + span, u, v, b, bound);
+        if (v.slope < 0 && v.g > 0) {
+            const double span = std::min(-1.5 * householder_step(v), left);
+            if (span > 0 && falls_through(v, third, span)) return crossing_between(gap, u, u + span, u, v, b, bound);
+            if (v.slope + left * (v.curvature + 0.5 * third * left) < 0) {  // it falls, perhaps not through
+                const auto last = gap.at(end, b.terms);
+                if (last.g < 0) return crossing_between(gap, u, end, u, v, b, bound);
+                v = last;
+                return 2;
             }
         }
         double step = safe_step(std::max(0.0, v.g), v.slope, v.curvature, third, left);
@@ -137,12 +154,13 @@ double first_crossing(const Gap& gap, double end, double bound) noexcept {
     double fastest = 0;
     for (int k = 0; k < gap.pairs; ++k) fastest = std::max(fastest, gap.lambda[k].imag());
     Gap::Values v = gap.at_start();
-    const Bounds whole = bounds_until(gap, end);
-    if (safe_step(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end) >= end) return 2;
+    const PairBounds pairs(gap);
+    const Bounds whole = bounds_until(gap, pairs, end);
+    if (safe_over(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end)) return 2;
     double from = 0;
     for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {  // a stage has its own terms and bounds: early ones are cheap
         if (to > 0.5 * end) to = end;
-        const double crossing = crossing_within(gap, from, to == end ? whole : bounds_until(gap, to), bound, v);
+        const double crossing = crossing_within(gap, from, to == end ? whole : bounds_until(gap, pairs, to), bound, v);
         if (crossing <= end || to == end) return crossing;
         from = to;
     }

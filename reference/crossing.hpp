@@ -4,7 +4,8 @@
 //
 // Steps are taken that cannot pass a crossing: over a step d, g stays above g + g'd + g''d^2/2 - A d^3/6 with A a bound of |g'''|, or the
 // slow part alone stays above the sum of the amplitudes of the pairs. So nothing is sampled and nothing is missed, except dips that stay
-// above -bound. Near a crossing the derivative has one sign and Halley's iteration finishes. Amplitudes may not grow: Re lambda_k <= 0.
+// above -bound. Near a crossing the derivative has one sign and Householder's iteration finishes. Amplitudes may not grow: Re lambda_k <=
+// 0.
 #pragma once
 
 #include <complex>
@@ -23,6 +24,7 @@ struct Gap {
 
     struct Values {
         double g, slope, curvature;               // all of it
+        double third;                             // of the pairs
         double slow, slow_slope, slow_curvature;  // without the pairs
         double amplitude;                         // sum |b_k| e^(Re lambda_k u)
     };
@@ -30,7 +32,7 @@ struct Gap {
     Values at_start() const noexcept;
     Values at(double u) const noexcept { return at(u, size); }
     int terms_until(double u) const noexcept;       // in whole vectors
-    double depth_bound(double end) const noexcept;  // of |g| in [0, end]
+    double depth_bound(double end) const noexcept;  // of g in [0, end], end <= 1
 };
 
 // In [0, end], or 2 if there is none. g(0) may be zero already: then what follows is asked for.

@@ -358,7 +358,7 @@ void ExactContact::move_on(double by, double left) noexcept {
     for (int a = 0; !last && a < w.contacts; ++a) {
         double* r = at(r_, a);
         std::fill_n(shifted, w.size, 0.0);
-        combine(shifted, w.size, e, w.terms, r, 1);
+        combine(shifted, w.size, e, count_, r, 1);
         std::copy_n(shifted, w.size, r);
     }
     if (touched_.empty()) return;
@@ -375,17 +375,20 @@ void ExactContact::move_on(double by, double left) noexcept {
 void ExactContact::measure(int a, double end, bool leaves) noexcept {
     const Gap g = gap(a, window_.size);                             // touching: the gap's sign is turned, so this is the penetration
     if (leaves && g.depth_bound(end) <= extremes_.deepest) return;  // nothing new, and contact forces are not negative in between
-    const auto start = g.at(0), last = g.at(end);
+    const auto start = g.at_start(), last = g.at(end, g.terms_until(end));
     double deepest = std::max(start.g, last.g);
     extremes_.smallest_force =
         std::min(extremes_.smallest_force, law_[a].force(std::max(0.0, leaves ? start.g : std::min(start.g, last.g)), 0));
     if (start.slope > 0 && last.slope < 0 && g.depth_bound(end) > extremes_.deepest) {
-        double low = 0, high = end;
-        for (int i = 0; i < 30; ++i) {
-            const double middle = 0.5 * (low + high);
-            (g.at(middle).slope > 0 ? low : high) = middle;
+        double low = 0, high = end, x = 0.5 * end;  // Newton's iteration for the turning point, kept inside
+        for (int i = 0; i < 30 && high - low > 1e-9 * end; ++i) {
+            const auto now = g.at(x);
+            (now.slope > 0 ? low : high) = x;
+            deepest = std::max(deepest, now.g);
+            const double next = x - now.slope / now.curvature;
+            if (std::abs(next - x) < 1e-9 * end) break;
+            x = next > low && next < high ? next : 0.5 * (low + high);
         }
-        deepest = std::max(deepest, g.at(low).g);
     }
     extremes_.deepest = std::max(extremes_.deepest, deepest);
 }

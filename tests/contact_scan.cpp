@@ -4,7 +4,8 @@
 //
 // The scan knows two linear systems, apart and touching. It steps through each by its matrix exponential, a small fraction of its fastest
 // period at a time, looks into every step whose ends show a turning point, and refines each crossing. The two must agree in the number of
-// events, unless the scan saw the string come as near to its barrier as the bound that exact_contact states for itself.
+// events, unless the scan saw the string come as near to its barrier as the bound that exact_contact states for itself. Two turning points
+// within one step escape the scan: where the two differ it steps twenty times finer.
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
@@ -36,7 +37,8 @@ struct Regime {  // x' = A (x - centre), x = (y, v)
     }
 };
 
-Regime regime(const Modes& m, const std::vector<double>& g, Real k, Real height, const std::vector<double>& c, const Thread& thread) {
+Regime regime(const Modes& m, const std::vector<double>& g, Real k, Real height, const std::vector<double>& c, const Thread& thread,
+              Real fraction = 0.4L) {
     const int M = m.count();
     Regime r{Matrix::Zero(2 * M, 2 * M), {}, Vector::Zero(2 * M), 0};
     Vector pull = Vector::Zero(M);
@@ -53,7 +55,7 @@ Regime regime(const Modes& m, const std::vector<double>& g, Real k, Real height,
     r.centre.head(M) = -Matrix(r.A.bottomLeftCorner(M, M)).partialPivLu().solve(pull);
     Real rate = 0, stiffest = 0;
     for (int i = 0; i < M; ++i) rate += r.A.bottomRightCorner(M, M).row(i).cwiseAbs().sum(), stiffest += -r.A(M + i, i);
-    r.length = 0.4L / std::max(rate, std::sqrt(stiffest));
+    r.length = fraction / std::max(rate, std::sqrt(stiffest));
     r.step = Matrix::Identity(2 * M, 2 * M);
     Matrix term = r.step;
     for (int n = 1; n < 40; ++n) {
@@ -141,7 +143,7 @@ int main(int count_of_arguments, char** arguments) {
     const long count = count_of_arguments > 1 ? std::atol(arguments[1]) : 1000;
     std::mt19937_64 random(count_of_arguments > 2 ? std::atol(arguments[2]) : 1);
     const auto uniform = [&](double from, double to) { return from + (to - from) * std::uniform_real_distribution<double>()(random); };
-    long events = 0, touched = 0, within_bound = 0, missed = 0, failed = 0;
+    long events = 0, touched = 0, within_bound = 0, missed = 0, failed = 0, finer = 0;
     for (long trial = 0; trial < count; ++trial) {
         String s;
         s.length = 1;
@@ -171,10 +173,13 @@ int main(int count_of_arguments, char** arguments) {
                 b.height = static_cast<double>(free.nearest) - 2 * reach + (random() % 2 ? 1 : -1) * reach * std::pow(10, uniform(-17, -3));
         }
         s.barriers = {b};
-        const Seen seen = scan(apart, regime(m, g, b.stiffness.k, b.height, c, thread), g, b.height, x, duration + 1.0L / 4000);
+        const auto scanned = [&](Real fraction) {  // one row beyond the end, as the run does
+            return scan(regime(m, g, 0, 0, c, thread, fraction), regime(m, g, b.stiffness.k, b.height, c, thread, fraction), g, b.height, x,
+                        duration + 1.0L / 4000);
+        };
+        Seen seen = scanned(0.4L);
 
-        Scene scene;  // which runs one row beyond its end
-
+        Scene scene;
         scene.name = "random";
         scene.duration = duration;
         scene.strings = {s};
@@ -188,6 +193,10 @@ int main(int count_of_arguments, char** arguments) {
         failed += r.status.outcome != Outcome::ok;
         events += seen.events;
         touched += seen.events > 0;
+        if (found != seen.events && seen.nearest > bound) {
+            seen = scanned(0.02L);
+            ++finer;
+        }
         if (found != seen.events) {
             const bool near = seen.nearest <= bound;
             (near ? within_bound : missed) += 1;
@@ -197,7 +206,9 @@ int main(int count_of_arguments, char** arguments) {
             }
         }
     }
-    std::printf("%ld problems, %ld with contact, %ld events; counts differ within the bound in %ld, beyond it in %ld; %ld runs failed\n",
-                count, touched, events, within_bound, missed, failed);
+    std::printf(
+        "%ld problems, %ld with contact, %ld events; counts differ within the bound in %ld, beyond it in %ld; %ld scanned finer; %ld runs "
+        "failed\n",
+        count, touched, events, within_bound, missed, finer, failed);
     return missed > 0 || failed > 0;
 }
