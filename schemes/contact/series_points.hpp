@@ -63,14 +63,53 @@ struct SeriesPoints {
         time = t;
         yield_out = yield(0);
         yield_in = law.law.alpha == 1 ? yield(law.slope(1)) : 0;
+        const double k = law.both;
+        out = {1 - yield_out * (stiff_cc + k_c), -yield_out * stiff_cc, 0};
+        in = {1 - yield_in * (e * e * k + stiff_cc + k_c), -yield_in * (e * e * k + stiff_cc), yield_in * e * k};
+    }
+
+    // An instant between two such times: Y there, the forces, Y after the second. The string is held in each.
+    struct Instant {
+        double Y_now = 0;
+        Forces force;
+        double Y_after = 0;
+    };
+    Instant instant(double y_b, double y_c, double Y, bool at_start) const {  // at_start: there is no time before it
+        return law.law.alpha == 1 || !barrier ? linear_instant(y_b, y_c, Y, at_start) : power_instant(y_b, y_c, Y, at_start);
     }
 
 private:
+    struct Relaxation {  // Y -> on_Y Y + on_c (h_c - y_c) + on_b (h_b - y_b)
+        double on_Y = 1, on_c = 0, on_b = 0;
+        double operator()(double Y, double c, double b) const { return on_Y * Y + (on_c * c + on_b * b); }
+    };
+    Relaxation in, out;  // in contact, and not: exponent 1
+    Instant linear_instant(double y_b, double y_c, double Y, bool at_start) const {
+        const double b = h_b - y_b, c = h_c - y_c;
+        const double from_in = in(Y, c, b), from_out = out(Y, c, b);
+        Instant i;
+        i.Y_now = at_start ? Y : b - e * (Y + c) > 0 && barrier ? from_in : from_out;
+        const double D = i.Y_now + c, zeta = b - e * D, after_in = in(i.Y_now, c, b), after_out = out(i.Y_now, c, b);
+        const bool touching = zeta > 0 && barrier;
+        i.force.b = touching ? law.both * zeta : 0;
+        i.force.c = D * stiff_cc - e * i.force.b;
+        i.Y_after = touching ? after_in : after_out;
+        return i;
+    }
+    Instant power_instant(double y_b, double y_c, double Y, bool at_start) const;
     double yield(double slope) const {  // of Y in that time, per newton of pull [m/N]
         const double kappa = k_c + 1 / C_cc + e * e * slope;
         return r_c > 0 ? -std::expm1(-kappa * time / r_c) / kappa : 0;
     }
     double time = 0, yield_out = 0, yield_in = 0;
 };
+
+inline SeriesPoints::Instant SeriesPoints::power_instant(double y_b, double y_c, double Y, bool at_start) const {
+    Instant i;
+    i.Y_now = at_start ? Y : relaxed(y_b, y_c, Y);
+    i.force = forces(y_b, y_c, i.Y_now);
+    i.Y_after = relaxed(y_b, y_c, i.Y_now, i.force.b);
+    return i;
+}
 
 }  // namespace jvari

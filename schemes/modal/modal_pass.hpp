@@ -3,7 +3,7 @@
 
 namespace jvari {
 
-constexpr int modal_lanes = 16;  // arrays are padded to a multiple of this
+constexpr int modal_lanes = 8;  // arrays are padded to a multiple of this
 
 struct ModalPass {
     int size = 0;

@@ -55,9 +55,10 @@ ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const
     m.count = modes.count();
     m.size = (m.count + modal_lanes - 1) / modal_lanes * modal_lanes;
     m.mass = modes.mass;
-    const auto padded = [&m](std::vector<double> v) {
-        v.resize(m.size);
-        return v;
+    const auto padded = [&m](const auto& v) {
+        ModalArray a(v.begin(), v.end());
+        a.resize(m.size);
+        return a;
     };
     for (int i = 0; i < m.count; ++i) {
         const ModeStep step = exact_step(modes.omega0[i], modes.sigma[i], m.dt);
@@ -68,7 +69,7 @@ ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const
         m.omega.push_back(square >= 0 ? std::sqrt(square) : -std::sqrt(-square));
         m.sigma.push_back(modes.sigma[i]);
     }
-    for (ModalArray* a : {&m.num, &m.den, &m.loss, &m.omega, &m.sigma}) *a = padded(std::move(*a));
+    for (ModalArray* a : {&m.num, &m.den, &m.loss, &m.omega, &m.sigma}) *a = padded(*a);
     m.y0 = padded(initial_displacement(modes, s));
     if (!s.barriers.empty()) {
         const auto& b = std::get<LumpedBarrier>(s.barriers.front());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenes/modes.hpp"
+#include "schemes/aligned.hpp"
 #include "schemes/contact/contact.hpp"
 #include "schemes/modal/modal_pass.hpp"
 #include "schemes/scheme.hpp"
@@ -12,7 +13,7 @@
 namespace jvari {
 
 constexpr double modal_overflow = 1e140;  // [m] not finite, or so far off that the energy columns no longer are
-using ModalArray = std::vector<double>;
+using ModalArray = std::vector<double, LineAllocator<double>>;
 
 struct ModalTap {
     Quantity quantity;

@@ -27,6 +27,7 @@
 
 #include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/modal_string.hpp"
+#include "schemes/modal/series_kernel.hpp"
 
 namespace jvari {
 
@@ -63,6 +64,8 @@ public:
         first_ = couple(0.5 * m_.k_c, 0.5 * m_.k_c);
         const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
         const auto pass = ActsInSeries<Contact> ? three_point_pass_ahead : three_point_pass;
+        rows_ = series_advance(barrier, thread);
+        for (const ModalTap& tap : m_.taps) readable_ = readable_ && tap.quantity != Quantity::velocity;
         unplucked_ = pass(barrier, thread, false);
         plucked_ = pass(barrier, thread, true);
         pass_.size = m_.size;
@@ -103,7 +106,10 @@ public:
 
     Status advance(const Block& out) noexcept override {
         if (status_.outcome != Outcome::ok) return status_;
-        if constexpr (ActsInSeries<Contact>) contact_.probed = out.energy != nullptr;
+        if constexpr (ActsInSeries<Contact>) {
+            contact_.probed = out.energy != nullptr;
+            if (!contact_.probed && readable_) return advance_unprobed(out);
+        }
         for (int row = 0; row < out.rows; ++row) {
             write(out, row);
             const double weight = step_ == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
@@ -129,6 +135,21 @@ public:
             if (!contact_.solved()) return status_ = {Outcome::not_converged, step_ - 1};
         }
         return {};
+    }
+
+    Status advance_unprobed(const Block& out) noexcept {
+        SeriesRows rows{&m_,   q_.data(), &contact_, &pass_, theta_bb_, theta_bc_, theta_cc_,  theta_be_, theta_ce_,
+                        step_, y_b_,      y_c_,      F_b_,   F_c_,      F_e_,      impulse_b_, impulse_c_};
+        status_ = rows_(rows, out);
+        step_ = rows.step;
+        y_b_ = rows.y_b;
+        y_c_ = rows.y_c;
+        F_b_ = rows.F_b;
+        F_c_ = rows.F_c;
+        F_e_ = rows.F_e;
+        impulse_b_ = rows.impulse_b;
+        impulse_c_ = rows.impulse_c;
+        return status_;
     }
 
     int dofs() const override { return 2 * m_.count + (m_.g_b.empty() ? 0 : Contact::dofs); }
@@ -174,8 +195,8 @@ private:
         const double share = at_start ? 0.5 : 1, pluck = m_.pluck_at(step_);
         contact_.act(y_b_, y_c_, pluck, at_start);
         F_e_ = share * pluck;
-        F_b_ = share * contact_.force.b;
-        F_c_ = share * contact_.force.c;
+        F_b_ = share * contact_.now.force.b;
+        F_c_ = share * contact_.now.force.c;
     }
     void solve_points() {
         const bool at_start = step_ == 0;
@@ -270,10 +291,11 @@ private:
                 for (int i = 0; i < m_.size; ++i) sum += weights[i] * (next_increment(i) + d_[i]);
             return sum / (2 * m_.dt);
         };
-        write_taps<ActsInSeries<Contact> ? modal_dot_by_eights : modal_dot>(out, row, m_.taps, q_, velocity, impulse_b_ / per_row,
-                                                                            impulse_c_ / per_row);
+        write_taps<ActsInSeries<Contact> ? series_dot : modal_dot>(out, row, m_.taps, q_, velocity, impulse_b_ / per_row,
+                                                                   impulse_c_ / per_row);
         if constexpr (ActsInSeries<Contact>)
-            for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += contact_.on_tap(k);
+            for (int k = 0; k < out.taps; ++k)
+                if (!m_.taps[k].weights.empty()) out.tap[k * out.stride + row] += contact_.on_tap(k);
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
     }
 
@@ -285,6 +307,8 @@ private:
     Coupling steady_{}, first_{};
     ModalPass pass_;
     ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
+    SeriesAdvance rows_ = nullptr;  // in series, where no energy is asked for
+    bool readable_ = true;          // and all taps can be read without increments
     long step_ = 0;
     Status status_;
     double y_b_ = 0, y_b_old_ = 0, y_c_ = 0, y_c_old_ = 0;  // at steps n and n - 1 [m]

@@ -62,7 +62,8 @@ public:
             u0_[i] = -2 * A / J * y0_[i];  // (42) with q = 0
             free_modes_.push_back(two_point_mode(A, B, dt_));
         }
-        const auto scaled = [&](std::vector<double> w) {
+        const auto scaled = [&](const std::vector<double>& weights) {
+            ModalArray w(weights.begin(), weights.end());
             for (int i = 0; i < count_; ++i) w[i] /= scale[i];
             w.resize(size);
             return w;

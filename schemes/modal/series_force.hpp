@@ -19,40 +19,48 @@ struct SeriesForce {
     MissingCompliance C;
     double limit = 0;  // [N/m]
 
-    double Y = 0, Y_now = 0;              // the thread's state after half a step more, and at the step; less h_c [m]
-    double y_b = 0, y_c = 0, F_e = 0;     // at the step, the pluck's part of C in them
-    SeriesPoints::Forces force{};         // at the step
-    bool probed = true;                   // energy is asked for
-    double lost = 0, lost_after = 0;      // by the thread: up to the step, since the last row; and in the half step after it [J]
-    double least_force = 0, deepest = 0;  // deepest: the largest force [N]
+    struct Moving {                        // what a step changes
+        double Y = 0, Y_now = 0;           // the thread's state after half a step more, and at the step; less h_c [m]
+        double y_b = 0, y_c = 0, F_e = 0;  // at the step, the pluck's part of C in them
+        SeriesPoints::Forces force{};      // at the step
+        double least_force = 0, most_force = 0;
+
+        void act(const SeriesPoints& p, const MissingCompliance& C, double b, double c, double pluck, bool at_start) {
+            F_e = pluck;
+            y_b = b + C.be * pluck;
+            y_c = c + C.ce * pluck;
+            const SeriesPoints::Instant i = p.instant(y_b, y_c, Y, at_start);
+            Y_now = i.Y_now;
+            force = i.force;
+            Y = i.Y_after;
+            least_force = force.b < least_force ? force.b : least_force;
+            most_force = force.b > most_force ? force.b : most_force;
+        }
+    };
+    Moving now;
+    bool probed = true;               // energy is asked for
+    double lost = 0, lost_after = 0;  // by the thread: up to the step, since the last row; and in the half step after it [J]
 
     void begin(double y_c0) {
-        Y = points.r_c > 0 ? y_c0 - points.h_c : 0;
+        now.Y = points.r_c > 0 ? y_c0 - points.h_c : 0;
         probed = true;
     }
     void act(double b, double c, double pluck, bool at_start) {
-        F_e = pluck;
-        y_b = b + C.be * pluck;
-        y_c = c + C.ce * pluck;
-        Y_now = at_start ? Y : points.relaxed(y_b, y_c, Y);
-        force = points.forces(y_b, y_c, Y_now);
-        const double after = points.relaxed(y_b, y_c, Y_now, force.b);
-        if (probed) {
-            lost += lost_after + points.energy(y_b, y_c, Y) - energy();
-            lost_after = energy() - points.energy(y_b, y_c, after);
-        }
-        Y = after;
-        least_force = std::min(least_force, force.b);
-        if (force.b > deepest) deepest = force.b;
+        const double before = now.Y;
+        now.act(points, C, b, c, pluck, at_start);
+        if (!probed) return;
+        lost += lost_after + points.energy(now.y_b, now.y_c, before) - energy();
+        lost_after = energy() - points.energy(now.y_b, now.y_c, now.Y);
     }
-    double energy() const { return points.energy(y_b, y_c, Y_now); }
-    double on_tap(std::size_t k) const { return C.taps[k][0] * force.b + C.taps[k][1] * force.c + C.taps[k][2] * F_e; }
+    double energy() const { return points.energy(now.y_b, now.y_c, now.Y_now); }
+    double on_tap(std::size_t k) const { return C.on_tap(k, now.force.b, now.force.c, now.F_e); }
     bool solved() const { return true; }
     std::vector<Fact> facts() const {
-        return {{facts::smallest_contact_force, least_force},
-                {facts::deepest_penetration, deepest > 0 ? std::pow(deepest / points.law.law.k, 1 / points.law.law.alpha) : 0},
-                {facts::series_compliance, points.law.S},
-                {facts::stable_stiffness_limit, limit}};
+        return {
+            {facts::smallest_contact_force, now.least_force},
+            {facts::deepest_penetration, now.most_force > 0 ? std::pow(now.most_force / points.law.law.k, 1 / points.law.law.alpha) : 0},
+            {facts::series_compliance, points.law.S},
+            {facts::stable_stiffness_limit, limit}};
     }
 };
 

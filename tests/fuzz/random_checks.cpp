@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "analysis/energy.hpp"
 #include "bench/trust/certificate_library.hpp"
 #include "reference/oversampled.hpp"
+#include "reference/profile_points.hpp"
 #include "reference/references.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -122,6 +125,7 @@ void check_run(const Descriptor& d, const RandomCase& c, Tally& tally, const Fin
 void Tally::add(const Tally& t) {
     scenes += t.scenes, runs += t.runs, ended += t.ended, refused += t.refused, failed += t.failed, claims += t.claims;
     estimates += t.estimates, low_estimates += t.low_estimates;
+    judged += t.judged;
     worst_claim = std::max(worst_claim, t.worst_claim);
     worst_estimate = std::max(worst_estimate, t.worst_estimate);
     if (t.slowest > slowest) slowest = t.slowest, slowest_at = t.slowest_at;
@@ -156,11 +160,12 @@ struct Claim {  // of one tap, over the whole run
 // What is known of an error against what is claimed of it: the distance from the truth less what the truth itself may be off. Figures
 // within the noise floor are left out: no two programs can agree better.
 std::vector<Claim> claims(const bench::trust::Trust& trust, const Trace& trace, const Trace& truth, const std::vector<double>& off,
-                          const std::vector<double>& floor) {
+                          const std::vector<double>& floor, bool about_scene = false) {
     std::vector<Claim> all;
     for (std::size_t k = 0; k < trust.figure.size(); ++k) {
         const double is = relative_difference(trace.column(static_cast<int>(k)), truth.column(static_cast<int>(k))) - off[k];
-        if (const double claimed = trust.figure[k][2]; !std::isnan(claimed) && is > floor[k]) all.push_back({trace.names[k], is, claimed});
+        if (const double claimed = about_scene ? trust.of_scene(k, 2) : trust.in_model(k, 2); !std::isnan(claimed) && is > floor[k])
+            all.push_back({trace.names[k], is, claimed});
     }
     return all;
 }
@@ -213,6 +218,53 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     ++tally.refused;
 } catch (const std::exception& e) {
     finding("certificate", std::string("throws what is no refusal: ") + e.what());
+}
+
+void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Finding& finding,
+                                   const std::function<void(const std::string&)>& at) try {
+    const Descriptor* best = best_reference(c.scene);
+    if (!best) return;
+    const double from = cpu_seconds();
+    const auto look = [from] {
+        if (cpu_seconds() - from > about_scene_seconds) throw PastItsLimit{};
+    };
+    const bool profile = needed_by(c.scene).has(Feature::profile_barrier);
+    CertifySettings settings{std::min(model_modes, modes_for(c.scene, {})), c.settings.tap_rate, 0, {}, [&](double) { look(); }};
+    at("certificate about the scene");
+    const Certificate certificate = certify(c.scene, settings);
+    const bench::trust::Trust trust = bench::trust::trust_of(bench::trust::KeptCertificate{"", "", certificate}, best->name, {},
+                                                             std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate);
+    if (trust.doubled != (profile ? "modes and points" : "modes")) return;  // there are no more modes than those that were measured
+    RunOptions options;
+    options.progress = [&](long, long) { look(); };
+    const auto larger = [&](int modes, int points) {
+        Settings s{0, c.settings.tap_rate, modes * certificate.modes, {}};
+        if (profile) s.options = {{nodes_option.name, std::to_string(points * std::stoi(nodes_option.fallback))}};
+        return run(*best, c.scene, s, options);
+    };
+    const Run r = larger(1, 1), half = larger(scene_multiple / 2, 2), truth = larger(scene_multiple, 4);
+    for (const Run* each : {&r, &half, &truth})
+        if (each->status.outcome != Outcome::ok) return;
+    std::vector<double> off, floor;
+    const auto norm = [](std::span<const double> x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); };
+    for (int k = 0; k < r.trace.taps(); ++k)  // relative to the reference, as its certificate is
+        off.push_back(relative_difference(half.trace.column(k), truth.trace.column(k)) * norm(truth.trace.column(k)) /
+                      norm(r.trace.column(k)));
+    for (const Agreement& a : certificate.floor) floor.push_back(above_floor * std::max(floor_displacement, a.relative_l2.back()));
+    ++tally.judged;
+    for (const Claim& x : claims(trust, truth.trace, r.trace, off, floor, true)) {
+        if (!(x.claimed < 1)) continue;  // as large as the motion itself: nothing is claimed
+        ++tally.claims;
+        tally.worst_claim = std::max(tally.worst_claim, x.ratio());
+        if (!(x.ratio() < claim_allowed))
+            finding(best->name, x.tap + " of the scene: error " + text(x.is) + ", certified to " + text(x.claimed));
+    }
+} catch (const PastItsLimit&) {
+    ++tally.ended;
+} catch (const Refusal&) {
+    ++tally.refused;
+} catch (const std::exception& e) {
+    finding("certificate about the scene", std::string("throws what is no refusal: ") + e.what());
 }
 
 }  // namespace jvari::test

@@ -18,9 +18,14 @@ constexpr double claim_allowed_alone = 2;  // where one does so itself, at anoth
 constexpr double pull = 1e-6;              // of the largest contact force
 constexpr double sundials_seconds = 10;    // of CPU, for one run
 
+constexpr int model_modes = 80;             // of a certificate about the scene, at most; those below 20 kHz where they are fewer
+constexpr int scene_multiple = 8;           // of these is the truth
+constexpr double about_scene_seconds = 20;  // of CPU: its certificate and its truth
+
 struct Tally {
     long scenes = 0, runs = 0, ended = 0, refused = 0, failed = 0;  // ended: by its limit; failed: a run that says so itself
     long claims = 0;                                                // figures of certificates that were compared with a truth
+    long judged = 0;                                                // scenes of which they are
     double worst_claim = 0;                                         // true/claimed, the largest
     long estimates = 0;      // the same of a stand-in's estimate of its own error, which is no bound:
     long low_estimates = 0;  // how many were below the true error is told, and asserted of none
@@ -34,5 +39,8 @@ using Finding = std::function<void(const std::string& scheme, const std::string&
 
 void check_schemes(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 void check_certificate(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
+// The certificate is of a string cut off and of a profile's points; what it claims is held against the string with eight times the modes
+// and four times the points.
+void check_certificate_about_scene(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 
 }  // namespace jvari::test

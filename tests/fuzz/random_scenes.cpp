@@ -2,6 +2,7 @@
 //
 //   random_scenes COUNT SEED      COUNT scenes, seeds SEED and on
 //   random_scenes COUNT FILE      the first COUNT seeds that a file lists, one a line
+//   random_scenes scene COUNT SEED|FILE    the same scenes: does a certificate claim too much about the scene?
 //   random_scenes show SEED       the scene of a seed, as TOML
 //
 // Each scene has a process of its own: a signal, a run without end or a memory that overflows is a finding with its seed, and the next
@@ -40,7 +41,9 @@ void send(int pipe, const std::string& line) {
     if (write(pipe, whole.data(), whole.size()) < 0) _exit(3);
 }
 
-[[noreturn]] void run_scene(std::uint64_t seed, int pipe) {
+enum class Asked { promises, about_scene };
+
+[[noreturn]] void run_scene(Asked asked, std::uint64_t seed, int pipe) {
     const rlimit time{seconds_allowed, seconds_allowed + 5}, memory{memory_allowed, memory_allowed}, none{0, 0};
     setrlimit(RLIMIT_CPU, &time);
     setrlimit(RLIMIT_CORE, &none);
@@ -50,23 +53,25 @@ void send(int pipe, const std::string& line) {
     Tally t;
     at("drawing the scene");
     const RandomCase c = random_case(seed);
-    check_schemes(c, t, finding, at);
-    if (seed % certified_every == 0 && !c.extreme) check_certificate(c, t, finding, at);
+    if (asked == Asked::about_scene) check_certificate_about_scene(c, t, finding, at);
+    else check_schemes(c, t, finding, at);
+    if (asked == Asked::promises && seed % certified_every == 0 && !c.extreme) check_certificate(c, t, finding, at);
     std::ostringstream line;
-    line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' ' << t.claims << ' ' << t.worst_claim << ' '
-         << t.estimates << ' ' << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest << ' ' << t.slowest_at;
+    line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' ' << t.claims << ' ' << t.judged << ' '
+         << t.worst_claim << ' ' << t.estimates << ' ' << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest << ' '
+         << t.slowest_at;
     send(pipe, line.str());
     _exit(0);
 }
 
 // ---- In the process that stays
-long take(std::uint64_t seed, Tally& tally) {
+long take(Asked asked, std::uint64_t seed, Tally& tally) {
     int ends[2];
     if (pipe(ends) != 0) return std::perror("pipe"), 1;
     std::fflush(nullptr);
     const pid_t child = fork();
     if (child < 0) return std::perror("fork"), 1;
-    if (child == 0) close(ends[0]), run_scene(seed, ends[1]);
+    if (child == 0) close(ends[0]), run_scene(asked, seed, ends[1]);
     close(ends[1]);
     std::string said, line, doing;
     char buffer[4096];
@@ -87,7 +92,7 @@ long take(std::uint64_t seed, Tally& tally) {
         Tally t;
         t.scenes = 1;
         std::istringstream in(line.substr(1));
-        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.worst_claim >> t.estimates >> t.low_estimates >>
+        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.judged >> t.worst_claim >> t.estimates >> t.low_estimates >>
             t.worst_estimate >> t.slowest >> std::ws;
         std::getline(in, t.slowest_at);
         tally.add(t);
@@ -99,12 +104,19 @@ long take(std::uint64_t seed, Tally& tally) {
     return findings;
 }
 
-int all(const std::vector<std::uint64_t>& seeds) {
+int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
     Tally tally;
     long findings = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-        findings += take(seeds[i], tally);
+        findings += take(asked, seeds[i], tally);
         if ((i + 1) % 100 == 0) std::printf("%zu of %zu scenes\n", i + 1, seeds.size()), std::fflush(stdout);
+    }
+    if (asked == Asked::about_scene) {
+        std::printf(
+            "%ld scenes, %ld judged, %ld ended by a limit\n%ld figures of certificates about the scene, true/claimed at most %.3g\n"
+            "%ld findings\n",
+            tally.scenes, tally.judged, tally.ended, tally.claims, tally.worst_claim, findings);
+        return findings > 0 || tally.judged == 0;
     }
     std::printf("%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld ended by a limit, %ld refusals\n", tally.scenes,
                 tally.runs, tally.failed, tally.ended, tally.refused);
@@ -123,7 +135,9 @@ int main(int argc, char** argv) {
         std::printf("%s", jvari::write_scene(random_case(std::strtoull(argv[2], nullptr, 10)).scene).c_str());
         return 0;
     }
-    if (argc != 3) return std::fprintf(stderr, "usage: random_scenes COUNT SEED | COUNT FILE | show SEED\n"), 2;
+    const bool about_scene = argc == 4 && std::string(argv[1]) == "scene";
+    if (about_scene) --argc, ++argv;
+    if (argc != 3) return std::fprintf(stderr, "usage: random_scenes COUNT SEED | COUNT FILE | scene COUNT SEED|FILE | show SEED\n"), 2;
     const std::size_t count = std::strtoull(argv[1], nullptr, 10);
     std::vector<std::uint64_t> seeds;
     if (std::ifstream file(argv[2]); file) {
@@ -132,5 +146,5 @@ int main(int argc, char** argv) {
     } else {
         for (std::size_t i = 0; i < count; ++i) seeds.push_back(std::strtoull(argv[2], nullptr, 10) + i);
     }
-    return all(seeds);
+    return all(about_scene ? Asked::about_scene : Asked::promises, seeds);
 }

@@ -1,0 +1,112 @@
+// The passes of modal_pass.hpp in the vectors of the instruction set that is being compiled: included once for each by Highway.
+// Presence of contact, thread and pluck is a template argument: an absent part costs nothing. Two accumulators per dot hide the latency of
+// adding.
+#if defined(JVARI_MODAL_PASS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef JVARI_MODAL_PASS_INL
+#undef JVARI_MODAL_PASS_INL
+#else
+#define JVARI_MODAL_PASS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "schemes/modal/modal_pass.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace jvari {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, 8>;
+using V = hn::Vec<D>;
+
+struct TwoPointForm {
+    static constexpr bool reads_x = true;
+    static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
+        const V s = hn::Add(v, force);
+        v = next = hn::Sub(hn::Mul(p, s), hn::MulAdd(r, x, v));
+        x = hn::Add(x, s);
+    }
+};
+struct ThreePointForm {
+    static constexpr bool reads_x = true;
+    static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
+        v = hn::Add(hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)), force);
+        x = hn::Add(x, v);
+        next = hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, hn::Add(v, v)));
+    }
+};
+
+struct AheadForm {
+    static constexpr bool reads_x = false;
+    static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
+        v = hn::Add(hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)), force);
+        x = hn::Add(x, v);
+        next = hn::Add(x, hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)));
+    }
+};
+
+template <class Form, bool barrier, bool thread, bool pluck>
+HWY_INLINE void pass(ModalPass& m) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    const V F_b = hn::Set(d, m.F_b), F_c = hn::Set(d, m.F_c), F_e = hn::Set(d, m.F_e);
+    double *HWY_RESTRICT x = m.x, *HWY_RESTRICT v = m.v;
+    V x_b[2], v_b[2], x_c[2], v_c[2];
+    for (int k = 0; k < 2; ++k) x_b[k] = v_b[k] = x_c[k] = v_c[k] = hn::Zero(d);
+    const auto update = [&](int j, int k) HWY_ATTR {
+        V force = hn::Zero(d), next;
+        if constexpr (pluck) force = hn::Mul(hn::Load(d, m.e_e + j), F_e);
+        if constexpr (thread) force = hn::MulAdd(hn::Load(d, m.e_c + j), F_c, force);
+        if constexpr (barrier) force = hn::MulAdd(hn::Load(d, m.e_b + j), F_b, force);
+        V xj = hn::Load(d, x + j), vj = hn::Load(d, v + j);
+        Form::update(xj, vj, hn::Load(d, m.p + j), hn::Load(d, m.r + j), force, next);
+        hn::Store(xj, d, x + j);
+        hn::Store(vj, d, v + j);
+        if constexpr (barrier) {
+            const V g = hn::Load(d, m.g_b + j);
+            if constexpr (Form::reads_x) x_b[k] = hn::MulAdd(g, xj, x_b[k]);
+            v_b[k] = hn::MulAdd(g, next, v_b[k]);
+        }
+        if constexpr (thread) {
+            const V g = hn::Load(d, m.g_c + j);
+            if constexpr (Form::reads_x) x_c[k] = hn::MulAdd(g, xj, x_c[k]);
+            v_c[k] = hn::MulAdd(g, next, v_c[k]);
+        }
+    };
+    int i = 0;
+    for (; i + 2 * N <= m.size; i += 2 * N) {
+        update(i, 0);
+        update(i + N, 1);
+    }
+    if (i < m.size) update(i, 0);
+    const auto sum = [d](const V(&a)[2]) { return hn::GetLane(hn::SumOfLanes(d, hn::Add(a[0], a[1]))); };
+    if constexpr (barrier) {
+        if constexpr (Form::reads_x) m.x_b = sum(x_b);
+        m.v_b = sum(v_b);
+    }
+    if constexpr (thread) {
+        if constexpr (Form::reads_x) m.x_c = sum(x_c);
+        m.v_c = sum(v_c);
+    }
+}
+
+// Sum of w x.
+HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x, int size) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    V even = hn::Zero(d), odd = hn::Zero(d);
+    int i = 0;
+    for (; i + 2 * N <= size; i += 2 * N) {
+        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
+        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, x + i + N), odd);
+    }
+    if (i < size) even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
+    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace jvari
+HWY_AFTER_NAMESPACE();
+
+#endif
