@@ -4,15 +4,18 @@
 // touched the motion is linear and flies exactly, its next contact isolated rigorously (flight.hpp); while one is, SUNDIALS integrates to a
 // stated tolerance and finds the crossings (integrator.hpp). With flight = integrate everything is integrated, by steps short enough for
 // root finding to see contacts, which is a belief and not a bound: it is there to be compared with.
+// On a body that moves there is no exact flight: all strings are integrated together (integrated_instrument.hpp).
 // A profile acts as the points of profile_points.hpp. Leaves out: polarisation.
 #include <algorithm>
 #include <cmath>
 
 #include "reference/flight.hpp"
+#include "reference/integrated_instrument.hpp"
 #include "reference/integrator.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
+#include "reference/string_equations.hpp"
 
 namespace jvari {
 
@@ -273,6 +276,10 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     i.order = static_cast<int>(order);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
+    if (needed_by(scene).has(Feature::moving_body)) {
+        const double longest = above_zero(settings, longest_step_option, 1);
+        return integrated_instrument(descriptor, scene, unsampled, i, choice.first_step, longest);
+    }
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, settings);
     if (series && scene.strings.front().pluck)
@@ -284,22 +291,25 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
 // An integrator of another kind is there for scenes that nothing else can confirm.
 Confirmation confirmation(const Scene& scene) {
     const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
+    if (needed_by(scene).has(Feature::moving_body))  // explicit methods alone: another one, of shorter steps
+        return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}},
+                {{{order_option.name, smooth ? "6" : "8"}, {rtol_option.name, "1e-12"}, {longest_step_option.name, "0.5"}}}};
     return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}}, {{{method_option.name, "adams"}, {rtol_option.name, "1e-12"}}}};
 }
 }  // namespace
 
-const Descriptor sundials = {.name = "sundials",
-                             .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
-                             .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                                           Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                                           Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                                           Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                                           Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck),
-                             .balance = Balance::to_tolerance,
-                             .clock = Clock::continuous,
-                             .make = made,
-                             .options = options,
-                             .approximates = points_for_a_profile,
-                             .confirmation = confirmation};
+const Descriptor sundials = {
+    .name = "sundials",
+    .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
+    .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
+                  Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body),
+    .balance = Balance::to_tolerance,
+    .clock = Clock::continuous,
+    .make = made,
+    .options = options,
+    .approximates = points_for_a_profile,
+    .confirmation = confirmation};
 
 }  // namespace jvari

@@ -1,4 +1,4 @@
-// An adaptive integrator for StringEquations that stops where a barrier's surface is crossed: SUNDIALS behind plain doubles.
+// An adaptive integrator for Equations that stops where a barrier's surface is crossed: SUNDIALS behind plain doubles.
 //
 // Multi-step (CVODE: BDF, Adams) and one-step methods (ARKODE: explicit and ESDIRK). A crossing is found by the library's own root finding
 // on the penetrations, from outside where a barrier is not touched and from inside where it is. The library interpolates the state there
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <memory>
 
-#include "reference/string_equations.hpp"
+#include "reference/equations.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -28,7 +28,7 @@ public:
         LinearSolver solver;
         int order;  // highest, of the multi-step methods
     };
-    Integrator(StringEquations&, const Settings&);  // throws std::bad_alloc
+    Integrator(Equations&, const Settings&);  // throws std::bad_alloc
     ~Integrator();
 
     double* state() noexcept;                                       // of size equations.size()

@@ -53,8 +53,8 @@ void add(const double* d, double F, double* dv, int n) {
 }
 }  // namespace
 
-StringEquations::StringEquations(const Modes& modes, const String& s, const std::optional<InSeries>& series)
-    : padded((modes.count() + (series && series->relaxes() ? 1 : 0) + lanes - 1) / lanes * lanes), mass_(modes.mass) {
+StringEquations::StringEquations(const Modes& modes, const String& s, const std::optional<InSeries>& series) : mass_(modes.mass) {
+    padded = (modes.count() + (series && series->relaxes() ? 1 : 0) + lanes - 1) / lanes * lanes;
     const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
     const auto fill = [&](std::vector<double>& rows) { rows.resize((rows.size() + padded - 1) / padded * padded, 0.0); };
     for (int i = 0; i < modes.count(); ++i) {

@@ -14,37 +14,35 @@
 
 #include <vector>
 
+#include "reference/equations.hpp"
 #include "reference/in_series.hpp"
 #include "scenes/modes.hpp"
 
 namespace jvari {
 
-struct StringEquations {
+struct StringEquations final : Equations {
     enum Sum { bridge_impulse, thread_impulse, supplied, dissipated, sums };  // [N s], [N s], [J], [J]
 
     StringEquations(const Modes&, const String&, const std::optional<InSeries>& = {});
 
-    int padded = 0;    // modes in whole vectors; what is beyond the last stays zero
-    int contacts = 0;  // points 0 ... contacts - 1 are barriers; a thread is the last point
-    int points = 0;
-    std::vector<char> touched;  // [contact]
-    double pluck_time = 0;      // since the pluck's start, at t = 0 of the integrator [s]
+    int points = 0;         // a thread is the last
+    double pluck_time = 0;  // since the pluck's start, at t = 0 of the integrator [s]
     bool plucked = false;
 
-    int size() const { return 2 * padded + sums; }        // p, v, sums
-    double thread_force(const double* z) const noexcept;  // F_s of in_series.hpp, where the thread has a state [N]
-    void put_thread(double Y, double* z) const noexcept;  // Y_c - h_c into that state [m]
-    void slope(double t, const double* z, double* dz) const noexcept;
-    double penetration(int contact, const double* z) const noexcept;        // eta [m]
-    double penetration_speed(int contact, const double* z) const noexcept;  // [m/s]
-    double contact_force(int contact, const double* z) const noexcept;      // [N], whether touched or not
-    double potential(int point, double y) const noexcept;                   // [J], of a barrier or the thread
+    int size() const override { return 2 * padded + sums; }  // p, v, sums
+    double thread_force(const double* z) const noexcept;     // F_s of in_series.hpp, where the thread has a state [N]
+    void put_thread(double Y, double* z) const noexcept;     // Y_c - h_c into that state [m]
+    void slope(double t, const double* z, double* dz) const noexcept override;
+    double penetration(int contact, const double* z) const noexcept override;        // eta [m]
+    double penetration_speed(int contact, const double* z) const noexcept override;  // [m/s]
+    double contact_force(int contact, const double* z) const noexcept override;      // [N], whether touched or not
+    double potential(int point, double y) const noexcept;                            // [J], of a barrier or the thread
     double scale_squared(
-        const double* z) const noexcept;          // sum of p^2 + v^2, or what barriers and thread press, 2 potential/m, where that is more
-    double pace(const double* z) const noexcept;  // of the motion in contacts that are this deep and this fast, a bound [1/s]
+        const double* z) const noexcept override;  // sum of p^2 + v^2, or what barriers and thread press, 2 potential/m, where that is more
+    double pace(const double* z) const noexcept;   // of the motion in contacts that are this deep and this fast, a bound [1/s]
 
-    void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept;  // (I - gamma J(z)) x = b
-    void jacobian(double t, const double* z, double* J) const noexcept;                        // dense, column by column
+    void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept override;  // (I - gamma J(z)) x = b
+    void jacobian(double t, const double* z, double* J) const noexcept override;                        // dense, column by column
 
 private:
     struct Point {

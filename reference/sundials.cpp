@@ -30,7 +30,7 @@ bool multistep(Method m) {
 }  // namespace
 
 struct Integrator::Library {
-    Library(StringEquations&, const Settings&);
+    Library(Equations&, const Settings&);
     ~Library();
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
@@ -56,7 +56,7 @@ struct Integrator::Library {
     static int solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype);
     static void quiet(int, const char*, const char*, char*, void*) {}
 
-    StringEquations& equations;
+    Equations& equations;
     const Settings settings;
     SUNContext context = nullptr;
     N_Vector z = nullptr;
@@ -116,7 +116,7 @@ int Integrator::Library::solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vecto
     return 0;
 }
 
-Integrator::Library::Library(StringEquations& e, const Settings& s) : equations(e), settings(s) {
+Integrator::Library::Library(Equations& e, const Settings& s) : equations(e), settings(s) {
     const int size = e.size();
     const auto need = [](bool ok) {
         if (!ok) throw std::bad_alloc();
@@ -246,7 +246,7 @@ bool Integrator::Library::onto_surface(double to) noexcept {
     }
 }
 
-Integrator::Integrator(StringEquations& e, const Settings& s) : library_(std::make_unique<Library>(e, s)) {}
+Integrator::Integrator(Equations& e, const Settings& s) : library_(std::make_unique<Library>(e, s)) {}
 Integrator::~Integrator() = default;
 double* Integrator::state() noexcept {
     return library_->state();

@@ -106,6 +106,12 @@ std::vector<double> nut_force_weights(const Modes& modes, const String& s) {
     return w;
 }
 
+std::vector<double> end_inertia(const Modes& modes, const String& s) {
+    std::vector<double> mu;
+    for (double beta : modes.beta) mu.push_back(s.linear_density / beta);
+    return mu;
+}
+
 namespace {
 struct ShapeOf {
     const Modes& modes;

@@ -34,6 +34,10 @@ std::vector<double> displacement_weights(const Modes&, double position);        
 std::vector<double> footprint_weights(const Modes&, double position, double width);  // g_i, eq 20, limit at beta_i w = pi
 std::vector<double> nut_force_weights(const Modes&, const String&);                  // -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
 
+// Integral of linear density x v_i (1 - x/L): what a mode with both ends at rest feels of the acceleration of the end at x = 0, and that
+// end of its own [kg].
+std::vector<double> end_inertia(const Modes&, const String&);
+
 // What a steady force of 1 N through these weights makes of the quantity they read [m/N]: sum_i w_i^2/(m omega0_i^2).
 double static_compliance(const Modes&, const std::vector<double>& weights);
 

@@ -51,6 +51,13 @@ Scene alone(const Scene& scene, int string) {
     return one;
 }
 
+Scene unfiltered(Scene scene) {
+    if (!scene.body) return scene;
+    scene.body = Body{"", "", 0, std::move(scene.body->modes)};
+    if (scene.body->modes.empty()) scene.body.reset();
+    return scene;
+}
+
 const char* name_of(Feature f) {
     switch (f) {
         case Feature::bending_stiffness: return "bending stiffness";
@@ -66,6 +73,7 @@ const char* name_of(Feature f) {
         case Feature::initial_shape: return "initial shape";
         case Feature::pluck: return "pluck";
         case Feature::polarisation: return "two polarisations";
+        case Feature::moving_body: return "moving body";
     }
     return "?";
 }
@@ -117,6 +125,7 @@ Features needed_by(const Scene& scene) {
         if (s.pluck) f = f | Feature::pluck;
         if (s.polarisation) f = f | Feature::polarisation;
     }
+    if (scene.body && !scene.body->modes.empty()) f = f | Feature::moving_body;
     return f;
 }
 

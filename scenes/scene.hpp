@@ -154,9 +154,16 @@ struct Tap {
     double position = 0;        // [m], displacement and velocity only
     bool operator==(const Tap&) const = default;
 };
-struct Body {                 // filters of what is heard of driving_force and nut_force: nothing to a scheme
-    std::string bridge, nut;  // files of impulse responses; "": none
-    int sections = 0;         // second-order sections in place of a response; 0: the response itself
+struct BodyMode {          // an oscillator that the bridge moves; what all strings pull at is the sum of their displacements
+    double mass = 0;       // [kg], as felt at the bridge
+    double stiffness = 0;  // [N/m]
+    double damping = 0;    // [kg/s]
+    bool operator==(const BodyMode&) const = default;
+};
+struct Body {
+    std::string bridge, nut;      // filters of what is heard of driving_force and nut_force: files of impulse responses; "": none
+    int sections = 0;             // second-order sections in place of a response; 0: the response itself
+    std::vector<BodyMode> modes;  // none: the bridge does not move
     bool operator==(const Body&) const = default;
 };
 
@@ -176,7 +183,9 @@ const char* lacks(const String&, Quantity);
 Scene alone(const Scene&, int string);
 bool hears(const Tap&, const Scene&, int string);
 
-// ---- What a scene asks of a scheme of its strings one by one: that there are several asks nothing, and a body asks nothing.
+Scene unfiltered(Scene);  // without the body's filters; what moves stays
+
+// ---- What a scene asks of a scheme: that there are several strings asks nothing, and a body that only filters asks nothing.
 
 enum class Feature : unsigned {
     bending_stiffness = 1u << 0,
@@ -192,8 +201,9 @@ enum class Feature : unsigned {
     initial_shape = 1u << 10,
     pluck = 1u << 11,
     polarisation = 1u << 12,
+    moving_body = 1u << 13,  // the strings' end at x = 0 moves with it
 };
-constexpr int feature_count = 13;
+constexpr int feature_count = 14;
 const char* name_of(Feature);
 
 struct Features {

@@ -111,8 +111,7 @@ std::string write_scene(const Scene& scene) {
 }
 
 std::string scene_hash(const Scene& scene) {
-    Scene heard = scene;
-    heard.body.reset();  // a filter of what it gives, and the only part that names files
+    const Scene heard = unfiltered(scene);  // filters change nothing of a run, and name files
     std::string text = write_scene(heard);
     Tables tables{text};
     fields(tables, heard);

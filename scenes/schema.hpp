@@ -163,10 +163,16 @@ void fields(auto& pass, Is<Tap> auto& t) {
     if (has_position(t.quantity)) pass.number("position", t.position, any, "m");
     else pass.refused("position", "no position, which only displacement and velocity have");
 }
+void fields(auto& pass, Is<BodyMode> auto& m) {
+    pass.number("mass", m.mass, positive, "kg");
+    pass.number("stiffness", m.stiffness, positive, "N/m");
+    pass.number("damping", m.damping, not_negative, "kg/s", 0.0);
+}
 void fields(auto& pass, Is<Body> auto& b) {
     pass.file("bridge", b.bridge);
     pass.file("nut", b.nut);
     pass.optional_count("sections", b.sections);
+    pass.parts("mode", b.modes);
 }
 void fields(auto& pass, Is<Scene> auto& s) {
     pass.text("name", s.name);

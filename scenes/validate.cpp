@@ -158,8 +158,8 @@ void validate(const Scene& scene) {
         if (!names.insert(scene.taps[i].name).second)
             throw BadScene(path + "name", quote(scene.taps[i].name) + " a second time", "a name of its own");
     }
-    if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty())
-        throw BadScene("body", "neither bridge nor nut", "at least one of them");
+    if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty() && scene.body->modes.empty())
+        throw BadScene("body", "neither bridge nor nut nor mode", "at least one of them");
 }
 
 }  // namespace jvari

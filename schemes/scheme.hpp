@@ -153,7 +153,8 @@ struct Descriptor {
     Balance balance;
     Clock clock;
     std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&,
-                                    const Settings&);  // of one string, by make_scheme alone; throws Refusal or BadScene
+                                    const Settings&);  // by make_scheme alone, of one string, or of all on a moving body; throws Refusal
+                                                       // or BadScene
     std::span<const Option> options = {};
     std::span<const Approximation> approximates = {};
     const char* note = "";  // what the features cannot express, one sentence for the capability table
@@ -165,8 +166,8 @@ struct Descriptor {
 Features approximated(const Descriptor&);
 
 // The only way to make a scheme: refuses features that the scheme does not represent, options that it does not
-// declare and words that an option does not take, then calls `make`, once for each string of the scene. Throws Refusal, BadScene, or
-// BadScheme.
+// declare and words that an option does not take, then calls `make`, once for each string of the scene, or for all on a moving body.
+// Throws Refusal, BadScene, or BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
 
 // The least margin that the scheme's limit leaves on a string of the scene; NaN where it has nothing to say.

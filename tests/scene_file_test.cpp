@@ -190,6 +190,13 @@ quantity = "driving_force"
 [body]
 bridge = "bridge.wav"
 nut = "nut.wav"
+[[body.mode]]
+mass = 0.25
+stiffness = 1.5e5
+damping = 6.0
+[[body.mode]]
+mass = 0.1
+stiffness = 4e5
 )";
 
 TEST(WriteScene, EveryKeyOfTheSchemaSurvives) {
@@ -200,6 +207,7 @@ TEST(WriteScene, EveryKeyOfTheSchemaSurvives) {
     EXPECT_EQ(std::get<ModeInitial>(*scene.strings[1].initial).number, 3);
     EXPECT_EQ(scene.taps[1].string, std::nullopt);
     EXPECT_EQ(scene.body->nut, "nut.wav");
+    EXPECT_TRUE((scene.body->modes == std::vector<BodyMode>{{0.25, 1.5e5, 6}, {0.1, 4e5, 0}}));
     const Scene again = parse_scene(write_scene(scene), "again.toml");
     EXPECT_TRUE(again == scene) << write_scene(scene);
     EXPECT_EQ(write_scene(again), write_scene(scene));
@@ -221,6 +229,8 @@ TEST(SceneHash, ChangesWithEveryValueAndIsTheSameForTheSameScene) {
     EXPECT_EQ(hash, scene_hash(parse_scene(everything, "elsewhere.toml")));
     EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml", {"string.0.thread.height=1.0000000000000001e-5", "duration=0.6"})));
     EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml", {"string.0.length=0.9000000000000001"})));
+    EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml", {"body.mode.1.damping=1e-9"})));
+    EXPECT_EQ(hash, scene_hash(parse_scene(everything, "scene.toml", {"body.nut=other.wav"})));  // a filter of what is heard
     Scene tables = scene;
     tables.strings[0].damping = TableDamping{"modes.csv", {100}, {1}};
     const std::string before = scene_hash(tables);
@@ -523,7 +533,14 @@ const std::vector<Bad> bad_scenes{
      "scene.toml:8: tap.0.name: found \"a,b\", expected letters, digits, _ . and -, neither time_s nor energy_..."},
     {one + "[[tap]]\nname = \"time_s\"\nquantity = \"nut_force\"\n",
      "scene.toml:8: tap.0.name: found \"time_s\", expected letters, digits, _ . and -, neither time_s nor energy_..."},
-    {one + "[body]\n", "scene.toml:7: body: found neither bridge nor nut, expected at least one of them"},
+    {one + "[body]\n", "scene.toml:7: body: found neither bridge nor nut nor mode, expected at least one of them"},
+    {one + "[[body.mode]]\nmass = -1\nstiffness = 1\n", "scene.toml:8: body.mode.0.mass: found -1, expected a positive number [kg]"},
+    {one + "[[body.mode]]\nmass = 1\nstiffness = 0\n", "scene.toml:9: body.mode.0.stiffness: found 0, expected a positive number [N/m]"},
+    {one + "[[body.mode]]\nmass = 1\nstiffness = 1\ndamping = -1e-9\n",
+     "scene.toml:10: body.mode.0.damping: found -1e-9, expected a number >= 0 [kg/s]"},
+    {one + "[[body.mode]]\nmass = 1\n", "scene.toml:7: body.mode.0.stiffness: found nothing, expected a positive number [N/m]"},
+    {one + "[[body.mode]]\nmass = 1\nstiffness = 1\nfrequency = 1\n",
+     "scene.toml:10: body.mode.0.frequency: unknown key; known here: \"mass\", \"stiffness\", \"damping\""},
 };
 
 TEST(BadScenes, EachSaysWhereWhatWasFoundAndWhatWasExpected) {

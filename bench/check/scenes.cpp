@@ -66,6 +66,7 @@ Scene with(Feature feature, Scene scene) {
         case Feature::polarisation: s.polarisation = Polarisation{0.1, 0.3}; break;
         case Feature::initial_shape: s.initial = ModeInitial{1, 1.9e-3 * s.length}; break;
         case Feature::pluck: s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5 * s.length, 0.1 * s.length}; break;
+        case Feature::moving_body: scene.body = Body{"", "", 0, {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}}; break;
     }
     return scene;
 }
@@ -173,6 +174,10 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::initial_shape: add([](Change& c) { return c.initial_shape(); }); break;
         case Feature::pluck: add([](Change& c) { return c.pluck(); }); break;
         case Feature::polarisation: add([](Change& c) { return c.polarisation(); }); break;
+        case Feature::moving_body:
+            all.push_back(scene);
+            for (BodyMode& m : all.back().body->modes) m.stiffness *= 2;
+            break;
     }
     return all;
 }

@@ -53,7 +53,7 @@ Judgement judge(const Figures& f) {
 
 Scene listened(Scene scene) {
     scene.taps.clear();
-    scene.body.reset();
+    scene = unfiltered(std::move(scene));
     for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) {
         const double L = scene.strings[k].length;
         const std::string of = k == 0 ? "" : std::to_string(k);

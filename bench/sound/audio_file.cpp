@@ -57,7 +57,7 @@ Scene audible(Scene scene) {
     if (scene.body && !scene.body->bridge.empty() && is_driven(scene)) scene.taps.push_back(bridge);
     if (scene.body && !scene.body->nut.empty()) scene.taps.push_back(nut);
     if (!scene.taps.empty()) return scene;
-    scene.body.reset();  // its one response is of a bridge that nothing touches
+    scene = unfiltered(std::move(scene));  // its one response, if any, is of a bridge that nothing touches
     scene.taps = {is_driven(scene) ? bridge : nut};
     return scene;
 }
@@ -71,7 +71,7 @@ Player::Player(AudioFile file, const Scene& scene, double tap_rate) : file_(std:
     if (bytes > most_bytes)
         throw store::UsageError(fmt::format("{}: a {} holds at most {:.0e} bytes, this would be {:.1e}. A .csv or .h5 holds them", out,
                                             file_.path.extension().string(), most_bytes, bytes));
-    if (scene.body) body_ = radiations(scene, tap_rate);
+    if (scene.body && !(scene.body->bridge.empty() && scene.body->nut.empty())) body_ = radiations(scene, tap_rate);
     for (std::size_t k = 0; k < body_.size() && scene.body->sections > 0; ++k)
         body_text_ += fmt::format("; {} sections leave an error of {:.1f} dB in body.{}", scene.body->sections, body_[k].misfit(),
                                   scene.taps[k].name);

@@ -36,7 +36,7 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
         left.push_back(fmt::format("beyond a first look, whose errors do not fall fast enough: {}", fmt::join(path.passed_over, ", ")));
     if (judge.scene().strings.front().pluck || judge.scene().strings.front().initial)
         left.emplace_back("plainer excitations: they are the question");
-    if (judge.scene().body) left.emplace_back("the body: no tap is heard through it");
+    if (judge.scene().body) left.emplace_back("the body: no tap is heard through it, and what moves is all left in");
     left.push_back(
         fmt::format("schemes that do not represent the scene or what is left of it; those that do: {}", fmt::join(path.tried, ", ")));
     return left;

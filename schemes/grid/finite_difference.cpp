@@ -242,6 +242,7 @@ struct PlaceBarrier {
     double length;  // of the string [m]
     void operator()(const LumpedBarrier& b) const {
         g.points.push_back(footprint_stencil(g.grid, b.position, b.width));
+        g.places.push_back(b.position);
         g.laws.push_back({b.stiffness.k, b.exponent});
         g.heights.push_back(b.height);
     }
@@ -249,6 +250,7 @@ struct PlaceBarrier {
         const auto [first, x] = nodes_on(b, length, g.grid.intervals);
         for (std::size_t i = 0; i < x.size(); ++i) {
             g.points.push_back({first + static_cast<int>(i), {1.0}});
+            g.places.push_back(x[i]);
             g.laws.push_back({b.stiffness.K * g.grid.dx, b.exponent});  // lumped: a node stands for dx of the profile
         }
         if (x.empty())
@@ -304,6 +306,18 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
 }
 }  // namespace
 
+namespace {
+void put_on_body(GridString& g, const Descriptor& d, const String& s) {  // schemes/body/body_step.hpp
+    if (g.series) throw Refusal(std::string(d.name) + ": compliance=matched leaves out a moving body");
+    g.at_body = at_body(s);
+    g.at_body->laws = g.laws;
+    g.at_body->heights = g.heights;
+    g.at_body->loss.assign(g.laws.size(), 0.0);
+    g.at_body->positions = g.places;
+    for (int l = 1; l < g.grid.intervals; ++l) g.mu.weight.push_back(g.mass * (1 - static_cast<double>(l) / g.grid.intervals));
+}
+}  // namespace
+
 GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const Grid& grid, const LossFit& loss) {
     const bool matched = choice_option(settings, compliance_option) == "matched";
     const String s = matched ? with_profile_points(scene.strings.front(), settings) : scene.strings.front();
@@ -328,6 +342,7 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     g.thread = s.thread;
     if (s.thread) {
         g.points.push_back(footprint_stencil(grid, s.thread->position, s.thread->width));
+        g.places.push_back(s.thread->position);
         g.narrowest = g.narrowest == 0 ? s.thread->width / grid.dx : std::min(g.narrowest, s.thread->width / grid.dx);
     }
     g.pluck = s.pluck;
@@ -341,6 +356,7 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
         g.taps.push_back(t);
     }
     if (matched) put_in_series(g, descriptor, scene, s);
+    if (needed_by(scene).has(Feature::moving_body)) put_on_body(g, descriptor, s);
     return g;
 }
 

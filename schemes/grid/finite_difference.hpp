@@ -9,12 +9,13 @@
 // three are non-negative: no wavenumber of the grid gains energy.
 // With compliance=matched what the grid takes from the string's compliance stands in series with the points, and profiles are touched at
 // points of their own (option `points`): at its nodes a grid yields more than the true string.
-// Left out: contact loss, measured modes, polarisation, the body.
+// Left out: contact loss, measured modes, polarisation; a moving body by the midpoint scheme.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "schemes/body/body_step.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/contact/contact.hpp"
 #include "schemes/scheme.hpp"
@@ -94,6 +95,7 @@ struct GridString {
     LossFit loss;
     std::vector<double> initial;   // u_0..u_N at t = 0 [m]
     std::vector<Stencil> points;   // where obstacles read and push: the contacts in order, then the thread where there is one
+    std::vector<double> places;    // of the points [m]
     std::vector<ContactLaw> laws;  // one per contact
     std::vector<double> heights;   // [m], one per contact
     std::optional<Thread> thread;
@@ -103,6 +105,8 @@ struct GridString {
     double narrowest = 0;   // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
     std::vector<GridTap> taps;
     std::optional<MissingMatrix> series;  // in series with the points, compliance=matched
+    std::optional<StringAtBody> at_body;  // on a moving body: all but the compliances
+    Stencil mu;                           // and the inertia of a node against its acceleration [kg]
 
     double pluck_at(double t) const;                                    // [N]
     bool by_pluck() const { return series && !series->pluck.empty(); }  // the pluck moves points by way of what is in series

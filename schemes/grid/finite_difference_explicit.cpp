@@ -27,15 +27,18 @@ struct ExplicitUpdate {
 constexpr Option options[] = {compliance_option, profile_points_option, grid_option, over_limit_option};
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    const int rows = steps_per_row(settings);
-    const double dt = 1 / settings.sample_rate;
-    const String& s = scene.strings.front();
-    const LossFit loss = fit_losses(s);
-    const double limit = explicit_spacing_limit(s, loss, dt), m = loss.sigma1 * dt, m4 = -loss.sigma2 * dt, divisor = 1 + loss.sigma0 * dt;
-    const GridString g = on_grid(descriptor, scene, settings, grid_for(descriptor, s, settings, limit), loss);
-    return std::make_unique<ThreePointString<ExplicitUpdate>>(g, dt, rows, m, m4,
-                                                              ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
-                                                              std::vector<Fact>{{facts::spacing_over_limit, g.grid.dx / limit}});
+    using OfOne = ThreePointString<ExplicitUpdate>;
+    return on_its_support<OfOne>(scene, settings, [&](const Scene& one) {
+        const int rows = steps_per_row(settings);
+        const double dt = 1 / settings.sample_rate;
+        const String& s = one.strings.front();
+        const LossFit loss = fit_losses(s);
+        const double limit = explicit_spacing_limit(s, loss, dt), divisor = 1 + loss.sigma0 * dt;
+        const double m = loss.sigma1 * dt, m4 = -loss.sigma2 * dt;
+        const GridString g = on_grid(descriptor, one, settings, grid_for(descriptor, s, settings, limit), loss);
+        return std::make_unique<OfOne>(g, dt, rows, m, m4, ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
+                                       std::vector<Fact>{{facts::spacing_over_limit, g.grid.dx / limit}});
+    });
 }
 
 double grid_margin(const Scene& scene, const Settings& settings) {
@@ -46,7 +49,7 @@ double grid_margin(const Scene& scene, const Settings& settings) {
 
 extern const Descriptor finite_difference_explicit = {.name = "finite_difference_explicit",
                                                       .source = "Bilbao, Torin & Chatziioannou 2015",
-                                                      .represents = grid_features,
+                                                      .represents = grid_features | Features(Feature::moving_body),
                                                       .balance = Balance::exact,
                                                       .clock = Clock::stepped,
                                                       .make = made,

@@ -40,18 +40,21 @@ double spacing_limit(const String& s, double dt, double theta) {  // theta 0: th
 }
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    using OfOne = ThreePointString<ThetaUpdate>;
     const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate, asked = number_option(settings, theta_option, 0);
     if (asked != 0 && !(asked > 0.5)) throw Refusal("option theta: found " + std::to_string(asked) + ", expected more than 0.5");
-    const String& s = scene.strings.front();
-    const double limit = spacing_limit(s, dt, asked);
-    const Grid grid = grid_for(descriptor, s, settings, limit);
-    const GridString g = on_grid(descriptor, scene, settings, grid, fit_losses(s));
-    const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
-    ThetaUpdate update{FivePoint(g, dt, m, 0, 1, FivePoint::Of::increment),
-                       GridSolve(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt), grid.intervals};
-    return std::make_unique<ThreePointString<ThetaUpdate>>(
-        g, dt, rows, m, 0.0, std::move(update), std::vector<Fact>{{facts::spacing_over_limit, grid.dx / limit}, {facts::theta, theta}});
+    return on_its_support<OfOne>(scene, settings, [&](const Scene& one) {
+        const String& s = one.strings.front();
+        const double limit = spacing_limit(s, dt, asked);
+        const Grid grid = grid_for(descriptor, s, settings, limit);
+        const GridString g = on_grid(descriptor, one, settings, grid, fit_losses(s));
+        const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
+        ThetaUpdate update{FivePoint(g, dt, m, 0, 1, FivePoint::Of::increment),
+                           GridSolve(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt), grid.intervals};
+        return std::make_unique<OfOne>(g, dt, rows, m, 0.0, std::move(update),
+                                       std::vector<Fact>{{facts::spacing_over_limit, grid.dx / limit}, {facts::theta, theta}});
+    });
 }
 
 double grid_margin(const Scene& scene, const Settings& settings) {
@@ -62,7 +65,7 @@ double grid_margin(const Scene& scene, const Settings& settings) {
 
 extern const Descriptor finite_difference_theta = {.name = "finite_difference_theta",
                                                    .source = "Bilbao 2009, chapter 7",
-                                                   .represents = grid_features,
+                                                   .represents = grid_features | Features(Feature::moving_body),
                                                    .balance = Balance::exact,
                                                    .clock = Clock::stepped,
                                                    .make = made,

@@ -15,12 +15,16 @@
 //   exactly.
 // Start from rest: u^1 = u^0 + dt^2/2 (acceleration), contacts and thread taken between u^0 and u^1, so that the start is stable however
 // stiff they are, of second order, and without losses exactly the scheme's own cosine.
+// On a body that moves (schemes/body) the points of all strings are solved for together, and its acceleration is one more force.
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "scenes/excitation.hpp"
 #include "schemes/aligned.hpp"
+#include "schemes/body/body_modes.hpp"
+#include "schemes/body/instrument.hpp"
 #include "schemes/grid/five_point_pass.hpp"
 #include "schemes/grid/grid_scheme.hpp"
 
@@ -45,18 +49,16 @@ public:
         const int points = static_cast<int>(g_.points.size());
         for (const Stencil& s : g_.points) responses_.push_back(update_.response(s));
         if (g_.pluck) pluck_response_ = update_.response(g_.pluck_stencil);
-        std::vector<double> theta(points * points), half(points * points);
-        std::vector<double> line(g_.grid.intervals + 1);
-        for (int b = 0; b < points; ++b) {
-            std::fill(line.begin(), line.end(), 0.0);
-            responses_[b].add(gain_, line.data());
-            for (int a = 0; a < points; ++a) theta[a * points + b] = g_.points[a].read(line.data());
+        if (g_.at_body) {
+            mu_response_ = update_.response(g_.mu);
+            g_.at_body->theta = compliances();
+        } else {
+            const std::vector<double> theta = compliances();
+            std::vector<double> half(theta.size());
+            for (std::size_t i = 0; i < theta.size(); ++i) half[i] = 0.5 * theta[i];
+            obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, 2 * dt);
+            start_ = ObstacleStep(g_.laws, g_.heights, g_.thread, half, dt);
         }
-        for (int a = 0; a < points; ++a)  // symmetric to the last bit
-            for (int b = 0; b < a; ++b) theta[a * points + b] = theta[b * points + a];
-        for (std::size_t i = 0; i < theta.size(); ++i) half[i] = 0.5 * theta[i];
-        obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, 2 * dt);
-        start_ = ObstacleStep(g_.laws, g_.heights, g_.thread, half, dt);
         if (g_.series) {
             obstacle_.put_in_series(*g_.series, 2);
             start_.put_in_series(*g_.series, 1);
@@ -66,7 +68,57 @@ public:
         ThreePointString::reset();
     }
 
+    // ---- On a body (schemes/body/instrument.hpp)
+
+    const StringAtBody& at_body() const { return *g_.at_body; }
+    const double* older() const { return older_.data(); }
+    const double* free() const { return free_.data(); }
+    double inertia() const { return inertia_; }
+    double pluck() const { return F_e_; }
+    double share() const {  // most that the ends' inertia takes of a node's, sum over the sine modes of mu_j^2/(M - dt^2 K/4) [kg]
+        const int N = g_.grid.intervals;
+        double sum = 0;
+        for (int j = 1; j < N; ++j) {
+            const double half = 0.5 * std::numbers::pi * j / N, s = 2 * std::sin(half) / g_.grid.dx, square = s * s;
+            const double left = 1 - (m_ - m4_ * square) * square - 0.25 * dt_ * dt_ * (g_.c2 + g_.kappa2 * square) * square;
+            sum += 0.5 * g_.mass / (N * std::tan(half) * std::tan(half) * left);
+        }
+        return sum;
+    }
+    void begin() noexcept {
+        at_rest();
+        const double *now = level_[1], *next = level_[2];
+        inertia_ = 2 / (dt_ * dt_) * (g_.mu.read(next) - g_.mu.read(now));
+        F_e_ = g_.pluck_at(0);
+    }
+    void start(const double* force, double a) noexcept {
+        std::copy_n(force, force_.size(), force_.data());
+        a_ = a;
+        half_a_step();
+        budget_ = HUGE_VAL;  // what the others give it is not known here
+    }
+    void pass(const double* force, double a, bool probed) noexcept {
+        std::copy_n(force, force_.size(), force_.data());
+        a_ = a;
+        probed ? pass<true>() : pass<false>();
+    }
+    void reading(int level, double* out) const noexcept { g_.read(level_[1 + level], 0, out); }
+    double momentum() const noexcept { return (g_.mu.read(level_[2]) - g_.mu.read(level_[1])) / dt_; }  // of the half step
+    bool failed() const { return failed_.outcome != Outcome::ok; }
+
+    // ----
+
     void reset() noexcept override {
+        at_rest();
+        start_.begin(older_.data());
+        if (!start_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, 0};
+        half_a_step();
+        obstacle_.follow(start_);
+        budget_ = std::abs(stored());
+    }
+
+private:
+    void at_rest() noexcept {  // level 1 without the forces
         const int N = g_.grid.intervals;
         for (int i = 0; i < 3; ++i) {
             level_[i] = buffer_[i].data() + node_offset;
@@ -85,20 +137,35 @@ public:
         update_(next, now, before);  // with u- = u this is u + dt^2 (acceleration)
         for (int l = 1; l < N; ++l) next[l] = now[l] + 0.5 * (next[l] - now[l]);
         pluck(0, 0.5, next);
-        const int points = start_.points();
         g_.read(now, 0, older_.data());
         g_.read(next, dt_, free_.data());
-        for (int a = 0; a < points; ++a) free_[a] -= older_[a];
-        start_.begin(older_.data());
-        if (!start_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, 0};
-        for (int a = 0; a < points; ++a)
+        for (std::size_t a = 0; a < free_.size(); ++a) free_[a] -= older_[a];
+    }
+    void half_a_step() noexcept {  // level 1 with them
+        double *before = level_[0], *next = level_[2];
+        for (std::size_t a = 0; a < force_.size(); ++a)
             if (force_[a] != 0) responses_[a].add(0.5 * gain_ * force_[a], next);
-        obstacle_.follow(start_);
-        std::copy_n(next - 1, N + 2, before - 1);         // at rest: u^{-1} = u^1
-        bridge_ = thread_ = supplied_ = dissipated_ = 0;  // row 0 takes the halves of this force
-        budget_ = std::abs(stored());
+        if (g_.at_body) mu_response_.add(-0.5 * gain_ * a_, next);
+        std::copy_n(next - 1, g_.grid.intervals + 2, before - 1);  // at rest: u^{-1} = u^1
+        bridge_ = thread_ = supplied_ = dissipated_ = 0;           // row 0 takes the halves of this force
     }
 
+    // Of the points, and then of the body where there is one.
+    std::vector<double> compliances() const {
+        const int points = static_cast<int>(g_.points.size()), all = points + (g_.at_body ? 1 : 0);
+        const auto place = [&](int a) -> const Stencil& { return a < points ? g_.points[a] : g_.mu; };
+        std::vector<double> theta(static_cast<std::size_t>(all) * all), line(g_.grid.intervals + 1);
+        for (int b = 0; b < all; ++b) {
+            std::fill(line.begin(), line.end(), 0.0);
+            (b < points ? responses_[b] : mu_response_).add(gain_, line.data());
+            for (int a = 0; a < all; ++a) theta[a * all + b] = place(a).read(line.data());
+        }
+        for (int a = 0; a < all; ++a)  // symmetric to the last bit
+            for (int b = 0; b < a; ++b) theta[a * all + b] = theta[b * all + a];
+        return theta;
+    }
+
+public:
     Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows && failed_.outcome == Outcome::ok; ++row) {
             write(out, row);
@@ -136,7 +203,7 @@ private:
     }
     double bridge_force() const noexcept {
         double sum = 0;
-        for (int a = 0; a < obstacle_.contacts(); ++a) sum += force_[a];
+        for (std::size_t a = 0; a < g_.laws.size(); ++a) sum += force_[a];
         return sum;
     }
     double thread_force() const noexcept { return g_.thread ? force_.back() : 0; }
@@ -149,6 +216,13 @@ private:
 
     template <bool probed>
     void step() noexcept {
+        approach();
+        if (!force_.empty() && !obstacle_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, step_ - 1};
+        pass<probed>();
+    }
+
+public:
+    void approach() noexcept {  // the next step without the points' forces
         double* spare = level_[0];
         level_[0] = level_[1];
         level_[1] = level_[2];
@@ -158,14 +232,22 @@ private:
         ++step_;
         mirror(now);
         update_(next, now, before);
-        const double F_e = pluck(step_ * dt_, 1, next);
-        const int points = obstacle_.points();
+        F_e_ = pluck(step_ * dt_, 1, next);
         g_.read(before, (step_ - 1) * dt_, older_.data());
         g_.read(next, (step_ + 1) * dt_, free_.data());
-        for (int a = 0; a < points; ++a) free_[a] -= older_[a];
-        if (points > 0 && !obstacle_.solve(older_.data(), free_.data(), force_.data())) failed_ = {Outcome::not_converged, step_ - 1};
+        for (std::size_t a = 0; a < free_.size(); ++a) free_[a] -= older_[a];
+        if (g_.at_body) inertia_ = (g_.mu.read(next) - 2 * g_.mu.read(now) + g_.mu.read(before)) / (dt_ * dt_);
+    }
+
+private:
+    template <bool probed>
+    void pass() noexcept {
+        const double *before = level_[0], F_e = F_e_;
+        double* next = level_[2];
+        const int points = static_cast<int>(force_.size());
         for (int a = 0; a < points; ++a)
             if (force_[a] != 0) responses_[a].add(gain_ * force_[a], next);
+        if (g_.at_body) mu_response_.add(-gain_ * a_, next);
         bridge_ += bridge_force();
         thread_ += thread_force();
         if (F_e != 0) {
@@ -212,6 +294,7 @@ private:
         return power;
     }
 
+public:
     void write(const Block& out, int row) noexcept {
         const double *before = level_[0], *next = level_[2];
         const double last_bridge = bridge_force(), last_thread = thread_force();
@@ -230,13 +313,15 @@ private:
         supplied_ = dissipated_ = 0;
     }
 
+private:
     GridString g_;
     double dt_, m_, m4_, gain_;  // gain_ = dt^2/(mu dx) [m/N]
     int steps_;
     Update update_;
     std::vector<Fact> own_;
     std::vector<Stencil> responses_;
-    Stencil pluck_response_;
+    Stencil pluck_response_, mu_response_;
+    double F_e_ = 0, inertia_ = 0, a_ = 0;  // of the step: the pluck [N]; sum mu v'' without forces [N], w'' [m/s^2]
     ObstacleStep obstacle_, start_;
     std::vector<double> older_, free_, force_, reading_, now_;
     AlignedVector buffer_[3];
@@ -245,6 +330,15 @@ private:
     double bridge_ = 0, thread_ = 0, supplied_ = 0, dissipated_ = 0, budget_ = 0;
     Status failed_;
 };
+
+// A string on its grid as a scheme, or all strings of a scene on a moving body. make(scene of one string) -> unique_ptr<String>.
+template <class String, class Make>
+std::unique_ptr<Scheme> on_its_support(const Scene& scene, const Settings& settings, Make make) {
+    if (!needed_by(scene).has(Feature::moving_body)) return make(scene);
+    ThreePointBody body(scene.body->modes, 1 / settings.sample_rate);
+    return std::make_unique<Instrument<String, ThreePointBody>>(scene, each_string<String>(scene, make), std::move(body),
+                                                                steps_per_row(settings));
+}
 
 // (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`. Of the increment u+ - u- instead: (2M - dt^2 K) u - 2M u-, which
 // is what is left after (M + dt R/2) u-.

@@ -8,7 +8,7 @@
 // n adds n modes for those cut off (effective_modes.hpp), stepped by the coefficients of eq 32: exact under a steady force, stable above
 // half the rate.
 // `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
-// Profiles, several barriers and contact loss: modal_two_point_points.cpp. Leaves out: polarisation, the body.
+// Profiles, several barriers, contact loss and a moving body: modal_two_point_points.cpp. Leaves out: polarisation.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -249,16 +249,18 @@ private:
 template <Law law>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const auto& barriers = scene.strings.front().barriers;
+    const bool on_body = needed_by(scene).has(Feature::moving_body);
     const auto* lumped = barriers.empty() ? nullptr : std::get_if<LumpedBarrier>(&barriers.front());
-    if (barriers.empty() || (barriers.size() == 1 && lumped && lumped->contact_loss == 0))
+    if (!on_body && (barriers.empty() || (barriers.size() == 1 && lumped && lumped->contact_loss == 0)))
         return std::make_unique<ModalTwoPoint>(descriptor, scene, settings, law);
     if (number_option(settings, effective_option) != 0)
-        throw Refusal(std::string(descriptor.name) + ": option effective_modes goes with one lumped barrier without contact loss");
+        throw Refusal(std::string(descriptor.name) +
+                      ": option effective_modes goes with one lumped barrier without contact loss, on no moving body");
     return modal_two_point_points(descriptor, scene, settings, law);
 }
 
-constexpr Features two_point_features =
-    modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss);
+constexpr Features two_point_features = modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+                                        Features(Feature::contact_loss) | Feature::moving_body;
 constexpr Approximation two_point_approximates[] = {{Feature::profile_barrier, facts::contact_points}};
 }  // namespace
 
@@ -274,7 +276,7 @@ extern const Descriptor modal_two_point = {.name = "modal_two_point",
 extern const Descriptor modal_two_point_trapezoidal = {
     .name = "modal_two_point_trapezoidal",
     .source = "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
-    .represents = two_point_features,
+    .represents = two_point_features - Feature::moving_body,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = made<trapezoidal>,

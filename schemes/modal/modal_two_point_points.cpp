@@ -5,7 +5,8 @@
 // and the forces are those of obstacle_step.hpp over the span dt: each contact's F is the two-point discrete gradient of its potential (van
 // Walstijn et al. 2016, eq 30), the thread is eliminated (eqs 45-47), and what is left is the vector form of eq 48. The energy is eq 49
 // with a potential per point. A contact that loses energy (Hunt-Crossley) pulls by beta V'(eta^n) r/dt more, which takes beta V'(eta^n)
-// r^2/dt. Leaves out: effective modes; contact loss with compliance=matched.
+// r^2/dt. On a body that moves (schemes/body) the points of all strings are solved for together, and its acceleration is one more force.
+// Leaves out: effective modes; contact loss with compliance=matched; a moving body with compliance=matched.
 #include "schemes/modal/modal_two_point_points.hpp"
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/body/body_modes.hpp"
+#include "schemes/body/instrument.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/contact/obstacle_step.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
@@ -31,8 +34,16 @@ struct Points {
     std::vector<ModalArray> g;  // scaled; the contacts in order, then the thread
     ModalArray g_e;             // the pluck's
     std::vector<double> theta_e;
-    ObstacleStep obstacle;
+    int contacts = 0;
+    ObstacleStep obstacle;  // without points on a body: solved for outside
     std::optional<MissingMatrix> series;
+};
+
+// What a body that moves reads of the string, and pushes: empty without one.
+struct AtBody {
+    StringAtBody string;
+    ModalArray mu, on_y, on_u;  // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
+    double theta_e = 0;         // of the pluck [s^2]
 };
 
 class ModalTwoPointPoints final : public Scheme {
@@ -68,7 +79,7 @@ public:
             w.resize(size);
             return w;
         };
-        place(s, modes, scaled);
+        place(s, modes, scaled, needed_by(scene).has(Feature::moving_body));
         for (const Tap& tap : scene.taps) {
             TapOfPoints t{tap.quantity, {}, {}};
             if (tap.quantity == Quantity::displacement) t.on_y = scaled(displacement_weights(modes, tap.position));
@@ -84,10 +95,39 @@ public:
         }
         if (matched) put_in_series(descriptor, scene, modes);
         pluck_ = s.pluck;
-        const int points = p_.obstacle.points();
+        const std::size_t points = p_.g.size();
         for (auto* v : {&older_, &free_, &force_, &now_}) v->assign(points, 0.0);
         ModalTwoPointPoints::reset();
     }
+
+    // ---- On a body (schemes/body/instrument.hpp)
+
+    const StringAtBody& at_body() const { return body_.string; }
+    const double* older() const { return older_.data(); }
+    const double* free() const { return free_.data(); }
+    double inertia() const {
+        const double a = modal_dot_by_eights(body_.on_y, y_) + modal_dot_by_eights(body_.on_u, u_) + body_.theta_e * F_e_;
+        return 2 / (dt_ * dt_) * a;
+    }
+    double pluck() const { return F_e_; }
+    void begin() noexcept { reset(); }
+    void pass(const double* force, double a, bool probed) noexcept {
+        std::copy_n(force, force_.size(), force_.data());
+        a_ = a;
+        pass(probed);
+    }
+    void reading(int, double* out) noexcept {
+        read(step_);
+        std::copy(older_.begin(), older_.end(), out);
+    }
+    double momentum() const {  // sum mu_i v_i, v = 2q/dt, q = J u/2 + A y
+        double sum = 0;
+        for (int i = 0; i < count_; ++i) sum += body_.mu[i] * (0.5 * u_[i] / inverse_J_[i] + A_[i] * y_[i]);
+        return 2 / dt_ * sum;
+    }
+    bool failed() const { return false; }
+
+    // ----
 
     void reset() noexcept override {
         y_ = y0_;
@@ -114,6 +154,7 @@ public:
     int dofs() const override { return 2 * count_; }
     std::vector<FreeMode> free_modes() const override { return free_modes_; }
     std::vector<Fact> facts() const override {
+        if (!body_.mu.empty()) return {};  // one set for the instrument
         const ObstacleStep::Tally& t = p_.obstacle.tally();
         std::vector<Fact> f = {{facts::contact_points, static_cast<double>(p_.obstacle.contacts())},
                                {facts::coupled_contact_points, static_cast<double>(p_.obstacle.coupled())},
@@ -133,7 +174,7 @@ private:
     static constexpr long steps_between_looks = 64;  // a step of many coupled points takes tens of microseconds
 
     template <class Scaled>
-    void place(const String& s, const Modes& modes, Scaled scaled) {
+    void place(const String& s, const Modes& modes, Scaled scaled, bool on_body) {
         std::vector<ContactLaw> laws;
         std::vector<double> heights, loss;
         for (const Barrier& barrier : s.barriers) {
@@ -143,15 +184,38 @@ private:
             heights.push_back(b.height);
             loss.push_back(b.contact_loss);
         }
+        p_.contacts = static_cast<int>(laws.size());
         if (s.thread) p_.g.push_back(scaled(footprint_weights(modes, s.thread->position, s.thread->width)));
         std::vector<double> theta;
         for (std::size_t a = 0; a < p_.g.size(); ++a)
             for (std::size_t b = 0; b < p_.g.size(); ++b) theta.push_back(modal_dot(p_.g[std::min(a, b)], p_.g[std::max(a, b)]));
+        if (s.pluck) {
+            p_.g_e = scaled(footprint_weights(modes, s.pluck->position, s.pluck->width));
+            for (const ModalArray& g : p_.g) p_.theta_e.push_back(modal_dot(g, p_.g_e));
+        }
+        if (on_body) return put_on_body(s, scaled(end_inertia(modes, s)), laws, heights, loss);
         p_.obstacle = ObstacleStep(laws, heights, s.thread, theta, dt_);
         if (std::any_of(loss.begin(), loss.end(), [](double beta) { return beta != 0; })) p_.obstacle.lose(loss);
-        if (!s.pluck) return;
-        p_.g_e = scaled(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        for (const ModalArray& g : p_.g) p_.theta_e.push_back(modal_dot(g, p_.g_e));
+    }
+
+    void put_on_body(const String& s, const ModalArray& mu, const std::vector<ContactLaw>& laws, const std::vector<double>& heights,
+                     const std::vector<double>& loss) {
+        body_ = {jvari::at_body(s), mu, mu, mu, s.pluck ? modal_dot(mu, p_.g_e) : 0};
+        for (int i = 0; i < count_; ++i) {  // s - 2q = (1 - J) u - 2 A y, J - 1 = A + B
+            body_.on_y[i] *= -2 * A_[i];
+            body_.on_u[i] *= 1 - 1 / inverse_J_[i];
+        }
+        StringAtBody& at = body_.string;
+        at.laws = laws;
+        at.heights = heights;
+        at.loss = loss;
+        for (const Barrier& b : s.barriers) at.positions.push_back(std::get<LumpedBarrier>(b).position);
+        if (s.thread) at.positions.push_back(s.thread->position);
+        std::vector<const ModalArray*> all;
+        for (const ModalArray& g : p_.g) all.push_back(&g);
+        all.push_back(&body_.mu);
+        for (std::size_t a = 0; a < all.size(); ++a)
+            for (std::size_t b = 0; b < all.size(); ++b) at.theta.push_back(modal_dot(*all[std::min(a, b)], *all[std::max(a, b)]));
     }
 
     void put_in_series(const Descriptor& descriptor, const Scene& scene, const Modes& modes) {
@@ -179,25 +243,38 @@ private:
     }
 
     void step(bool probed) noexcept {
-        const double from = pluck_at(step_), to = pluck_at(step_ + 1), F_e = 0.5 * (from + to), change = by_pluck() ? to - from : 0;
-        const std::size_t points = p_.g.size();
+        approach();
+        if (!p_.g.empty() && !p_.obstacle.solve(older_.data(), free_.data(), force_.data())) status_ = {Outcome::not_converged, step_};
+        pass(probed);
+    }
+
+public:
+    void approach() noexcept {
+        const double from = pluck_at(step_), to = pluck_at(step_ + 1);
+        F_e_ = 0.5 * (from + to);
+        change_ = by_pluck() ? to - from : 0;
         read(step_);
-        for (std::size_t a = 0; a < points; ++a) {
+        for (std::size_t a = 0; a < p_.g.size(); ++a) {
             free_[a] = modal_dot_by_eights(p_.g[a], u_);
-            if (F_e != 0) free_[a] += p_.theta_e[a] * F_e;
-            if (change != 0) free_[a] += p_.series->pluck[a] * change;
+            if (F_e_ != 0) free_[a] += p_.theta_e[a] * F_e_;
+            if (change_ != 0) free_[a] += p_.series->pluck[a] * change_;
         }
-        if (points > 0 && !p_.obstacle.solve(older_.data(), free_.data(), force_.data())) status_ = {Outcome::not_converged, step_};
+    }
+
+private:
+    void pass(bool probed) noexcept {
+        const std::size_t points = p_.g.size();
         std::fill(push_.begin(), push_.end(), 0.0);
         const auto push = [this](const ModalArray& g, double F) {
             for (std::size_t i = 0; i < push_.size(); ++i) push_[i] += g[i] * F;
         };
         for (std::size_t a = 0; a < points; ++a)
             if (force_[a] != 0) push(p_.g[a], force_[a]);
-        if (F_e != 0) push(p_.g_e, F_e);
-        for (int a = 0; a < p_.obstacle.contacts(); ++a) bridge_ += force_[a];
-        if (static_cast<int>(points) > p_.obstacle.contacts()) thread_ += force_.back();
-        if (probed) ledger(F_e, change);
+        if (F_e_ != 0) push(p_.g_e, F_e_);
+        if (!body_.mu.empty()) push(body_.mu, -a_);
+        for (int a = 0; a < p_.contacts; ++a) bridge_ += force_[a];
+        if (static_cast<int>(points) > p_.contacts) thread_ += force_.back();
+        if (probed) ledger(F_e_, change_);
         for (std::size_t i = 0; i < y_.size(); ++i) {
             const double s = u_[i] + push_[i];  // (41)
             y_[i] += s;                         // (40)
@@ -209,7 +286,7 @@ private:
     // Supplied and dissipated energy of the step that is about to be made (51, 52).
     void ledger(double F_e, double change) noexcept {
         double lost = 0, given = 0, r_c = 0;
-        const bool thread = static_cast<int>(p_.g.size()) > p_.obstacle.contacts();
+        const bool thread = static_cast<int>(p_.g.size()) > p_.contacts;
         for (std::size_t i = 0; i < y_.size(); ++i) {
             const double s = u_[i] + push_[i];
             lost += loss_[i] * s * s;
@@ -231,6 +308,7 @@ private:
         return H + p_.obstacle.potential(older_.data());
     }
 
+public:
     void write(const Block& out, int row) noexcept {
         const double bridge = bridge_ / steps_, thread = thread_ / steps_;
         for (int k = 0; k < out.taps; ++k) {
@@ -254,10 +332,13 @@ private:
         bridge_ = thread_ = supplied_ = dissipated_ = 0;
     }
 
+private:
     int count_ = 0, steps_ = 1;
     double dt_ = 0;
     ModalArray A_, c_, loss_, inverse_J_, y0_, u0_, y_, u_, push_;
     Points p_;
+    AtBody body_;
+    double F_e_ = 0, change_ = 0, a_ = 0;  // of the step: the pluck's force, its change [N], w'' [m/s^2]
     std::optional<Pluck> pluck_;
     std::vector<TapOfPoints> taps_;
     std::vector<FreeMode> free_modes_;
@@ -273,6 +354,15 @@ std::unique_ptr<Scheme> modal_two_point_points(const Descriptor& descriptor, con
     const bool loses = needed_by(scene).has(Feature::contact_loss);
     if (loses && choice_option(settings, compliance_option) == "matched")
         throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out contact loss");
+    if (needed_by(scene).has(Feature::moving_body)) {
+        if (choice_option(settings, compliance_option) == "matched")
+            throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out a moving body");
+        auto strings = each_string<ModalTwoPointPoints>(
+            scene, [&](const Scene& one) { return std::make_unique<ModalTwoPointPoints>(descriptor, one, settings, law); });
+        TwoPointBody body(scene.body->modes, 1 / settings.sample_rate, law);
+        return std::make_unique<Instrument<ModalTwoPointPoints, TwoPointBody>>(scene, std::move(strings), std::move(body),
+                                                                               steps_per_row(settings));
+    }
     return std::make_unique<ModalTwoPointPoints>(descriptor, scene, settings, law);
 }
 

@@ -1,0 +1,186 @@
+// The body's modes as oscillators, in the form of the scheme that steps the strings: exact frequency and decay by the coefficients of
+// modal_coefficients.hpp, so that a free body sounds as it should at any rate.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "schemes/body/body_step.hpp"
+#include "schemes/modal/modal_coefficients.hpp"
+
+namespace jvari {
+
+// Throws Refusal: above half the rate it would alias.
+void must_be_below_half_the_rate(const BodyMode&, double dt);
+
+struct BodyMode2 {       // van Walstijn et al. 2016, eqs 38-43: zeta = dt/2 z'
+    double A, B, J, xi;  // xi = dt^2/2M [s^2/kg]
+    double z = 0, zeta = 0;
+    double free() const { return 2 * (zeta - A * z) / J; }
+};
+class TwoPointBody {
+public:
+    static constexpr int levels = 1;  // from the older to the newer
+    template <class Law>              // A, B of a mode: (omega0, sigma, dt)
+    TwoPointBody(const std::vector<BodyMode>& modes, double dt, Law law) : dt_(dt) {
+        for (const BodyMode& m : modes) {
+            must_be_below_half_the_rate(m, dt);
+            const auto [A, B] = law(std::sqrt(m.stiffness / m.mass), 0.5 * m.damping / m.mass, dt);
+            modes_.push_back({A, B, 1 + A + B, 0.5 * dt * dt / m.mass});
+        }
+    }
+    double beta() const {
+        double sum = 0;
+        for (const auto& m : modes_) sum += m.xi / m.J;
+        return sum;
+    }
+    double kappa() const { return 0.5 * dt_ * dt_; }
+    double span() const { return dt_; }
+    int modes() const { return static_cast<int>(modes_.size()); }
+
+    void begin() noexcept {
+        for (auto& m : modes_) m.z = m.zeta = 0;
+        lost_ = 0;
+    }
+    BodyMotion coming() const noexcept {
+        BodyMotion b;
+        for (const auto& m : modes_) {
+            b.w += m.z;
+            b.r += m.free();
+            b.a -= 2 * (m.A * m.z + (m.A + m.B) * m.zeta) / m.J;  // free - 2 zeta
+        }
+        b.a /= kappa();
+        return b;
+    }
+    double pass(double f) noexcept {  // r
+        double r = 0;
+        for (auto& m : modes_) {
+            const double s = m.free() + m.xi / m.J * f;
+            lost_ += m.B * s * s / m.xi;
+            m.z += s;
+            m.zeta = s - m.zeta;
+            r += s;
+        }
+        return r;
+    }
+    double displacement(int) const noexcept {
+        double sum = 0;
+        for (const auto& m : modes_) sum += m.z;
+        return sum;
+    }
+    double velocity() const noexcept {  // at the instant of the row
+        double sum = 0;
+        for (const auto& m : modes_) sum += m.zeta;
+        return 2 / dt_ * sum;
+    }
+    double velocity_stored() const noexcept { return velocity(); }  // at that of the energy
+    double stored() const noexcept {
+        double sum = 0;
+        for (const auto& m : modes_) sum += (m.zeta * m.zeta + m.A * m.z * m.z) / m.xi;
+        return sum;
+    }
+    double take_lost() noexcept {
+        const double lost = lost_;
+        lost_ = 0;
+        return lost;
+    }
+
+private:
+    double dt_, lost_ = 0;
+    std::vector<BodyMode2> modes_;
+};
+
+struct BodyMode3 {                                                    // Issanchou et al. 2016, eq 14, as displacement and increments
+    double mass, loss, kappa;                                         // [kg]; 1 - C~, 1 + C~ - C
+    double z = 0, d = 0, last = 0;                                    // z^n, z^{n+1} - z^n, z^n - z^{n-1}
+    double free() const { return (1 - loss) * d - kappa * (z + d); }  // of the increment after d
+};
+class ThreePointBody {
+public:
+    static constexpr int levels = 2;
+    ThreePointBody(const std::vector<BodyMode>& modes, double dt) : dt_(dt) {
+        for (const BodyMode& m : modes) {
+            must_be_below_half_the_rate(m, dt);
+            const ModeStep s = exact_step(std::sqrt(m.stiffness / m.mass), 0.5 * m.damping / m.mass, dt);
+            modes_.push_back({m.mass, s.loss, s.num});
+        }
+    }
+    double beta() const {
+        double sum = 0;
+        for (const auto& m : modes_) sum += dt_ * dt_ / m.mass;
+        return sum;
+    }
+    double kappa() const { return dt_ * dt_; }
+    double least_mass() const {  // that its energy shows against a velocity of w [kg]
+        double sum = 0;
+        for (const auto& m : modes_) sum += 1 / (m.mass * (1 - 0.5 * m.loss - 0.25 * m.kappa));
+        return 1 / sum;
+    }
+    double span() const { return 2 * dt_; }
+    int modes() const { return static_cast<int>(modes_.size()); }
+
+    void begin() noexcept {
+        for (auto& m : modes_) m.z = m.d = m.last = 0;
+        lost_ = 0;
+    }
+    void start(double f) noexcept {  // level 1 from rest: z^{-1} = z^1
+        for (auto& m : modes_) {
+            m.d = 0.5 * dt_ * dt_ / m.mass * f;
+            m.last = -m.d;
+        }
+    }
+    BodyMotion coming() const noexcept {  // of the step centred on the level after z^n
+        BodyMotion b;
+        for (const auto& m : modes_) {
+            b.w += m.z;
+            b.r += m.free() + m.d;
+            b.a -= m.loss * m.d + m.kappa * (m.z + m.d);
+        }
+        b.a /= kappa();
+        return b;
+    }
+    double pass(double f) noexcept {
+        double r = 0;
+        for (auto& m : modes_) {
+            const double next = m.free() + dt_ * dt_ / m.mass * f;
+            m.z += m.d;
+            m.last = m.d;
+            m.d = next;
+            const double moved = m.d + m.last;
+            lost_ += 0.25 * m.mass * m.loss * moved * moved / (dt_ * dt_);
+            r += moved;
+        }
+        return r;
+    }
+    double displacement(int level) const noexcept {  // 0: of the row; 1: after it
+        double sum = 0;
+        for (const auto& m : modes_) sum += m.z + (level == 1 ? m.d : 0);
+        return sum;
+    }
+    double velocity() const noexcept {
+        double sum = 0;
+        for (const auto& m : modes_) sum += m.d + m.last;
+        return 0.5 * sum / dt_;
+    }
+    double velocity_stored() const noexcept {
+        double sum = 0;
+        for (const auto& m : modes_) sum += m.d;
+        return sum / dt_;
+    }
+    double stored() const noexcept {
+        double sum = 0;
+        for (const auto& m : modes_) sum += 0.5 * m.mass * (0.5 * (2 - m.loss) * m.d * m.d + m.kappa * m.z * (m.z + m.d));
+        return sum / (dt_ * dt_);
+    }
+    double take_lost() noexcept {
+        const double lost = lost_;
+        lost_ = 0;
+        return lost;
+    }
+
+private:
+    double dt_, lost_ = 0;
+    std::vector<BodyMode3> modes_;
+};
+
+}  // namespace jvari

@@ -1,0 +1,206 @@
+// All strings of a scene on a body that moves, as one scheme: what body_step.hpp derives, stepped. The strings are those of a scheme of one
+// string, which lets its points be solved for from outside.
+//
+// A String has: StringAtBody at_body(); begin() to t = 0; approach(), which makes the force-free motion of the next step and gives older(),
+// free() (of v, one per point), inertia() (sum mu_i v_i'' of that motion), pluck() [N]; pass(force, a, probed), which ends the step by the
+// forces and w''; reading(level, out); momentum() = sum mu_i v_i' at the instant of the energy; write(block, row), of v and without the
+// points' energy; failed(), dofs(), facts(). Of three points it also has start(force, a), which makes level 1 of the first half step, and
+// share(), the inertia that its coordinates take of the body's: sum mu_i^2/m_i, m_i the least mass that the energy of the scheme shows.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schemes/body/body_step.hpp"
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+// What body and points report, instead of each string.
+std::vector<Fact> body_facts(const BodyStep&);
+
+// The taps of a scene on its strings: which of them hears it, and how much of w and w' it hears beside v.
+struct BodyTap {
+    int column;
+    bool first;                     // the first string that is heard there
+    double on_w = 0, on_speed = 0;  // per m and m/s
+};
+std::vector<BodyTap> body_taps(const Scene&, int string, std::vector<bool>& heard_already);
+
+template <class String, class Body>
+class Instrument final : public Scheme {
+public:
+    Instrument(const Scene& scene, std::vector<std::unique_ptr<String>> strings, Body body, int steps_per_row)
+        : body_(std::move(body)), steps_(steps_per_row), scene_(scene) {
+        std::vector<StringAtBody> at;
+        std::vector<bool> heard(scene.taps.size(), false);
+        std::size_t taps = 0;
+        for (int k = 0; k < static_cast<int>(strings.size()); ++k) {
+            at.push_back(strings[k]->at_body());
+            Part part{std::move(strings[k]), body_taps(scene, k, heard), at.back().points(), 0};
+            if (const auto& pluck = scene.strings[k].pluck) part.finger = 1 - pluck->position / scene.strings[k].length;
+            taps = std::max(taps, part.taps.size());
+            parts_.push_back(std::move(part));
+        }
+        step_ = BodyStep(at, body_.beta(), body_.kappa(), body_.span());
+        if constexpr (Body::levels == 2) {
+            start_ = step_.halved();
+            double taken = 0, ends = 0;
+            for (const Part& p : parts_) taken += p.string->share();
+            for (const StringAtBody& s : at) ends += s.mass / 3;
+            if (!(body_.least_mass() + ends > taken))
+                throw Refusal("the body is too light at this rate: the strings take " + std::to_string(taken) + " kg of its " +
+                              std::to_string(body_.least_mass() + ends) + " kg, and the energy would have no least value");
+        }
+        for (auto* v : {&older_, &free_, &force_}) v->assign(step_.points(), 0.0);
+        tap_.assign(taps, 0.0);
+        Instrument::reset();
+    }
+
+    void reset() noexcept override {
+        step_.clear();
+        body_.begin();
+        status_ = {};
+        done_ = 0;
+        supplied_ = dissipated_ = 0;
+        for (Part& p : parts_) p.string->begin();
+        std::fill(force_.begin(), force_.end(), 0.0);
+        if constexpr (Body::levels == 2) {
+            BodyMotion rest;
+            if (!solve(start_, rest)) status_ = {Outcome::not_converged, 0};
+            const double* force = force_.data();
+            for (Part& p : parts_) {
+                p.string->start(force, start_.a());
+                force += p.points;
+            }
+            body_.start(start_.f());
+        }
+    }
+
+    Status advance(const Block& out) noexcept override {
+        for (int row = 0; row < out.rows && status_.outcome == Outcome::ok; ++row) {
+            write(out, row);
+            for (int i = 0; i < steps_ && status_.outcome == Outcome::ok; ++i) {
+                step(out.energy != nullptr);
+                if (out.stopped(i, steps_between_looks)) return {};
+            }
+        }
+        return status_;
+    }
+
+    int dofs() const override {
+        int sum = 2 * body_.modes();
+        for (const Part& p : parts_) sum += p.string->dofs();
+        return sum;
+    }
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> all = body_facts(step_);
+        for (std::size_t k = 0; k < parts_.size(); ++k)
+            for (Fact f : parts_[k].string->facts()) {
+                if (parts_.size() > 1) f.name.insert(0, "string." + std::to_string(k) + ".");
+                all.push_back(std::move(f));
+            }
+        return all;
+    }
+
+private:
+    static constexpr long steps_between_looks = 64;
+    struct Part {
+        std::unique_ptr<String> string;
+        std::vector<BodyTap> taps;
+        int points;
+        double finger;  // psi where the pluck acts
+    };
+
+    bool solve(BodyStep& by, const BodyMotion& motion) noexcept {  // after approach() of every string
+        double inertia = 0, *older = older_.data(), *free = free_.data();
+        pluck_ = 0;
+        for (Part& p : parts_) {
+            std::copy_n(p.string->older(), p.points, older);
+            std::copy_n(p.string->free(), p.points, free);
+            older += p.points;
+            free += p.points;
+            inertia += p.string->inertia();
+            pluck_ += p.finger * p.string->pluck();
+        }
+        return by.solve(older_.data(), free_.data(), inertia, pluck_, motion, force_.data());
+    }
+
+    void step(bool probed) noexcept {
+        for (Part& p : parts_) p.string->approach();
+        if (!solve(step_, body_.coming())) status_ = {Outcome::not_converged, done_};
+        const double* force = force_.data();
+        for (Part& p : parts_) {
+            p.string->pass(force, step_.a(), probed);
+            force += p.points;
+            if (p.string->failed() && status_.outcome == Outcome::ok) status_ = {Outcome::diverged, done_};
+        }
+        const double r = body_.pass(step_.f());
+        supplied_ += pluck_ * r / Body::levels;
+        dissipated_ += body_.span() / Body::levels * step_.lost();
+        ++done_;
+    }
+
+    void write(const Block& out, int row) noexcept {
+        const double w = body_.displacement(0), speed = body_.velocity();
+        double stored = 0, momentum = 0;
+        for (Part& p : parts_) {
+            Block own{1, static_cast<int>(p.taps.size()), 1, tap_.data(), out.energy ? energy_ : nullptr, nullptr, nullptr};
+            p.string->write(own, 0);
+            for (std::size_t t = 0; t < p.taps.size(); ++t) {
+                const BodyTap& tap = p.taps[t];
+                double& cell = out.tap[tap.column * out.stride + row];
+                const double heard = tap_[t] + (tap.on_w * w + tap.on_speed * speed);
+                cell = tap.first ? heard : cell + heard;
+            }
+            momentum += p.string->momentum();
+            stored += energy_[0];
+            supplied_ += energy_[1];
+            dissipated_ += energy_[2];
+        }
+        const double lost = body_.take_lost();
+        if (out.energy) {
+            stored += body_.stored() + step_.kinetic(body_.velocity_stored(), momentum);
+            for (int level = 0; level < Body::levels; ++level) {
+                double* reading = older_.data();
+                for (Part& p : parts_) {
+                    p.string->reading(level, reading);
+                    reading += p.points;
+                }
+                stored += step_.potential(older_.data(), body_.displacement(level)) / Body::levels;
+            }
+            write_energy(out, row, stored, supplied_, dissipated_ + lost);
+        }
+        supplied_ = dissipated_ = 0;
+    }
+
+    Body body_;
+    int steps_;
+    Scene scene_;
+    std::vector<Part> parts_;
+    BodyStep step_, start_;
+    std::vector<double> older_, free_, force_, tap_;
+    double energy_[3] = {}, pluck_ = 0, supplied_ = 0, dissipated_ = 0;  // since the last row
+    long done_ = 0;                                                      // steps
+    Status status_;
+};
+
+// One scheme of one string for each string of the scene; what it refuses names its string.
+template <class String, class Make>  // make(scene of one string) -> std::unique_ptr<String>
+std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) {
+    std::vector<std::unique_ptr<String>> all;
+    for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) {
+        const bool several = scene.strings.size() > 1;
+        try {
+            all.push_back(make(alone(scene, k)));
+        } catch (const Refusal& e) {
+            throw Refusal((several ? "string." + std::to_string(k) + ": " : "") + e.what());
+        }
+    }
+    return all;
+}
+
+}  // namespace jvari
