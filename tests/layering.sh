@@ -56,7 +56,7 @@ only HDF5 'hdf5' 'bench/store/'
 only libsamplerate 'samplerate' 'bench/sound/'
 only pybind11 'pybind11/' 'python/'
 forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
-    $(find scenes schemes reference analysis -name '*.hpp')
+    $(find scenes schemes reference analysis -name '*.hpp' ! -name '*-inl.hpp')  # -inl: part of a file of its own folder, compiled once for each set of instructions
 forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' $(find results -maxdepth 3 -name '*.json' -o -maxdepth 3 -name '*.toml')
 forbid "-ffast-math is forbidden" 'ffast-math' CMakeLists.txt tests/CMakeLists.txt CMakePresets.json
 exit $status
