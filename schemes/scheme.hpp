@@ -37,6 +37,12 @@ inline void write_energy(const Block& out, int row, double stored, double suppli
     out.energy[out.stride + row] = supplied;
     out.energy[2 * out.stride + row] = dissipated;
 }
+inline Block from_row(Block out, int row) noexcept {  // what is left of it
+    out.rows -= row;
+    out.tap += row;
+    if (out.energy) out.energy += row;
+    return out;
+}
 constexpr long steps_between_questions = 1024;  // of a step that takes microseconds at most
 
 enum class Outcome { ok, diverged, not_converged };
@@ -62,6 +68,13 @@ struct FreeMode {
     double sigma = 0;  // decay rate [1/s]
 };
 
+class Scheme;
+struct Lane {  // of several schemes that are advanced together
+    Scheme* scheme;
+    Block out;
+    Status status;
+};
+
 class Scheme {
 public:
     virtual ~Scheme() = default;
@@ -71,6 +84,12 @@ public:
     // So the first row after reset() is the initial state. Contact forces are means over the interval that ends at the row, 0 in row 0;
     // supplied and dissipated energy are sums over the same interval. Allocates nothing.
     virtual Status advance(const Block& out) noexcept = 0;
+
+    // Advances all of these, one of which is this, to the last bit as advance() does one after the other. A scheme that has several strings
+    // under way at once where that is faster says so here.
+    virtual void advance_all(std::span<Lane> all) noexcept {
+        for (Lane& lane : all) lane.status = lane.scheme->advance(lane.out);
+    }
 
     virtual int dofs() const = 0;                           // doubles of state carried: no more than the scene needs
     virtual std::vector<Fact> facts() const { return {}; }  // of the run so far; between blocks only

@@ -26,11 +26,11 @@ void put(double* to, const double* from, int rows, bool first) noexcept {
 class SeveralStrings final : public Scheme {
 public:
     SeveralStrings(std::vector<OneOfSeveral> strings, double steps_per_row) : strings_(std::move(strings)), steps_per_row_(steps_per_row) {
-        std::size_t most = 0;
-        for (const OneOfSeveral& s : strings_) most = std::max(most, s.taps.size());
-        tap_.resize(rows_at_a_time * most);
-        energy_.resize(3 * rows_at_a_time);
-        went_.resize(strings_.size());
+        std::size_t taps = 0;
+        for (const OneOfSeveral& s : strings_) taps += s.taps.size();
+        tap_.resize(rows_at_a_time * taps);
+        energy_.resize(3 * rows_at_a_time * strings_.size());
+        lanes_.resize(strings_.size());
     }
 
     void reset() noexcept override {
@@ -65,45 +65,49 @@ public:
     std::vector<FreeMode> free_modes() const override { return strings_.front().scheme->free_modes(); }
 
 private:
-    Block own_block(const Block& out, const OneOfSeveral& s, int rows) noexcept {
-        Block own = out;
-        own.rows = rows;
-        own.taps = static_cast<int>(s.taps.size());
-        own.stride = rows_at_a_time;
-        own.tap = tap_.data();
-        own.energy = out.energy ? energy_.data() : nullptr;
-        return own;
+    void ask(const Block& out, int rows) noexcept {  // each string for as many
+        double *tap = tap_.data(), *energy = energy_.data();
+        for (std::size_t k = 0; k < strings_.size(); ++k) {
+            Block own = out;
+            own.rows = rows;
+            own.taps = static_cast<int>(strings_[k].taps.size());
+            own.stride = rows_at_a_time;
+            own.tap = tap;
+            own.energy = out.energy ? energy : nullptr;
+            lanes_[k] = {strings_[k].scheme.get(), own, {}};
+            tap += own.taps * own.stride;
+            energy += 3 * own.stride;
+        }
     }
 
     Status advance_part(const Block& out) noexcept {  // of no more than rows_at_a_time
+        ask(out, out.rows);
+        lanes_.front().scheme->advance_all(lanes_);
+        if (out.stopped()) return {};
         Status failed;
         int rows = out.rows;  // to the row of the first failure
+        for (const Lane& lane : lanes_) {
+            if (lane.status.outcome == Outcome::ok || (failed.outcome != Outcome::ok && lane.status.step >= failed.step)) continue;
+            failed = lane.status;
+            rows = std::clamp(static_cast<int>(static_cast<long>(failed.step / steps_per_row_) + 1 - done_), 0, rows);
+        }
         for (std::size_t k = 0; k < strings_.size(); ++k) {
-            OneOfSeveral& s = strings_[k];
-            const Block own = own_block(out, s, rows);
-            const Status status = s.scheme->advance(own);
-            if (out.stopped()) return {};
-            went_[k] = rows;
-            if (status.outcome != Outcome::ok && (failed.outcome == Outcome::ok || status.step < failed.step)) {
-                failed = status;
-                rows = std::clamp(static_cast<int>(static_cast<long>(status.step / steps_per_row_) + 1 - done_), 0, rows);
-            }
-            for (std::size_t t = 0; t < s.taps.size(); ++t)
-                put(out.tap + s.taps[t].column * out.stride, own.tap + t * own.stride, rows, s.taps[t].first);
+            const Block& own = lanes_[k].out;
+            for (std::size_t t = 0; t < strings_[k].taps.size(); ++t)
+                put(out.tap + strings_[k].taps[t].column * out.stride, own.tap + t * own.stride, rows, strings_[k].taps[t].first);
             for (int c = 0; own.energy && c < 3; ++c) put(out.energy + c * out.stride, own.energy + c * own.stride, rows, k == 0);
         }
         done_ += rows;
-        if (failed.outcome != Outcome::ok)
-            for (std::size_t k = 0; k < strings_.size(); ++k)
-                if (went_[k] > rows) step_anew(out, strings_[k]);
+        if (rows < out.rows) step_anew(out);
         return failed;
     }
 
     // To the end of the rows that count: what a string went on to do beyond the failure of another is in none of its facts.
-    void step_anew(const Block& out, OneOfSeveral& s) noexcept {
-        s.scheme->reset();
+    void step_anew(const Block& out) noexcept {
+        for (auto& s : strings_) s.scheme->reset();
         for (long row = 0; row < done_; row += rows_at_a_time) {
-            s.scheme->advance(own_block(out, s, static_cast<int>(std::min<long>(rows_at_a_time, done_ - row))));
+            ask(out, static_cast<int>(std::min<long>(rows_at_a_time, done_ - row)));
+            lanes_.front().scheme->advance_all(lanes_);
             if (out.stopped()) return;
         }
     }
@@ -112,7 +116,7 @@ private:
     double steps_per_row_;
     long done_ = 0;  // rows since the start
     std::vector<double> tap_, energy_;
-    std::vector<int> went_;  // rows of this part that a string was asked for
+    std::vector<Lane> lanes_;
 };
 
 std::string of_string(int k) {

@@ -145,6 +145,62 @@ TEST(SeveralStrings, GiveTheSameBitsWhateverTheBlockSizeAndAllocateNothing) {
     }
 }
 
+// Strings with 40, 47, 54, ... modes; one of them meets two barriers, by another scheme of the same name.
+void expect_the_bits_of_one_in_company(const Scene& base, const Settings& with, int count) {
+    std::vector<std::unique_ptr<Scheme>> alone, company;
+    std::vector<int> taps;
+    for (int k = 0; k < count; ++k) {
+        Scene one = base;
+        one.strings.front() = variant(one.strings.front(), k);
+        if (k == 5) one.strings.front().barriers.push_back(LumpedBarrier{0.5, 2e-3, -1e-4, {1e5}, 1, 0});
+        Settings own = with;
+        own.modes = 40 + 7 * k;
+        for (auto* all : {&alone, &company}) all->push_back(make_scheme(schemes()[0], one, own));
+        taps.push_back(static_cast<int>(one.taps.size()));
+    }
+    const int all_rows = with.sample_rate > 1000 * with.tap_rate ? 6 : 330;
+    std::vector<std::vector<double>> want, got;
+    for (int k = 0; k < count; ++k) {
+        want.emplace_back(all_rows * taps[k]);
+        got.emplace_back(all_rows * taps[k]);
+        alone[k]->advance({all_rows, taps[k], all_rows, want[k].data(), nullptr});
+    }
+    std::vector<Lane> lanes(count);
+    for (int row = 0, rows_now = 1; row < all_rows; row += rows_now, rows_now = 70) {
+        for (int k = 0; k < count; ++k)
+            lanes[k] = {company[k].get(), {std::min(rows_now, all_rows - row), taps[k], all_rows, got[k].data() + row, nullptr}, {}};
+        company.front()->advance_all(lanes);
+        for (const Lane& lane : lanes) ASSERT_EQ(lane.status.outcome, Outcome::ok);
+    }
+    for (int k = 0; k < count; ++k) {
+        EXPECT_TRUE(same(want[k], got[k])) << "string " << k << " of " << count;
+        EXPECT_GT(std::abs(*std::max_element(want[k].begin(), want[k].begin() + all_rows)), 0) << "at rest: nothing was tested";
+        const auto told = alone[k]->facts(), said = company[k]->facts();
+        ASSERT_EQ(told.size(), said.size());
+        for (std::size_t f = 0; f < told.size(); ++f) {
+            EXPECT_EQ(told[f].value, said[f].value) << told[f].name;
+            if (told[f].name == facts::deepest_penetration.name) {
+                EXPECT_GT(told[f].value, 0) << "no contact";
+            }
+        }
+    }
+}
+
+TEST(SeveralStrings, OfTheTwoPointSchemeHaveTheBitsOfOneInCompany) {
+    Scene linear = c3_pluck();
+    linear.strings.front().pluck->duration = 1e-3;
+    linear.strings.front().pluck->amplitude = -4;
+    Scene power = linear, bare = linear;
+    std::get<LumpedBarrier>(power.strings.front().barriers.front()).exponent = 1.5;
+    bare.strings.front().thread.reset();
+    std::erase_if(bare.taps, [](const Tap& tap) { return tap.quantity == Quantity::thread_force; });
+    for (const int count : {2, 4, 7}) expect_the_bits_of_one_in_company(linear, {44100, 44100, 0, {}}, count);
+    for (const Scene& scene : {linear, power, bare})
+        for (const char* series : {"own", "matched"})
+            expect_the_bits_of_one_in_company(scene, {4 * 44100, 44100, 0, {{"compliance", series}}}, 5);
+    expect_the_bits_of_one_in_company(linear, {44100, 20, 0, {}}, 3);  // 2205 steps a row
+}
+
 TEST(SeveralStrings, OneStringIsTheSchemeItself) {
     for (const Descriptor* d : all_descriptors()) {
         const Scene scene = scene_for(*d);

@@ -89,6 +89,60 @@ BENCHMARK_CAPTURE(matched, two_point, "modal_two_point", 133, true);
 BENCHMARK_CAPTURE(matched, strang_40_modes, "modal_strang", 40, false);
 BENCHMARK(step<plain<double>>)->Name("two_point/plain_eigen");
 
+// Four strings of different pitch, and four times those, as runs of one and as one scene. Counter `error`: the bridge force of all over
+// 0.2 s against long double, relative to the largest; the pairs have the same because they have the same bits.
+Scene strings(int count) {
+    Scene scene = three_taps();
+    const String c3 = scene.strings.front();
+    scene.strings.clear();
+    for (int k = 0; k < count; ++k) {
+        scene.strings.push_back(c3);
+        scene.strings.back().tension *= 1 - 0.06 * (k % 4);
+    }
+    for (Tap& tap : scene.taps) tap.string.reset();  // of all strings
+    scene.duration = 0.2;
+    return scene;
+}
+
+void several(benchmark::State& state, bool together) {
+    const int count = static_cast<int>(state.range(0));
+    const Scene scene = strings(count);
+    std::vector<Scene> parts = together ? std::vector<Scene>{scene} : std::vector<Scene>{};
+    for (int k = 0; !together && k < count; ++k) parts.push_back(alone(scene, k));
+    std::vector<std::unique_ptr<Scheme>> schemes;
+    std::vector<double> want, got;
+    const auto add = [](std::vector<double>& sum, std::span<const double> part) {
+        sum.resize(part.size());
+        for (std::size_t n = 0; n < part.size(); ++n) sum[n] += part[n];
+    };
+    for (const Scene& part : parts) {
+        schemes.push_back(fused(part, settings()));
+        add(got, run(*schemes.back(), part, settings()).trace.column(1));
+        schemes.back()->reset();
+    }
+    for (int k = 0; k < count; ++k)
+        add(want, run(*plain<long double>(alone(scene, k), settings()), alone(scene, k), settings()).trace.column(1));
+    double largest = 0, difference = 0;
+    for (std::size_t n = 0; n < want.size(); ++n) {
+        largest = std::max(largest, std::abs(want[n]));
+        difference = std::max(difference, std::abs(want[n] - got[n]));
+    }
+    constexpr int rows = 64;
+    double tap[rows * 3];
+    const FlushDenormals flush;
+    for (auto _ : state) {
+        for (const auto& scheme : schemes) benchmark::DoNotOptimize(scheme->advance({rows, 3, rows, tap, nullptr}));
+        benchmark::ClobberMemory();
+        if (state.iterations() % 690 == 689)
+            for (const auto& scheme : schemes) scheme->reset();
+    }
+    state.counters["ns_per_string_step"] = benchmark::Counter(static_cast<double>(state.iterations()) * rows * count * 1e-9,
+                                                              benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["error"] = difference / largest;
+}
+BENCHMARK_CAPTURE(several, one_by_one, false)->Arg(4)->Arg(16);
+BENCHMARK_CAPTURE(several, together, true)->Arg(4)->Arg(16);
+
 // What a scene listens to is what it pays for: all four taps at every step, against one displacement at 1/64 of them.
 void taps(benchmark::State& state, bool all) {
     Scene scene = c3_release();

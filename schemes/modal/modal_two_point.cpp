@@ -157,7 +157,9 @@ public:
         m_.taps = taps_.data();
         if (matched) put_in_series(descriptor, scene, modes, A);
         const ContactKind kind = !m_.g_b ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
-        advance_ = two_point_advance(kind, m_.g_c != nullptr, matched ? Compliance::matched : Compliance::own);
+        const Compliance series = matched ? Compliance::matched : Compliance::own;
+        advance_ = two_point_advance(kind, m_.g_c != nullptr, series);
+        together_ = two_point_advance_together(kind, m_.g_c != nullptr, series);
         ModalTwoPoint::reset();
     }
 
@@ -174,6 +176,15 @@ public:
         m_.status = {};
     }
     Status advance(const Block& out) noexcept override { return advance_(m_, out); }
+    void advance_all(std::span<Lane> all) noexcept override {
+        while (!all.empty()) {
+            std::size_t n = 1;
+            while (n < std::min<std::size_t>(all.size(), two_point_together) && together(all[0], all[n])) ++n;
+            if (n == 1) all[0].status = all[0].scheme->advance(all[0].out);
+            else advance_some(all.first(n));
+            all = all.subspan(n);
+        }
+    }
     int dofs() const override { return 2 * m_.modes; }
     std::vector<FreeMode> free_modes() const override { return free_; }
     std::vector<Fact> facts() const override {
@@ -192,6 +203,24 @@ public:
     }
 
 private:
+    static bool together(const Lane& a, const Lane& b) {  // in one kernel: neither profiles nor other rates
+        const auto *one = dynamic_cast<const ModalTwoPoint*>(a.scheme), *other = dynamic_cast<const ModalTwoPoint*>(b.scheme);
+        return one && other && one->together_ == other->together_ && one->m_.steps_per_row == other->m_.steps_per_row &&
+               one->m_.status.outcome == Outcome::ok && other->m_.status.outcome == Outcome::ok && a.out.rows == b.out.rows &&
+               !a.out.energy == !b.out.energy;
+    }
+    static void advance_some(std::span<Lane> lanes) {
+        std::array<TwoPoint*, two_point_together> strings;
+        std::array<Block, two_point_together> blocks;
+        for (std::size_t i = 0; i < lanes.size(); ++i) {
+            strings[i] = &static_cast<ModalTwoPoint*>(lanes[i].scheme)->m_;
+            blocks[i] = lanes[i].out;
+        }
+        const int rows = static_cast<ModalTwoPoint*>(lanes[0].scheme)->together_({strings.data(), lanes.size()}, blocks.data());
+        for (std::size_t i = 0; i < lanes.size(); ++i)  // beyond a failure each by itself
+            lanes[i].status = lanes[i].scheme->advance(from_row(lanes[i].out, rows));
+    }
+
     // Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y = tanh(s dt/2) on the discrete mode
     // z = exp(s dt), where the true motion has s dt/2.
     static double start_phase_offset(double omega0, double sigma, double A, double B) {
@@ -236,6 +265,7 @@ private:
     double Y_c0_ = 0;  // of the thread at t = 0 less h_c [m], where C is in series
     std::vector<double> pluck_now_;
     TwoPointAdvance advance_ = nullptr;
+    TwoPointTogether together_ = nullptr;
     double offset_ = 0;
     double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
     std::vector<FreeMode> free_;

@@ -6,77 +6,12 @@
 #define HWY_TARGET_INCLUDE "schemes/modal/modal_two_point_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
-#include <hwy/highway.h>
+#include "schemes/modal/modal_two_point_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<double, 8>;
-using V = hn::Vec<D>;
-
-HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x, int size) {
-    const D d;
-    const int N = static_cast<int>(hn::Lanes(d));
-    V even = hn::Zero(d), odd = hn::Zero(d);
-    for (int i = 0; i < size; i += 2 * N) {
-        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
-        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, x + i + N), odd);
-    }
-    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
-}
-
-// One pass: the update and the next dots.
-template <bool barrier, bool thread, bool pluck>
-HWY_INLINE void pass(TwoPoint& m, double F_b, double F_c, double F_e) {
-    const D d;
-    const int N = static_cast<int>(hn::Lanes(d));
-    const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
-    double *HWY_RESTRICT y = m.y, *HWY_RESTRICT u = m.u;
-    const double *HWY_RESTRICT c = m.c, *HWY_RESTRICT loss = m.loss;
-    const double *HWY_RESTRICT gb = m.g_b, *HWY_RESTRICT gc = m.g_c, *HWY_RESTRICT ge = m.g_e;
-    V yb[2], yc[2], ub[2], uc[2];
-    for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
-    for (int i = 0; i < m.size; i += 2 * N) {
-        for (int k = 0; k < 2; ++k) {
-            const int j = i + k * N;
-            const V y0 = hn::Load(d, y + j), u0 = hn::Load(d, u + j);
-            V forced = hn::Zero(d), g_b{}, g_c{};
-            if constexpr (pluck) forced = hn::Mul(hn::Load(d, ge + j), fe);
-            if constexpr (thread) {
-                g_c = hn::Load(d, gc + j);
-                forced = hn::MulAdd(g_c, fc, forced);
-            }
-            if constexpr (barrier) {
-                g_b = hn::Load(d, gb + j);
-                forced = hn::MulAdd(g_b, fb, forced);
-            }
-            const V s = hn::Add(u0, forced);  // (41)
-            const V y1 = hn::Add(y0, s);      // (40)
-            const V u1 = hn::NegMulAdd(hn::Load(d, c + j), y1, hn::NegMulAdd(hn::Load(d, loss + j), s, hn::Add(s, forced)));
-            hn::Store(u1, d, u + j);
-            hn::Store(y1, d, y + j);
-            if constexpr (barrier) {
-                yb[k] = hn::MulAdd(g_b, y1, yb[k]);
-                ub[k] = hn::MulAdd(g_b, u1, ub[k]);
-            }
-            if constexpr (thread) {
-                yc[k] = hn::MulAdd(g_c, y1, yc[k]);
-                uc[k] = hn::MulAdd(g_c, u1, uc[k]);
-            }
-        }
-    }
-    const auto sum = [d](const V(&v)[2]) { return hn::GetLane(hn::SumOfLanes(d, hn::Add(v[0], v[1]))); };
-    if constexpr (barrier) {
-        m.y_b = sum(yb);
-        m.u_b = sum(ub);
-    }
-    if constexpr (thread) {
-        m.y_c = sum(yc);
-        m.u_c = sum(uc);
-    }
-}
 
 // Supplied and dissipated energy of the step that is about to be made (51, 52), in the scaled modes.
 template <bool barrier, bool thread, bool pluck>
@@ -143,7 +78,7 @@ HWY_INLINE void step_own(TwoPoint& m) {
         m.impulse_c += F_c;
     }
     if constexpr (probe) ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, u_c + m.theta_bc * F_b + m.theta_cc * F_c);  // s_c by (44)
-    pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
+    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e));
     ++m.step;
 }
 
@@ -181,7 +116,7 @@ HWY_INLINE void step_matched(TwoPoint& m) {
         ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, moved);
         if constexpr (pluck) m.supplied -= (F_b * s.C_be + F_c * s.C_ce) * change;
     }
-    pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
+    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e));
     ++m.step;
 }
 
@@ -265,39 +200,109 @@ HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
 }
 
 template <ContactKind kind, bool thread, Compliance compliance>
+HWY_INLINE void write(TwoPoint& m, const Block& out, int row) {
+    for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(m, m.taps[k]);
+    if constexpr (compliance == Compliance::matched) {
+        double force[3] = {};
+        forces_now<kind, thread>(m, force);
+        for (int k = 0; k < out.taps; ++k)
+            for (int z = 0; z < 3; ++z) out.tap[k * out.stride + row] += m.taps[k].on_force[z] * force[z];
+    }
+    m.impulse_b = m.impulse_c = 0;
+    if (!out.energy) return;
+    write_energy(out, row, stored<kind, thread, compliance>(m), m.supplied, m.dissipated);
+    m.supplied = m.dissipated = 0;
+}
+
+template <ContactKind kind, bool thread, Compliance compliance>
 Status advance(TwoPoint& m, const Block& out) {
     for (int row = 0; row < out.rows && m.status.outcome == Outcome::ok; ++row) {
-        for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(m, m.taps[k]);
-        if constexpr (compliance == Compliance::matched) {
-            double force[3] = {};
-            forces_now<kind, thread>(m, force);
-            for (int k = 0; k < out.taps; ++k)
-                for (int z = 0; z < 3; ++z) out.tap[k * out.stride + row] += m.taps[k].on_force[z] * force[z];
-        }
-        m.impulse_b = m.impulse_c = 0;
-        if (out.energy) {
-            write_energy(out, row, stored<kind, thread, compliance>(m), m.supplied, m.dissipated);
-            m.supplied = m.dissipated = 0;
-            if (!steps_of_row<kind, thread, true, compliance>(m, out)) return {};
-        } else if (!steps_of_row<kind, thread, false, compliance>(m, out)) {
-            return {};
-        }
+        write<kind, thread, compliance>(m, out, row);
+        const bool on =
+            out.energy ? steps_of_row<kind, thread, true, compliance>(m, out) : steps_of_row<kind, thread, false, compliance>(m, out);
+        if (!on) return {};
     }
     return m.status;
 }
 
+template <ContactKind kind, bool thread, bool probe, Compliance compliance>
+HWY_INLINE void steps_of_each(std::span<TwoPoint* const> strings, long count) {
+    for (long i = 0; i < count; ++i)
+        for (TwoPoint* m : strings) steps<kind, thread, probe, compliance>(*m, 1);
+}
+
+template <bool thread>
+HWY_INLINE void steps_in_lanes(std::span<TwoPoint* const> strings, TwoPointLanes<thread>& lanes, long count) {
+    for (long i = 0; i < count; ++i) {
+        bool plucked[two_point_together], any = false;
+        for (std::size_t s = 0; s < strings.size(); ++s) {
+            const long into = strings[s]->step - strings[s]->pluck_first;
+            plucked[s] = into >= 0 && into < strings[s]->pluck_steps;
+            lanes.F_e.of[s] = plucked[s] ? strings[s]->pluck[into] : 0;
+            any = any || plucked[s];
+        }
+        if (any) lanes.template step<true>(plucked);
+        else lanes.template step<false>(plucked);
+    }
+}
+
+// Rows of all strings, `step` by which they go on; the rows made.
+template <ContactKind kind, bool thread, Compliance compliance, class Step>
+HWY_INLINE int rows_together(std::span<TwoPoint* const> strings, const Block* out, Step step) {
+    for (int row = 0; row < out->rows; ++row) {
+        for (std::size_t s = 0; s < strings.size(); ++s) write<kind, thread, compliance>(*strings[s], out[s], row);
+        for (long left = strings.front()->steps_per_row; left > 0; left -= steps_between_questions) {
+            step(left < steps_between_questions ? left : steps_between_questions);
+            if (left > steps_between_questions && out->stopped()) return out->rows;
+        }
+        for (const TwoPoint* m : strings)
+            if (m->status.outcome != Outcome::ok) return row + 1;
+    }
+    return out->rows;
+}
+
+template <ContactKind kind, bool thread, Compliance compliance>
+int advance_together(std::span<TwoPoint* const> strings, const Block* out) {
+    const auto rows = [&](auto step) { return rows_together<kind, thread, compliance>(strings, out, step); };
+    if (out->energy) return rows([&](long n) { steps_of_each<kind, thread, true, compliance>(strings, n); });
+    if constexpr (kind == ContactKind::linear && compliance == Compliance::own) {
+        TwoPointLanes<thread> lanes(strings);
+        const int made = rows([&](long n) {
+            lanes.take_impulses();
+            steps_in_lanes<thread>(strings, lanes, n);
+            lanes.give_impulses();
+        });
+        lanes.leave();
+        return made;
+    } else {
+        return rows([&](long n) { steps_of_each<kind, thread, false, compliance>(strings, n); });
+    }
+}
+
+struct Kernel {
+    TwoPointAdvance one;
+    TwoPointTogether together;
+};
+
+template <ContactKind kind, bool thread, Compliance compliance>
+constexpr Kernel kernel = {advance<kind, thread, compliance>, advance_together<kind, thread, compliance>};
+
 template <Compliance compliance>
-TwoPointAdvance choose_for(ContactKind kind, bool thread) {
+Kernel choose_for(ContactKind kind, bool thread) {
     using enum ContactKind;
     switch (kind) {
-        case none: return thread ? advance<none, true, compliance> : advance<none, false, compliance>;
-        case linear: return thread ? advance<linear, true, compliance> : advance<linear, false, compliance>;
-        case power: return thread ? advance<power, true, compliance> : advance<power, false, compliance>;
+        case none: return thread ? kernel<none, true, compliance> : kernel<none, false, compliance>;
+        case linear: return thread ? kernel<linear, true, compliance> : kernel<linear, false, compliance>;
+        case power: return thread ? kernel<power, true, compliance> : kernel<power, false, compliance>;
     }
-    return nullptr;
+    return {};
 }
 TwoPointAdvance choose(ContactKind kind, bool thread, Compliance compliance) {
-    return compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread);
+    return (compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread)).one;
+}
+TwoPointTogether choose_together(ContactKind kind, bool thread, Compliance compliance) {
+    return (compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread))
+        .together;
 }
 
 double plain_dot(const double* w, const double* x, int size) {
@@ -311,10 +316,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace jvari {
 HWY_EXPORT(choose);
+HWY_EXPORT(choose_together);
 HWY_EXPORT(plain_dot);
 
 TwoPointAdvance two_point_advance(ContactKind kind, bool thread, Compliance compliance) {
     return HWY_DYNAMIC_DISPATCH(choose)(kind, thread, compliance);
+}
+TwoPointTogether two_point_advance_together(ContactKind kind, bool thread, Compliance compliance) {
+    return HWY_DYNAMIC_DISPATCH(choose_together)(kind, thread, compliance);
 }
 double two_point_dot(const double* w, const double* x, int size) {
     return HWY_DYNAMIC_DISPATCH(plain_dot)(w, x, size);

@@ -1,0 +1,115 @@
+// One pass over the modes of modal_two_point_kernel.hpp, and the sums over lanes that end it. One string and several that are stepped
+// together share both, so that a string has the same bits alone and in company. Compiled once per instruction set by Highway.
+#if defined(JVARI_MODAL_TWO_POINT_PASS) == defined(HWY_TARGET_TOGGLE)
+#ifdef JVARI_MODAL_TWO_POINT_PASS
+#undef JVARI_MODAL_TWO_POINT_PASS
+#else
+#define JVARI_MODAL_TWO_POINT_PASS
+#endif
+
+#include <hwy/highway.h>
+
+#include "schemes/modal/modal_two_point_kernel.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace jvari {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, 8>;
+using V = hn::Vec<D>;
+
+HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x, int size) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    V even = hn::Zero(d), odd = hn::Zero(d);
+    for (int i = 0; i < size; i += 2 * N) {
+        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
+        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, x + i + N), odd);
+    }
+    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
+}
+
+// Sums over the lanes of four vectors at once: half the shuffles of four sums, each by halves of halves.
+HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
+    const D d;
+#if HWY_MAX_BYTES >= 64 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+    const hn::CappedTag<double, 4> four;
+    const V ac = hn::Add(hn::ConcatLowerLower(d, c, a), hn::ConcatUpperUpper(d, c, a));
+    const V be = hn::Add(hn::ConcatLowerLower(d, e, b), hn::ConcatUpperUpper(d, e, b));
+    const V pairs = hn::Add(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(be), ac), hn::OddEvenBlocks(be, hn::SwapAdjacentBlocks(ac)));
+    const V all = hn::Add(pairs, hn::Shuffle01(pairs));  // a a b b c c e e
+    hn::Store(hn::LowerHalf(four, hn::ConcatEven(d, all, all)), four, to);
+#else
+    to[0] = hn::GetLane(hn::SumOfLanes(d, a));
+    to[1] = hn::GetLane(hn::SumOfLanes(d, b));
+    to[2] = hn::GetLane(hn::SumOfLanes(d, c));
+    to[3] = hn::GetLane(hn::SumOfLanes(d, e));
+#endif
+}
+
+// The dots of the next step, before the sum over lanes; zero where the part is absent.
+struct Dots {
+    V y_b, u_b, y_c, u_c;
+};
+
+HWY_INLINE void take(TwoPoint& m, const Dots& next) {
+    alignas(64) double sum[4];
+    sums(next.y_b, next.u_b, next.y_c, next.u_c, sum);
+    m.y_b = sum[0];
+    m.u_b = sum[1];
+    m.y_c = sum[2];
+    m.u_c = sum[3];
+}
+
+// One pass: the update and the next dots. Two accumulators per dot hide the latency of adding.
+template <bool barrier, bool thread, bool pluck>
+HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
+    double *HWY_RESTRICT y = m.y, *HWY_RESTRICT u = m.u;
+    const double *HWY_RESTRICT c = m.c, *HWY_RESTRICT loss = m.loss;
+    const double *HWY_RESTRICT gb = m.g_b, *HWY_RESTRICT gc = m.g_c, *HWY_RESTRICT ge = m.g_e;
+    V yb[2], yc[2], ub[2], uc[2];
+    for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
+    const auto at = [&](int j, int k) HWY_ATTR {
+        const V y0 = hn::Load(d, y + j), u0 = hn::Load(d, u + j);
+        V forced = hn::Zero(d), g_b{}, g_c{};
+        if constexpr (pluck) forced = hn::Mul(hn::Load(d, ge + j), fe);
+        if constexpr (thread) {
+            g_c = hn::Load(d, gc + j);
+            forced = hn::MulAdd(g_c, fc, forced);
+        }
+        if constexpr (barrier) {
+            g_b = hn::Load(d, gb + j);
+            forced = hn::MulAdd(g_b, fb, forced);
+        }
+        const V s = hn::Add(u0, forced);  // (41)
+        const V y1 = hn::Add(y0, s);      // (40)
+        const V u1 = hn::NegMulAdd(hn::Load(d, c + j), y1, hn::NegMulAdd(hn::Load(d, loss + j), s, hn::Add(s, forced)));
+        hn::Store(u1, d, u + j);
+        hn::Store(y1, d, y + j);
+        if constexpr (barrier) {
+            yb[k] = hn::MulAdd(g_b, y1, yb[k]);
+            ub[k] = hn::MulAdd(g_b, u1, ub[k]);
+        }
+        if constexpr (thread) {
+            yc[k] = hn::MulAdd(g_c, y1, yc[k]);
+            uc[k] = hn::MulAdd(g_c, u1, uc[k]);
+        }
+    };
+    int i = 0;
+    for (; i + N < m.modes; i += 2 * N) {
+        at(i, 0);
+        at(i + N, 1);
+    }
+    if (i < m.modes) at(i, 0);
+    const auto both = [](const V(&v)[2]) { return hn::Add(v[0], v[1]); };
+    return {both(yb), both(ub), both(yc), both(uc)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace jvari
+HWY_AFTER_NAMESPACE();
+#endif
