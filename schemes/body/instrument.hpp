@@ -1,11 +1,12 @@
 // All strings of a scene on a body that moves, as one scheme: what body_step.hpp derives, stepped. The strings are those of a scheme of one
 // string, which lets its points be solved for from outside.
 //
-// A String has: StringAtBody at_body(); begin() to t = 0; approach(), which makes the force-free motion of the next step and gives older(),
-// free() (of v, one per point), inertia() (sum mu_i v_i'' of that motion), pluck() [N]; pass(force, a, probed), which ends the step by the
-// forces and w''; reading(level, out); momentum() = sum mu_i v_i' at the instant of the energy; write(block, row), of v and without the
-// points' energy; failed(), dofs(), facts(). Of three points it also has start(force, a), which makes level 1 of the first half step, and
-// share(), the inertia that its coordinates take of the body's: sum mu_i^2/m_i, m_i the least mass that the energy of the scheme shows.
+// A String has: StringAtBody at_body(); begin() to t = 0; approach(last_of_row), which makes the force-free motion of the next step and
+// gives older(), free() (of v, one per point), inertia() (sum mu_i v_i'' of that motion), pluck() [N]; pass(force, a, probed), which ends
+// the step by the forces and w''; reading(level, out); momentum() = sum mu_i v_i' at the instant of the energy; write(block, row), of v and
+// without the points' energy; failed(), dofs(), facts(). Of three points it also has start(force, a), which makes level 1 of the first half
+// step, and share(), the inertia that its coordinates take of the body's: sum mu_i^2/m_i, m_i the least mass that the energy of the scheme
+// shows.
 #pragma once
 
 #include <algorithm>
@@ -84,7 +85,7 @@ public:
         for (int row = 0; row < out.rows && status_.outcome == Outcome::ok; ++row) {
             write(out, row);
             for (int i = 0; i < steps_ && status_.outcome == Outcome::ok; ++i) {
-                step(out.energy != nullptr);
+                step(out.energy != nullptr, i + 1 == steps_);
                 if (out.stopped(i, steps_between_looks)) return {};
             }
         }
@@ -129,8 +130,8 @@ private:
         return by.solve(older_.data(), free_.data(), inertia, pluck_, motion, force_.data());
     }
 
-    void step(bool probed) noexcept {
-        for (Part& p : parts_) p.string->approach();
+    void step(bool probed, bool last_of_row) noexcept {
+        for (Part& p : parts_) p.string->approach(last_of_row);
         if (!solve(step_, body_.coming())) status_ = {Outcome::not_converged, done_};
         const double* force = force_.data();
         for (Part& p : parts_) {
@@ -156,7 +157,7 @@ private:
                 const double heard = tap_[t] + (tap.on_w * w + tap.on_speed * speed);
                 cell = tap.first ? heard : cell + heard;
             }
-            momentum += p.string->momentum();
+            if (out.energy) momentum += p.string->momentum();
             stored += energy_[0];
             supplied_ += energy_[1];
             dissipated_ += energy_[2];

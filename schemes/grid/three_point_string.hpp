@@ -222,7 +222,7 @@ private:
     }
 
 public:
-    void approach() noexcept {  // the next step without the points' forces
+    void approach(bool = false) noexcept {  // the next step without the points' forces
         double* spare = level_[0];
         level_[0] = level_[1];
         level_[1] = level_[2];

@@ -249,7 +249,7 @@ private:
     }
 
 public:
-    void approach() noexcept {
+    void approach(bool = false) noexcept {
         const double from = pluck_at(step_), to = pluck_at(step_ + 1);
         F_e_ = 0.5 * (from + to);
         change_ = by_pluck() ? to - from : 0;

@@ -4,6 +4,8 @@
 // Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights; the thread's force is the average of the
 // outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ - u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al.
 // 2016, eqs 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two polarisations.
+// On a body that moves (schemes/body) the points of all strings are solved for together, coupled as they may be, and its acceleration is
+// one more force; a lossy contact then loses by the force at the older level, and the first half step takes the mean of its two levels.
 //
 // Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from the string's compliance stands in series
 // with contacts and thread (contact/compliance.hpp, obstacle_step.hpp), which may then be coupled; profiles are touched at points of their
@@ -22,6 +24,8 @@
 #include <numbers>
 
 #include "scenes/modes.hpp"
+#include "schemes/body/body_modes.hpp"
+#include "schemes/body/instrument.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/three_point.hpp"
@@ -57,14 +61,17 @@ struct Problem {
     SpatialPorts ports;
     LinearUpdate update;
     std::optional<MissingMatrix> missing;  // in series, compliance=matched
+    std::optional<StringAtBody> at_body;   // on a moving body
 };
 
 template <class Form>
 class SpatialNewton final : public Scheme {
 public:
     explicit SpatialNewton(Problem p)
-        : p_(std::move(p)), form_(p_.update), forces_(p_.string(), p_.ports.points, p_.update, p_.dt, p_.missing) {
+        : p_(std::move(p)), form_(p_.update), forces_(p_.string(), p_.ports.points, p_.update, p_.dt, p_.missing, p_.at_body.has_value()) {
         for (const Tap& tap : p_.scene.taps) readings_.push_back(reading_of(tap));
+        if (p_.at_body) older_.assign(p_.at_body->points(), 0.0);
+        free_ = older_;
         earlier_force_.assign(p_.update.ports.size(), 0.0);
         for (auto* v : {&modal_now_, &modal_last_, &modal_coming_}) v->assign(p_.modes.count(), 0.0);
         reset();
@@ -83,15 +90,58 @@ public:
         thread_half_ = 0.5 * forces_.thread();
     }
 
+    // ---- On a body (schemes/body/instrument.hpp)
+
+    const StringAtBody& at_body() const { return *p_.at_body; }
+    const double* older() const { return older_.data(); }
+    const double* free() const { return free_.data(); }
+    double inertia() const { return inertia_; }
+    double pluck() const { return forces_.pluck_port() >= 0 ? forces_.force[forces_.pluck_port()] : 0; }
+    double share() const {
+        const auto& mu = p_.update.ports[at_body().points()].weights;
+        double sum = 0;
+        for (int j = 0; j < p_.modes.count(); ++j)  // of the mass that H shows (21)
+            sum += mu[j] * mu[j] / (p_.modes.mass * (1 - 0.5 * p_.three_point.loss[j] - 0.25 * p_.three_point.kappa[j]));
+        return sum;
+    }
+    void begin() noexcept {
+        reset();
+        failed_ = false;
+        between(forces_.now);
+        inertia_ = 2 * (forces_.free.back() - forces_.now.back()) / (p_.dt * p_.dt);
+    }
+    void start(const double* force, double a) noexcept {
+        forces_.put(force, -a, 0.5);
+        bridge_half_ = 0.5 * forces_.bridge();
+        thread_half_ = 0.5 * forces_.thread();
+    }
+    void approach(bool last_of_row) noexcept {
+        if (last_of_row) keep();
+        next_level();
+        failed_ = forces_.pluck(step_) != Outcome::ok;
+        between(forces_.older);
+        inertia_ = (forces_.free.back() - 2 * forces_.now.back() + forces_.older.back()) / (p_.dt * p_.dt);
+    }
+    void pass(const double* force, double a, bool probed) noexcept {
+        forces_.put(force, -a, 1);
+        end_step(probed);
+    }
+    void reading(int level, double* out) const noexcept {
+        std::copy_n((level == 0 ? forces_.now : forces_.coming).begin(), older_.size(), out);
+    }
+    double momentum() noexcept {  // sum mu_j v_j of the half step
+        fill_coming();
+        return inner(p_.update.ports[at_body().points()].weights, modal_coming_) / p_.dt;
+    }
+    bool failed() const { return failed_; }
+
+    // ----
+
     Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows; ++row) {
             write(out, row);
             for (int s = 0; s < p_.steps_per_row; ++s) {
-                if (differenced_ && s + 1 == p_.steps_per_row) {
-                    form_.levels.keep();
-                    std::copy(forces_.force.begin(), forces_.force.end(), earlier_force_.begin());
-                    for (double& f : earlier_force_) f *= share();
-                }
+                if (s + 1 == p_.steps_per_row) keep();
                 const Outcome outcome = step(out.energy != nullptr);
                 if (outcome != Outcome::ok) return {outcome, step_};
                 if (out.stopped(s, steps_between_questions)) return {};
@@ -122,19 +172,38 @@ public:
     }
 
 private:
-    double share() const { return step_ == 0 ? 0.5 : 1; }  // of its force that a step applies: the first half step only
+    double applied() const { return step_ == 0 ? 0.5 : 1; }  // of its force that a step applies: half in the first half step only
 
-    Outcome step(bool probed) noexcept {
-        if (share() != 1)
+    void keep() noexcept {  // before the last step of a row
+        if (!differenced_) return;
+        form_.levels.keep();
+        std::copy(forces_.force.begin(), forces_.force.end(), earlier_force_.begin());
+        for (double& f : earlier_force_) f *= applied();
+    }
+    void between(const std::vector<double>& older) noexcept {  // of the points, from there to the next level without forces
+        for (std::size_t z = 0; z < older_.size(); ++z) {
+            older_[z] = older[z];
+            free_[z] = forces_.free[z] - older[z];
+        }
+    }
+
+    void next_level() noexcept {
+        if (applied() != 1)
             for (double& f : forces_.force) f *= 0.5;
         form_.advance(forces_.force.data(), forces_.free.data());
         forces_.shift();
         ++step_;
+    }
+    Outcome step(bool probed) noexcept {
+        next_level();
         const Outcome outcome = forces_.solve(step_);
+        end_step(probed);
+        return outcome;
+    }
+    void end_step(bool probed) noexcept {
         bridge_impulse_ += forces_.bridge();
         thread_impulse_ += forces_.thread();
         if (probed) account();
-        return outcome;
     }
 
     // ---- Energy, in the modal constants of three_point.hpp
@@ -143,7 +212,7 @@ private:
         form_.to_modal(form_.levels.increment, modal_coming_.data());
         for (std::size_t z = 0; z < p_.update.ports.size(); ++z) {
             if (forces_.force[z] == 0) continue;
-            const double push = p_.update.gain * share() * forces_.force[z];
+            const double push = p_.update.gain * applied() * forces_.force[z];
             for (int j = 0; j < p_.modes.count(); ++j) modal_coming_[j] += push * p_.update.ports[z].weights[j];
         }
     }
@@ -225,6 +294,7 @@ private:
         return v;
     }
 
+public:
     void write(const Block& out, int row) noexcept {
         const double per_row = 1.0 / p_.steps_per_row;
         double bridge = 0, thread = 0;
@@ -244,6 +314,7 @@ private:
         supplied_ = dissipated_ = 0;
     }
 
+private:
     Problem p_;
     Form form_;
     SpatialForces forces_;
@@ -251,6 +322,9 @@ private:
     bool differenced_ = false;  // a velocity tap has modes near or above Nyquist
 
     long step_ = 0;
+    std::vector<double> older_, free_;  // of the points, on a body [m]
+    double inertia_ = 0;                // sum mu v'' without forces [N]
+    bool failed_ = false;
     std::vector<double> earlier_force_;                                                   // F^{n-1} of each port [N], for velocity taps
     double bridge_impulse_ = 0, thread_impulse_ = 0, bridge_half_ = 0, thread_half_ = 0;  // [N], sums over steps
     double supplied_ = 0, dissipated_ = 0;                                                // since the former row [J]
@@ -286,31 +360,44 @@ MissingMatrix missing_of(const Descriptor& descriptor, const Problem& p) {
     });
 }
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    validate(scene);
-    if (scene.strings.empty()) throw Refusal("modal_spatial_newton: scene " + scene.name + " has no string");
-    if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
+Problem problem_of(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     Problem p;
     p.scene = scene;
     p.dt = 1 / settings.sample_rate;
     p.steps_per_row = steps_per_row(settings);
-    const bool matched = choice_option(settings, compliance_option) == "matched";
+    const bool matched = choice_option(settings, compliance_option) == "matched", on_body = needed_by(scene).has(Feature::moving_body);
+    if (matched && on_body) throw Refusal("modal_spatial_newton: compliance=matched leaves out a moving body");
     if (matched) p.scene.strings.front() = with_profile_points(p.string(), settings);
     const int intervals = matched ? modes_for(p.string(), settings) + 1 : intervals_for(p.string(), settings);
     if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
     p.modes = modes_of(p.string(), intervals - 1);
     p.initial = initial_displacement(p.modes, p.string());
-    p.ports = spatial_ports(p.string(), p.modes, intervals, scene.name, matched);
+    p.ports = spatial_ports(p.string(), p.modes, intervals, scene.name, matched || on_body, on_body);
     if (matched)
         for (const ContactPoint& point : p.ports.points)
             if (point.contact_loss != 0) throw Refusal("modal_spatial_newton: compliance=matched leaves out contact loss");
     const bool linear = p.ports.points.empty() && !p.string().thread;
     p.three_point = three_point(p.modes, p.dt, (linear ? 0.95 : 0.25) * std::numbers::pi);
     p.update = {intervals, p.three_point.Ct, p.three_point.kappa, p.three_point.gain, p.ports.ports, 0};
-    p.update.reads = static_cast<int>(p.ports.points.size()) + (p.string().thread ? 1 : 0);
-
+    p.update.reads = static_cast<int>(p.ports.points.size()) + (p.string().thread ? 1 : 0) + (on_body ? 1 : 0);
     if (matched) p.missing = missing_of(descriptor, p);
+    if (!on_body) return p;
+    StringAtBody at = at_body(p.string());
+    for (const ContactPoint& point : p.ports.points) {
+        at.laws.push_back(point.law);
+        at.heights.push_back(point.height);
+        at.loss.push_back(point.contact_loss);
+        at.positions.push_back(point.position);
+    }
+    if (p.string().thread) at.positions.push_back(p.string().thread->position);
+    for (int a = 0; a < p.update.reads; ++a)
+        for (int b = 0; b < p.update.reads; ++b)
+            at.theta.push_back(p.update.gain * inner(p.update.ports[std::min(a, b)].weights, p.update.ports[std::max(a, b)].weights));
+    p.at_body = std::move(at);
+    return p;
+}
 
+std::string form_of(const Problem& p, const Settings& settings) {
     std::string form = choice_option(settings, form_option);
     if (form == "auto") form = cheapest_form(p.update);
     const bool on_nodes =
@@ -320,16 +407,39 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     if (form == "dense" && p.update.modes() > most_dense)
         throw Refusal("option form: dense takes no more than " + std::to_string(most_dense) + " modes, not " +
                       std::to_string(p.update.modes()));
-    if (form == "dense") return std::make_unique<SpatialNewton<DenseForm>>(std::move(p));
-    if (form == "restricted") return std::make_unique<SpatialNewton<RestrictedForm>>(std::move(p));
-    return std::make_unique<SpatialNewton<SineForm>>(std::move(p));
+    return form;
+}
+
+template <class Form>
+std::unique_ptr<Scheme> in_form(const Scene& scene, std::vector<std::unique_ptr<Problem>> problems) {
+    if (!problems.front()->at_body) return std::make_unique<SpatialNewton<Form>>(std::move(*problems.front()));
+    const double dt = problems.front()->dt;
+    const int steps = problems.front()->steps_per_row;
+    std::vector<std::unique_ptr<SpatialNewton<Form>>> strings;
+    for (auto& p : problems) strings.push_back(std::make_unique<SpatialNewton<Form>>(std::move(*p)));
+    return std::make_unique<Instrument<SpatialNewton<Form>, ThreePointBody>>(scene, std::move(strings),
+                                                                             ThreePointBody(scene.body->modes, dt), steps);
+}
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    validate(scene);
+    if (scene.strings.empty()) throw Refusal("modal_spatial_newton: scene " + scene.name + " has no string");
+    if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
+    auto problems =
+        each_string<Problem>(scene, [&](const Scene& one) { return std::make_unique<Problem>(problem_of(descriptor, one, settings)); });
+    std::string form = form_of(*problems.front(), settings);
+    for (const auto& p : problems)
+        if (form_of(*p, settings) != form) form = "dst";  // which takes every string
+    if (form == "dense") return in_form<DenseForm>(scene, std::move(problems));
+    if (form == "restricted") return in_form<RestrictedForm>(scene, std::move(problems));
+    return in_form<SineForm>(scene, std::move(problems));
 }
 
 constexpr Features represented = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
                                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
                                  Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
                                  Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) |
-                                 Features(Feature::initial_shape) | Features(Feature::pluck);
+                                 Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body);
 
 }  // namespace
 
@@ -341,7 +451,7 @@ extern const Descriptor modal_spatial_newton = {
     .clock = Clock::stepped,
     .make = made,
     .options = options,
-    .note = "Several contact points only where each is a node of the grid, and a thread only with one contact point.",
+    .note = "But on a moving body several contact points only where each is a node of the grid, and a thread only with one contact point.",
     .stand_in_rank = 3};
 
 }  // namespace jvari

@@ -31,7 +31,7 @@ double settle(const ContactLaw& law, double free, double theta) {
 }  // namespace
 
 SpatialForces::SpatialForces(const String& s, const std::vector<ContactPoint>& points, const LinearUpdate& update, double dt,
-                             const std::optional<MissingMatrix>& missing)
+                             const std::optional<MissingMatrix>& missing, bool on_body)
     : older(update.reads), now(update.reads), free(update.reads), coming(update.reads), force(update.ports.size()), dt_(dt) {
     const auto theta = [&](int a, int b) { return update.gain * inner(update.ports[a].weights, update.ports[b].weights); };
     int next = 0;
@@ -49,6 +49,11 @@ SpatialForces::SpatialForces(const String& s, const std::vector<ContactPoint>& p
         }
         threads_.push_back(c);
         ++next;
+    }
+    if (on_body) {
+        ++next;
+        for (int a = 0; a < update.reads; ++a)
+            for (int b = 0; b < update.reads; ++b) theta_.push_back(theta(std::min(a, b), std::max(a, b)));
     }
     if (s.pluck) {
         Finger e{*s.pluck, next, {}};
@@ -141,6 +146,7 @@ double SpatialForces::thread() const {
 void SpatialForces::begin() noexcept {
     std::fill(force.begin(), force.end(), 0.0);  // a pluck begins from 0
     effort_ = {};
+    if (!theta_.empty()) return;
     if (series_) return begin_in_series();
     std::copy(free.begin(), free.end(), coming.begin());
     double recoil = 0;
@@ -170,13 +176,28 @@ void SpatialForces::shift() noexcept {
     now.swap(coming);
 }
 
-Outcome SpatialForces::solve(long n) noexcept {
+void SpatialForces::put(const double* points, double body, double share) noexcept {
+    const std::size_t reads = now.size();
+    std::copy_n(points, reads - 1, force.begin());
+    force[reads - 1] = body;
+    for (std::size_t z = 0; z < reads; ++z) {
+        coming[z] = free[z];
+        for (std::size_t c = 0; c < reads; ++c) coming[z] += share * theta_[z * reads + c] * force[c];
+    }
+}
+
+Outcome SpatialForces::pluck(long n) noexcept {
     for (Finger& e : plucks_) {
         const double t = double(n) * dt_ - e.law.start;
         force[e.port] = t < 0 || t > e.law.duration ? 0 : jvari::force(e.law, double(n) * dt_);
         if (force[e.port] != 0)
             for (std::size_t z = 0; z < free.size(); ++z) free[z] += e.reach[z] * force[e.port];
     }
+    return std::all_of(free.begin(), free.end(), [](double y) { return std::isfinite(y); }) ? Outcome::ok : Outcome::diverged;
+}
+
+Outcome SpatialForces::solve(long n) noexcept {
+    pluck(n);
     if (series_) return solve_in_series(n);
     for (Coil& c : threads_) {
         const double pull = c.law.stiffness * c.law.height + (c.yield - c.law.stiffness) * older[c.port];
@@ -216,6 +237,7 @@ Outcome SpatialForces::solve(long n) noexcept {
 }
 
 double SpatialForces::stored() const {
+    if (!theta_.empty()) return 0;
     if (series_) {
         for (std::size_t z = 0; z < now.size(); ++z) {
             series_->a[z] = now[z] + pluck_on(z, n_);
@@ -236,6 +258,7 @@ double SpatialForces::stored() const {
 }
 
 double SpatialForces::dissipated() const {
+    if (!theta_.empty()) return 0;
     if (series_) return now.empty() ? 0 : dt_ * series_->step.loss(coming.back() - older.back());
     double lost = 0;
     for (std::size_t z = 0; z < contacts_.size(); ++z) {
@@ -252,6 +275,7 @@ double SpatialForces::dissipated() const {
 }
 
 void SpatialForces::add_facts(std::vector<Fact>& facts) const {
+    if (!theta_.empty()) return;
     if (series_) {
         const ObstacleStep::Tally& t = series_->step.tally();
         facts.push_back({facts::smallest_contact_force, t.smallest_force});

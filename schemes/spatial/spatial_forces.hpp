@@ -18,13 +18,18 @@ class SpatialForces {
 public:
     // missing: in series with contacts and thread, compliance=matched; these take the steps of obstacle_step.hpp then.
     SpatialForces(const String&, const std::vector<ContactPoint>&, const LinearUpdate&, double dt,
-                  const std::optional<MissingMatrix>& missing = {});
+                  const std::optional<MissingMatrix>& missing = {}, bool on_body = false);
 
     // t = 0 at rest: `now` and the motion without force `free` are filled. From rest both neighbours of level 0 carry half of F^0 and the
     // contact force is that at level 1: the equations of a step with u- = u+ and half the compliance.
     void begin() noexcept;
     void shift() noexcept;           // level n+1 becomes n; then `free` is filled, then
     Outcome solve(long n) noexcept;  // force, coming
+
+    // Or on a moving body, whose port is the last that is read: the pluck's part, then what was solved for outside, of points and body.
+    // Then the energies of the points are not here.
+    Outcome pluck(long n) noexcept;
+    void put(const double* points, double body, double share) noexcept;  // share: 1/2 in the first step
 
     double bridge() const;  // [N]
     double thread() const;
@@ -74,6 +79,7 @@ private:
     double pluck_at(long n) const;  // [N]
     double pluck_on(std::size_t z, long n) const { return series_->missing.pluck.empty() ? 0 : series_->missing.pluck[z] * pluck_at(n); }
     std::optional<Series> series_;
+    std::vector<double> theta_;  // on a moving body: of all reads [m/N]
     long n_ = 0;
     double dt_, own_theta_ = 0;  // own: of the contact point, without a yielding thread
     Effort effort_;

@@ -32,7 +32,7 @@ struct PointsOf {
         out.ports.push_back({std::move(weights), node});
     }
     void operator()(const LumpedBarrier& b) const {
-        const ContactPoint point{{b.stiffness.k, b.exponent}, b.height, b.contact_loss};
+        const ContactPoint point{{b.stiffness.k, b.exponent}, b.height, b.contact_loss, b.position};
         const int node = b.width == 0 ? node_at(b.position, s.length, intervals) : 0;
         add(point, node, node != 0 ? node_weights(intervals, node) : footprint_weights(modes, b.position, b.width));
     }
@@ -47,7 +47,7 @@ struct PointsOf {
         const double dx = s.length / intervals;
         int node = first;
         for (const double height : heights(b.curve, x)) {
-            add({{b.stiffness.K * dx, b.exponent}, height, b.contact_loss}, node, node_weights(intervals, node));
+            add({{b.stiffness.K * dx, b.exponent}, height, b.contact_loss, node * dx}, node, node_weights(intervals, node));
             ++node;
         }
     }
@@ -73,7 +73,8 @@ int intervals_for(const String& s, const Settings& settings) {
     return intervals;
 }
 
-SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, const std::string& scene, bool coupled_may_be) {
+SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, const std::string& scene, bool coupled_may_be,
+                           bool on_body) {
     SpatialPorts out;
     for (const Barrier& barrier : s.barriers) std::visit(PointsOf{s, modes, intervals, scene, out}, barrier);
     const bool all_nodes = std::all_of(out.ports.begin(), out.ports.end(), [](const Port& p) { return p.node != 0; });
@@ -84,6 +85,7 @@ SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, c
         throw Refusal("modal_spatial_newton couples a thread to one contact point; scene " + scene + " has " +
                       std::to_string(out.points.size()) + " with " + std::to_string(intervals - 1) + " nodes");
     if (s.thread) out.ports.push_back({footprint_weights(modes, s.thread->position, s.thread->width), 0});
+    if (on_body) out.ports.push_back({end_inertia(modes, s), 0});
     if (s.pluck) out.ports.push_back({footprint_weights(modes, s.pluck->position, s.pluck->width), 0});
     return out;
 }

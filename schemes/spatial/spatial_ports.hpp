@@ -15,9 +15,10 @@ struct ContactPoint {
     ContactLaw law;           // [N/m^alpha]; a stiffness density K on a node is K dx
     double height = 0;        // [m]
     double contact_loss = 0;  // Hunt-Crossley beta [s/m]
+    double position = 0;      // [m]
 };
 
-// Ports in order: one per contact point, the thread's, the pluck's.
+// Ports in order: one per contact point, the thread's, that of a moving body where there is one, the pluck's.
 struct SpatialPorts {
     std::vector<ContactPoint> points;
     std::vector<Port> ports;
@@ -28,6 +29,6 @@ struct SpatialPorts {
 int intervals_for(const String&, const Settings&);
 
 // Throws Refusal where contact points are coupled and may not be: nodes are not (their weights are orthogonal), all else is.
-SpatialPorts spatial_ports(const String&, const Modes&, int intervals, const std::string& scene, bool coupled_may_be);
+SpatialPorts spatial_ports(const String&, const Modes&, int intervals, const std::string& scene, bool coupled_may_be, bool on_body = false);
 
 }  // namespace jvari
