@@ -244,12 +244,14 @@ struct PlaceBarrier {
         g.points.push_back(footprint_stencil(g.grid, b.position, b.width));
         g.laws.push_back({b.stiffness.k, b.exponent});
         g.heights.push_back(b.height);
+        g.beta.push_back(b.contact_loss);
     }
     void operator()(const ProfileBarrier& b) const {
         const auto [first, x] = nodes_on(b, length, g.grid.intervals);
         for (std::size_t i = 0; i < x.size(); ++i) {
             g.points.push_back({first + static_cast<int>(i), {1.0}});
             g.laws.push_back({b.stiffness.K * g.grid.dx, b.exponent});  // lumped: a node stands for dx of the profile
+            g.beta.push_back(b.contact_loss);
         }
         if (x.empty())
             throw Refusal("no node of the grid lies on the barrier from " + std::to_string(b.from) + " m to " + std::to_string(b.to) +
@@ -306,6 +308,8 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
 
 GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const Grid& grid, const LossFit& loss) {
     const bool matched = choice_option(settings, compliance_option) == "matched";
+    if (matched && needed_by(scene).has(Feature::contact_loss))
+        throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out contact loss");
     const String s = matched ? with_profile_points(scene.strings.front(), settings) : scene.strings.front();
     GridString g;
     g.grid = grid;
@@ -342,6 +346,12 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     }
     if (matched) put_in_series(g, descriptor, scene, s);
     return g;
+}
+
+ObstacleStep GridString::obstacle(std::span<const double> theta, double span) const {
+    ObstacleStep o(laws, heights, thread, theta, span);
+    if (std::any_of(beta.begin(), beta.end(), [](double b) { return b != 0; })) o.lose(beta);
+    return o;
 }
 
 double GridString::pluck_at(double t) const {
