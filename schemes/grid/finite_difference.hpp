@@ -9,6 +9,7 @@
 // three are non-negative: no wavenumber of the grid gains energy.
 // With compliance=matched what the grid takes from the string's compliance stands in series with the points, and profiles are touched at
 // points of their own (option `points`): at its nodes a grid yields more than the true string.
+// Contact loss takes its stiffness at the older level (obstacle_step.hpp): of first order.
 // Left out: contact loss with compliance=matched, measured modes, polarisation, the body.
 #pragma once
 
