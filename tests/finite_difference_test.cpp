@@ -566,8 +566,6 @@ TEST(GridLimit, AGridOverItIsRefusedAndOneUnderItIsTaken) {
         EXPECT_THROW(run_at(name, scene, 44100, {{"mesh", "1"}}), Refusal);
     }
     EXPECT_EQ(fact(run_at(hamiltonian_, scene, 44100, {{"grid", "400"}}), "grid_intervals"), 400);  // any
-    scene.strings.front().barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0.5}};
-    EXPECT_THROW(run_at(explicit_, scene, 44100), Refusal);  // contact loss
     scene.strings.front().barriers = {ProfileBarrier{FlatCurve{}, 1e-4, 2e-4, {1e9}, 1, 0}};
     EXPECT_THROW(run_at(explicit_, scene, 44100), Refusal);  // between two nodes
 }
@@ -748,6 +746,54 @@ TEST(GridString, TracesDependNeitherOnTheBlockNorOnTheEnergyProbe) {
         EXPECT_EQ(both.dofs, 2 * a.dofs);
         for (long n = 0; n < both.trace.rows; ++n)
             ASSERT_DOUBLE_EQ(both.trace.column(0)[n], both.trace.column(1)[n] + both.trace.column(2)[n]);
+    }
+}
+
+// ---- Contacts that lose energy.
+
+Scene losing(double beta) {
+    Scene s = c3_release();
+    s.duration = 0.01;
+    std::get<LumpedBarrier>(s.strings[0].barriers[0]).contact_loss = beta;
+    return s;
+}
+
+TEST(ContactLossOnAGrid, IsInTheLedgerAndOfItsSize) {
+    for (const char* name : {"finite_difference_explicit", "finite_difference_theta", "finite_difference_hamiltonian"}) {
+        const auto left = [name](double beta) {
+            const Scene s = lossless(losing(beta));
+            const jvari::Run r = run(scheme(name), s, {176400, 176400, 0, {}}, {.energy = true});
+            const auto stored = r.trace.energy_column(0), dissipated = r.trace.energy_column(2);
+            for (long n = 1; n < r.trace.rows; ++n)
+                EXPECT_NEAR(stored[n], stored[n - 1] - dissipated[n], 1e-12 * stored[0]) << name << " " << beta << " " << n;
+            return stored[r.trace.rows - 1] / stored[0];
+        };
+        EXPECT_NEAR(left(0), 1, 1e-9) << name;
+        EXPECT_LT(left(0.5), 1 - 1e-4) << name;
+        EXPECT_THROW(make_scheme(scheme(name), losing(5), {176400, 44100, 0, {{"compliance", "matched"}}}), Refusal) << name;
+    }
+}
+
+// A string falls on a broad soft obstacle, which takes more than half of its energy in 20 ms.
+TEST(ContactLossOnAGrid, ConvergesToTheExactSolutionAtOrderOne) {
+    Scene s = lossless(c3_free());
+    s.duration = 0.02;
+    s.strings[0].initial = ModeInitial{1, 1.9e-3};
+    s.strings[0].barriers = {LumpedBarrier{0.4, 0.2, -5e-4, {1e7}, 1.5, 2}};
+    s.taps = {{"bridge", Quantity::bridge_force, 0, 0}};
+    const auto left = [](const jvari::Run& r) { return r.trace.energy_column(0)[r.trace.rows - 1] / r.trace.energy_column(0)[0]; };
+    const auto exact = std::ranges::find_if(references(), [](const Descriptor& d) { return std::string("exact_contact") == d.name; });
+    const jvari::Run truth = run(*exact, s, {0, 44100, 300, {}}, {.energy = true});
+    ASSERT_EQ(truth.status.outcome, Outcome::ok);
+    EXPECT_LT(left(truth), 0.5);
+    for (const char* name : all) {
+        std::vector<double> error;
+        for (const int rate : {4, 16}) {
+            const jvari::Run r = run(scheme(name), s, {44100.0 * rate, 44100, 0, {}}, {.energy = true});
+            error.push_back(relative_difference(r.trace.column(0), truth.trace.column(0)));
+            EXPECT_NEAR(left(r), left(truth), 0.02 / rate) << name;
+        }
+        EXPECT_NEAR(std::log2(error[0] / error[1]) / 2, 1, 0.1) << name << " " << error[0] << " " << error[1];
     }
 }
 

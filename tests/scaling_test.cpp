@@ -53,6 +53,19 @@ TEST(Scaling, ACostThatGrowsWithAPowerHasThatPowerForItsExponent) {
     }
 }
 
+TEST(Scaling, AStepsTimeIsTheProcessorsWhereThatWasTaken) {
+    bench::store::Table cells = cells_of({{"m", "", "", 44100, 16, 0, 10}, {"m", "-thread", "", 44100, 16, 0, 8}});
+    for (const char* column : {"processor_s_per_s", "processor_lower", "processor_upper"}) cells.columns.emplace_back(column);
+    for (const double ns : {5.0, 3.0})
+        for (const double part : {1.0, 0.99, 1.01}) cells.rows[ns == 5.0 ? 0 : 1].push_back(bench::store::text_of(part * ns * 44100e-9));
+    const bench::store::Table t = bench::compare::scaling_of(cells, {bench::store::all_rows(cells)});
+    ASSERT_EQ(t.rows.size(), 1u);
+    EXPECT_NEAR(t.number(0, "ns_per_step"), 3, 1e-12);
+    EXPECT_NEAR(t.number(0, "extra_ns"), 2, 1e-12);
+    EXPECT_NEAR(t.number(0, "extra_lower"), 5 * 0.99 - 3 * 1.01, 1e-12);
+    EXPECT_NEAR(t.number(0, "extra_upper"), 5 * 1.01 - 3 * 0.99, 1e-12);
+}
+
 TEST(Scaling, TheSweptKeyThatVariesTheContactsStandsInXAlone) {
     const bench::store::Table cells = cells_of({{"s", "", "0.002", 44100, 100, 2, 10}, {"s", "", "0.004", 44100, 100, 4, 20}});
     const bench::store::Table t = bench::compare::scaling_of(cells, {bench::store::all_rows(cells)});
@@ -94,18 +107,21 @@ TEST(Scaling, ARowThatFailedOrWasNotTimedHasNoPlaceInIt) {
 // ---- Elements
 
 TEST(Elements, EachIsTakenAwayWithTheTapsOfItsForceAndNothingElse) {
-    const Scene whole = bench::compare::load_scene("tanpura_c3_release", {}, 0.01);
+    const Scene whole = bench::compare::load_scene("tanpura_c3_release", {"body.nut=synthetic_nut.wav"}, 0.01);
     const auto names = [](const Scene& s) {
         std::string all;
         for (const Tap& t : s.taps) all += t.name + " ";
         return all;
     };
     for (const bench::compare::Element e : bench::compare::elements()) {
+        if (e == bench::compare::Element::strings) continue;  // it has one
         const Scene s = bench::compare::without(e, whole);
         EXPECT_NO_THROW(validate(s));
         EXPECT_EQ(s.strings[0].thread.has_value(), e != bench::compare::Element::thread);
         EXPECT_EQ(s.strings[0].barriers.empty(), e == bench::compare::Element::contact);
         EXPECT_EQ(s.strings[0].bending_stiffness == 0, e == bench::compare::Element::stiffness);
+        EXPECT_EQ(std::holds_alternative<NoDamping>(s.strings[0].damping), e == bench::compare::Element::losses);
+        EXPECT_EQ(s.body.has_value(), e != bench::compare::Element::body);
         EXPECT_EQ(names(s), e == bench::compare::Element::thread    ? "nut y03 bridge "
                             : e == bench::compare::Element::contact ? "nut y03 thread "
                             : e == bench::compare::Element::taps    ? "nut "
@@ -113,7 +129,23 @@ TEST(Elements, EachIsTakenAwayWithTheTapsOfItsForceAndNothingElse) {
     }
 }
 
+TEST(Elements, WithoutItsOtherStringsAnInstrumentHasItsFirst) {
+    const Scene drone = bench::compare::load_scene("tanpura_drone", {}, 0.01);
+    const Scene one = bench::compare::without(bench::compare::Element::strings, drone);
+    ASSERT_EQ(one.strings.size(), 1u);
+    EXPECT_EQ(one.strings[0], drone.strings[0]);
+    EXPECT_EQ(one.taps, drone.taps);
+    EXPECT_EQ(bench::compare::without(bench::compare::Element::radiation, drone), drone);
+}
+
 TEST(Elements, ASceneThatHasNoneOfItIsRefused) {
+    using enum bench::compare::Element;
+    const Scene one = bench::compare::load_scene("tanpura_c3_release", {}, 0.01);
+    for (const bench::compare::Element e : {strings, body, radiation})
+        EXPECT_THROW(bench::compare::without(e, one), bench::store::UsageError);
+    Scene untapped = bench::compare::load_scene("tanpura_drone", {}, 0.01);
+    untapped.taps = {{"y", Quantity::displacement, 0, 0.5}};
+    EXPECT_THROW(bench::compare::without(radiation, untapped), bench::store::UsageError);
     const Scene parabola = bench::compare::load_scene("sitar_parabola", {}, 0.01);
     EXPECT_THROW(bench::compare::without(bench::compare::Element::thread, parabola), bench::store::UsageError);
     EXPECT_THROW(
@@ -135,10 +167,10 @@ measure = ["errors", "cost"]
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, catalogue, {});
     ASSERT_EQ(plan.cells.size(), 6u);
     EXPECT_TRUE(plan.cells[0].point->swept.empty());
+    const char* changes[] = {"", "-thread", "-contact", "-stiffness", "-taps", "+probe"};
     for (std::size_t i = 1; i < 6; ++i) {
         ASSERT_EQ(plan.cells[i].point->swept.size(), 1u);
-        EXPECT_EQ(plan.cells[i].point->swept[0],
-                  std::pair(std::string("element"), bench::compare::change_of(bench::compare::elements()[i - 1])));
+        EXPECT_EQ(plan.cells[i].point->swept[0], std::pair(std::string("element"), std::string(changes[i])));
         EXPECT_NE(plan.cells[i].id, plan.cells[0].id);
     }
     EXPECT_EQ(sets_of(plan), std::vector<bench::store::Rows>{(bench::store::Rows{0, 1, 2, 3, 4, 5})});

@@ -1,11 +1,13 @@
 // How much a scheme carries from step to step.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "bench/check/judges.hpp"
 #include "bench/check/scenes.hpp"
+#include "schemes/contact/compliance.hpp"
 
 namespace jvari::bench::check {
 
@@ -21,7 +23,14 @@ std::optional<int> dofs_of(const Case& c) {  // none where it refuses
 }
 
 // Displacement and velocity of each mode, or of each node of a grid, whose spacing no wave passes within a step; then a value for each
-// contact, and a few for a filter at an end. A second plane has as many again.
+// contact, and a few for a filter at an end. A second plane has as many again. A profile has a contact at each node on it, or at the points
+// of its own that a scheme says it has.
+double contacts_on(const ProfileBarrier& profile, double length, double nodes, const Case& c) {
+    const bool own =
+        std::ranges::any_of(c.scheme.options, [](const Option& o) { return o.name == std::string(profile_points_option.name); });
+    const double on_nodes = std::ceil(nodes * (profile.to - profile.from) / length);
+    return own ? std::max(on_nodes, number_option(c.settings, profile_points_option)) : on_nodes;
+}
 int most_state(const Case& c, bool sized_by_modes) {
     double most = 0;
     for (const String& s : c.scene.strings) {
@@ -30,7 +39,7 @@ int most_state(const Case& c, bool sized_by_modes) {
         double contacts = 0;
         for (const Barrier& b : s.barriers) {
             const auto* profile = std::get_if<ProfileBarrier>(&b);
-            contacts += profile ? std::ceil(nodes * (profile->to - profile->from) / s.length) : 1;
+            contacts += profile ? contacts_on(*profile, s.length, nodes, c) : 1;
         }
         constexpr int at_an_end = 6;
         most += (2 * nodes + contacts + at_an_end) * (s.polarisation ? 2 : 1);

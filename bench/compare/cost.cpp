@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bench/compare/time_limit.hpp"
+#include "bench/sound/radiation.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::compare {
@@ -24,14 +25,18 @@ struct Timed : Contender {
 };
 
 void sample(Timed& t) {
+    std::vector<sound::RadiatingTap> body;
+    if (t.added == Element::radiation) body = sound::radiating_taps(*t.scene, t.cell->settings.tap_rate);
     const auto scheme = make_scheme(*t.cell->scheme, *t.scene, t.cell->settings);
     RunOptions options;
-    options.energy = t.probe;
+    options.energy = t.added == Element::probe;
     double seconds = 0;
     const double from = processor_seconds();
     for (int k = 0; k < t.runs; ++k) {
         const Run r = run(*scheme, *t.scene, t.cell->settings, options);
-        seconds += r.wall_seconds;
+        const auto heard = std::chrono::steady_clock::now();
+        for (const sound::RadiatingTap& b : body) b.filter(r.trace.column(b.tap));
+        seconds += r.wall_seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - heard).count();
         const double deadline = options.block_rows / t.cell->settings.tap_rate;
         if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
             t.cell->worst_block = std::fmin(t.cell->worst_block, r.worst_block / deadline);

@@ -2,9 +2,11 @@
 // quartiles.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bench/compare/compare.hpp"
+#include "bench/compare/elements.hpp"
 
 namespace jvari::bench::compare {
 
@@ -16,7 +18,7 @@ namespace jvari::bench::compare {
 struct Contender {
     Cell* cell;
     const Scene* scene;
-    bool probe = false;  // timed with the energy probe on: what the probe costs
+    std::optional<Element> added;  // the probe or the radiation, timed with the run
 };
 void time_cells(const std::vector<Contender>&, int repeats, const store::Listener&);
 

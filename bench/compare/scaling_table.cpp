@@ -18,10 +18,13 @@ struct Nanoseconds {
     double median, lower, upper;  // of a step
 };
 
-// cells.csv quotes quartiles of the cost per second of sound; a step is the same share of each.
+// cells.csv quotes quartiles of the cost per second of sound; a step is the same share of each. Of processor time where there is one: what
+// else the machine does meanwhile has no part in it.
 Nanoseconds step_of(const store::Table& cells, std::size_t row) {
-    const double median = cells.number(row, "ns_per_step"), share = median / cells.number(row, "cost_s_per_s");
-    return {median, share * cells.number(row, "cost_lower"), share * cells.number(row, "cost_upper")};
+    const double share = cells.number(row, "ns_per_step") / cells.number(row, "cost_s_per_s");
+    const bool processor = cells.column("processor_s_per_s") >= 0 && cells.number(row, "processor_s_per_s") > 0;
+    const auto of = [&](const char* wall, const char* own) { return share * cells.number(row, processor ? own : wall); };
+    return {of("cost_s_per_s", "processor_s_per_s"), of("cost_lower", "processor_lower"), of("cost_upper", "processor_upper")};
 }
 
 class Scaling {
@@ -79,7 +82,7 @@ private:
         std::set<std::string> modes;
         for (const std::size_t row : rows) {
             x.push_back(cells_.number(row, column));
-            ns.push_back(cells_.number(row, "ns_per_step"));
+            ns.push_back(step_of(cells_, row).median);
             modes.insert(cells_.at(row, "modes"));
         }
         const Order fit = observed_order(x, ns);
@@ -115,7 +118,7 @@ private:
         for (const Element e : elements()) {
             if (cells_.at(changed, "element") != change_of(e)) continue;
             const Nanoseconds step = step_of(cells_, changed), other = step_of(cells_, *whole);
-            const Nanoseconds &more = e == Element::probe ? step : other, &less = e == Element::probe ? other : step;
+            const Nanoseconds &more = is_added(e) ? step : other, &less = is_added(e) ? other : step;
             auto& row = into_.rows.emplace_back(name_of_row(changed, ""));
             for (const std::string& field :
                  {at(changed, true, true), std::string(name_of(e)), std::string(), store::text_of(step.median), store::text_of(step.lower),

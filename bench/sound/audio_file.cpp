@@ -29,22 +29,6 @@ double decibels(double ratio) {
 bool is_driven(const Scene& scene) {
     return std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return !lacks(s, Quantity::driving_force); });
 }
-
-// The body's response for each tap of audible(scene).
-std::vector<Radiation> radiations(const Scene& scene, double rate) {
-    std::vector<Radiation> all;
-    for (const Tap& tap : scene.taps) {
-        const bool bridge = tap.quantity == Quantity::driving_force;
-        const std::string key = bridge ? "body.bridge" : "body.nut";
-        std::vector<double> response = impulse_response(bridge ? scene.body->bridge : scene.body->nut, rate, key);
-        try {
-            all.emplace_back(std::move(response), rate, scene.body->sections);
-        } catch (const std::invalid_argument& e) {
-            throw store::UsageError(fmt::format("body.sections: found {} for {}; {}", scene.body->sections, key, e.what()));
-        }
-    }
-    return all;
-}
 }  // namespace
 
 bool is_audio(const std::filesystem::path& path) {
@@ -71,7 +55,7 @@ Player::Player(AudioFile file, const Scene& scene, double tap_rate) : file_(std:
     if (bytes > most_bytes)
         throw store::UsageError(fmt::format("{}: a {} holds at most {:.0e} bytes, this would be {:.1e}. A .csv or .h5 holds them", out,
                                             file_.path.extension().string(), most_bytes, bytes));
-    if (scene.body && !(scene.body->bridge.empty() && scene.body->nut.empty())) body_ = radiations(scene, tap_rate);
+    for (RadiatingTap& t : radiating_taps(scene, tap_rate)) body_.push_back(std::move(t.filter));
     for (std::size_t k = 0; k < body_.size() && scene.body->sections > 0; ++k)
         body_text_ += fmt::format("; {} sections leave an error of {:.1f} dB in body.{}", scene.body->sections, body_[k].misfit(),
                                   scene.taps[k].name);

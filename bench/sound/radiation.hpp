@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/resonators.hpp"
+#include "scenes/scene.hpp"
 
 namespace jvari::bench::sound {
 
@@ -29,5 +30,12 @@ private:
     std::optional<Resonators> sections_;
     double misfit_ = 0;
 };
+
+// The body's filter for each tap that it answers: the driving force, and the force on the nut, of all strings. Throws UsageError.
+struct RadiatingTap {
+    int tap;
+    Radiation filter;
+};
+std::vector<RadiatingTap> radiating_taps(const Scene&, double rate);
 
 }  // namespace jvari::bench::sound

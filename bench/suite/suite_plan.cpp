@@ -103,7 +103,7 @@ SuitePlan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const
             if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
             if (point.set->measures(Facet::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
             if (!point.set->figures.identity.empty()) identity["figures"] = point.set->figures.identity;
-            if (p.element == compare::Element::probe) identity["probe"] = true;
+            if (p.element && compare::is_added(*p.element)) identity[compare::name_of(*p.element)] = true;
             if (point.set->time_limit) identity["time_limit_s"] = *point.set->time_limit;
             PlannedCell planned_cell{point.set, &p, cell, identity.dump(), {}};
             if (!seen.insert(planned_cell.identity).second) continue;

@@ -15,7 +15,7 @@ namespace jvari::bench::suite {
 struct PlannedPoint {  // one scene at one point of the sweep, and who is its reference
     Scene scene;
     std::vector<std::pair<std::string, std::string>> swept;  // key, value; the last may be "element", "-thread"
-    std::optional<compare::Element> element;                 // that the scene is without; the probe: that is on while it is timed
+    std::optional<compare::Element> element;                 // that the scene is without; an added one: that is on while it is timed
     std::vector<compare::ReferenceChoice> references;
     std::string reference_key;  // points that share it share the reference's run and its time limit
     std::string truth_key;      // likewise of the truth, whose modes are none of the cells'; "": the reference is all there is

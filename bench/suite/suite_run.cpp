@@ -170,7 +170,7 @@ std::vector<Clocks> time_set(const SuitePlan& plan, const store::Rows& indices, 
     std::vector<compare::Contender> contenders;
     for (std::size_t t = 0; t < todo.size(); ++t) {
         const PlannedPoint& p = *plan.cells[indices[todo[t]]].point;
-        contenders.push_back({&cells[t], &p.scene, p.element == compare::Element::probe});
+        contenders.push_back({&cells[t], &p.scene, p.element && compare::is_added(*p.element) ? p.element : std::nullopt});
     }
     compare::time_cells(contenders, plan.cells[indices.front()].set->repeats, listener);
     for (std::size_t t = 0; t < todo.size(); ++t) {

@@ -130,6 +130,17 @@ void ObstacleStep::settle(double* force) noexcept {
     for (int a = 0; a < n; ++a) z.lost += z.drag[a] * r_[a] * r_[a];
 }
 
+std::vector<Fact> ObstacleStep::facts() const {
+    return {{facts::contact_points, static_cast<double>(contacts_)},
+            {facts::coupled_contact_points, static_cast<double>(coupled())},
+            {facts::smallest_contact_force, tally_.smallest_force},
+            {facts::deepest_penetration, tally_.deepest},
+            {facts::contact_iterations_mean,
+             tally_.solves > 0 ? static_cast<double>(tally_.iterations) / static_cast<double>(tally_.solves) : 0},
+            {facts::contact_iterations_most, static_cast<double>(tally_.most_iterations)},
+            {facts::contact_residual, tally_.residual}};
+}
+
 bool ObstacleStep::solve(const double* older, const double* free, double* force) noexcept {
     if (several_) return solve_several(older, free, force);
     if (series_) return solve_in_series(older, free, force);

@@ -25,6 +25,7 @@
 #include "scenes/scene.hpp"
 #include "schemes/contact/contact_gram.hpp"
 #include "schemes/contact/series_step.hpp"
+#include "schemes/scheme.hpp"
 
 namespace jvari {
 
@@ -62,6 +63,8 @@ public:
         int most_iterations = 0;
     };
     const Tally& tally() const { return tally_; }
+    std::vector<Fact> facts() const;           // of the tally
+    static constexpr int dofs() { return 0; }  // it carries no state
     void clear() { tally_ = {}; }
 
 private:

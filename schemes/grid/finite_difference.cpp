@@ -245,6 +245,7 @@ struct PlaceBarrier {
         g.places.push_back(b.position);
         g.laws.push_back({b.stiffness.k, b.exponent});
         g.heights.push_back(b.height);
+        g.beta.push_back(b.contact_loss);
     }
     void operator()(const ProfileBarrier& b) const {
         const auto [first, x] = nodes_on(b, length, g.grid.intervals);
@@ -252,6 +253,7 @@ struct PlaceBarrier {
             g.points.push_back({first + static_cast<int>(i), {1.0}});
             g.places.push_back(x[i]);
             g.laws.push_back({b.stiffness.K * g.grid.dx, b.exponent});  // lumped: a node stands for dx of the profile
+            g.beta.push_back(b.contact_loss);
         }
         if (x.empty())
             throw Refusal("no node of the grid lies on the barrier from " + std::to_string(b.from) + " m to " + std::to_string(b.to) +
@@ -312,7 +314,7 @@ void put_on_body(GridString& g, const Descriptor& d, const String& s) {  // sche
     g.at_body = at_body(s);
     g.at_body->laws = g.laws;
     g.at_body->heights = g.heights;
-    g.at_body->loss.assign(g.laws.size(), 0.0);
+    g.at_body->loss = g.beta;
     g.at_body->positions = g.places;
     for (int l = 1; l < g.grid.intervals; ++l) g.mu.weight.push_back(g.mass * (1 - static_cast<double>(l) / g.grid.intervals));
 }
@@ -320,6 +322,8 @@ void put_on_body(GridString& g, const Descriptor& d, const String& s) {  // sche
 
 GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const Grid& grid, const LossFit& loss) {
     const bool matched = choice_option(settings, compliance_option) == "matched";
+    if (matched && needed_by(scene).has(Feature::contact_loss))
+        throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out contact loss");
     const String s = matched ? with_profile_points(scene.strings.front(), settings) : scene.strings.front();
     GridString g;
     g.grid = grid;
@@ -358,6 +362,12 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     if (matched) put_in_series(g, descriptor, scene, s);
     if (needed_by(scene).has(Feature::moving_body)) put_on_body(g, descriptor, s);
     return g;
+}
+
+ObstacleStep GridString::obstacle(std::span<const double> theta, double span) const {
+    ObstacleStep o(laws, heights, thread, theta, span);
+    if (std::any_of(beta.begin(), beta.end(), [](double b) { return b != 0; })) o.lose(beta);
+    return o;
 }
 
 double GridString::pluck_at(double t) const {

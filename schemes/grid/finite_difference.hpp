@@ -9,7 +9,8 @@
 // three are non-negative: no wavenumber of the grid gains energy.
 // With compliance=matched what the grid takes from the string's compliance stands in series with the points, and profiles are touched at
 // points of their own (option `points`): at its nodes a grid yields more than the true string.
-// Left out: contact loss, measured modes, polarisation; a moving body by the midpoint scheme.
+// Contact loss takes its stiffness at the older level (obstacle_step.hpp): of first order.
+// Left out: contact loss with compliance=matched, measured modes, polarisation; a moving body by the midpoint scheme.
 #pragma once
 
 #include <optional>
@@ -18,6 +19,7 @@
 #include "schemes/body/body_step.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/contact/contact.hpp"
+#include "schemes/contact/obstacle_step.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -98,6 +100,7 @@ struct GridString {
     std::vector<double> places;    // of the points [m]
     std::vector<ContactLaw> laws;  // one per contact
     std::vector<double> heights;   // [m], one per contact
+    std::vector<double> beta;      // of Hunt and Crossley [s/m], one per contact
     std::optional<Thread> thread;
     std::optional<Pluck> pluck;
     Stencil pluck_stencil;
@@ -108,8 +111,9 @@ struct GridString {
     std::optional<StringAtBody> at_body;  // on a moving body: all but the compliances
     Stencil mu;                           // and the inertia of a node against its acceleration [kg]
 
-    double pluck_at(double t) const;                                    // [N]
-    bool by_pluck() const { return series && !series->pluck.empty(); }  // the pluck moves points by way of what is in series
+    ObstacleStep obstacle(std::span<const double> theta, double span) const;  // of its contacts and thread
+    double pluck_at(double t) const;                                          // [N]
+    bool by_pluck() const { return series && !series->pluck.empty(); }        // the pluck moves points by way of what is in series
     // What the points read of u at the time t, with the pluck's part of what is in series.
     void read(const double* u, double t, double* reading) const {
         const double F_e = by_pluck() ? pluck_at(t) : 0;
@@ -125,7 +129,8 @@ GridString on_grid(const Descriptor&, const Scene&, const Settings&, const Grid&
 // What every scheme on a grid represents.
 constexpr Features grid_features = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
                                    Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
-                                   Feature::power_law_contact | Feature::thread | Feature::initial_shape | Feature::pluck;
+                                   Feature::power_law_contact | Feature::contact_loss | Feature::thread | Feature::initial_shape |
+                                   Feature::pluck;
 inline constexpr Approximation grid_approximates[] = {{Feature::frequency_dependent_damping, facts::loss_fit_misfit}};
 
 // ---- The symmetric band matrix a0 I + a2 D2 + a4 D4 over the interior nodes, factored L D L'.

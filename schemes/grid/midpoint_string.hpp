@@ -35,7 +35,7 @@ public:
         }
         for (int a = 0; a < points; ++a)  // symmetric to the last bit
             for (int b = 0; b < a; ++b) theta[a * points + b] = theta[b * points + a];
-        obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, dt);
+        obstacle_ = g_.obstacle(theta, dt);
         if (g_.series) obstacle_.put_in_series(*g_.series, 1);
         for (auto* v : {&older_, &free_, &force_, &now_}) v->assign(points, 0.0);
         for (auto* b : {&y_store_, &q_store_, &s_store_}) *b = AlignedVector(offset + g_.grid.intervals + five_point_overhang);

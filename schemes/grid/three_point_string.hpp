@@ -56,8 +56,8 @@ public:
             const std::vector<double> theta = compliances();
             std::vector<double> half(theta.size());
             for (std::size_t i = 0; i < theta.size(); ++i) half[i] = 0.5 * theta[i];
-            obstacle_ = ObstacleStep(g_.laws, g_.heights, g_.thread, theta, 2 * dt);
-            start_ = ObstacleStep(g_.laws, g_.heights, g_.thread, half, dt);
+            obstacle_ = g_.obstacle(theta, 2 * dt);
+            start_ = g_.obstacle(half, dt);
         }
         if (g_.series) {
             obstacle_.put_in_series(*g_.series, 2);

@@ -173,6 +173,9 @@ double shares_margin(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
+constexpr const char* one_contact =
+    "One lumped barrier without contact loss: a control, whose fault one contact shows; nothing in the method hinders more.";
+
 extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalty",
                                                   .source = "exact modes, contact force of the last step (conditionally stable control)",
                                                   .represents = modal_features,
@@ -180,6 +183,7 @@ extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalt
                                                   .clock = Clock::stepped,
                                                   .make = made_explicit,
                                                   .options = compliance_options,
+                                                  .note = one_contact,
                                                   .limit = {"penalty_limit", penalty_margin}};
 extern const Descriptor modal_impulse_invariant = {
     .name = "modal_impulse_invariant",
@@ -189,6 +193,7 @@ extern const Descriptor modal_impulse_invariant = {
     .clock = Clock::stepped,
     .make = made_impulse_invariant,
     .options = impulse_invariant_options,
+    .note = one_contact,
     .limit = {"equal_shares", shares_margin}};
 
 }  // namespace jvari

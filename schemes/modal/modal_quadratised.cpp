@@ -2,17 +2,19 @@
 // (eqs 38-52, the pass below) and on the three-point form of Issanchou et al. 2016 (modal_three_point.hpp). The thread is eliminated as in
 // eqs 45-47 of the first. Energy columns hold the scheme's own energy, with psi^2/2 for the contact; the facts tell how far that is from
 // the true one. Option `compliance` = own (default) | matched of the two-point form: what cut and step take from the string's compliance
-// stands in series with barrier and thread (contact/series_step.hpp), and psi = sqrt(2 Phi). Leaves out: contact loss, several barriers,
-// profiles, polarisation, the body.
+// stands in series with barrier and thread (contact/series_step.hpp), and psi = sqrt(2 Phi). Several barriers, profiles and contact loss:
+// the two-point form with compliance=own, by contact/quadratised_points.hpp. Leaves out: polarisation.
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "schemes/contact/quadratised_contact.hpp"
+#include "schemes/contact/quadratised_points.hpp"
 #include "schemes/contact/series_step.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_three_point.hpp"
+#include "schemes/modal/modal_two_point_points.hpp"
 
 namespace jvari {
 
@@ -272,7 +274,25 @@ private:
 
 using Made = std::unique_ptr<Scheme>;
 
+TwoPointCoefficients exact(double omega0, double sigma, double dt) {  // (33)
+    const ModeStep m = exact_step(omega0, sigma, dt);
+    return {m.A(), m.B()};
+}
+
+bool is_one_point_without_loss(const String& s) {
+    if (s.barriers.empty()) return true;
+    const auto* lumped = std::get_if<LumpedBarrier>(&s.barriers.front());
+    return s.barriers.size() == 1 && lumped && lumped->contact_loss == 0;
+}
+
 Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels, Quadratisation variant) {
+    if (!is_one_point_without_loss(scene.strings.front())) {
+        if (levels == 3) throw Refusal(std::string(descriptor.name) + ": several barriers, profiles and contact loss are for levels=2");
+        if (choice_option(settings, compliance_option) == "matched")
+            throw Refusal(std::string(descriptor.name) + ": compliance=matched is for one lumped barrier without contact loss");
+        return std::make_unique<ModalTwoPointPoints<QuadratisedPoints>>(
+            descriptor, scene, settings, exact, [variant](const auto&... parts) { return QuadratisedPoints(parts..., variant); });
+    }
     ModalString string = modal_string(descriptor, scene, settings);
     const bool matched = choice_option(settings, compliance_option) == "matched";
     if (levels == 2) {
@@ -294,7 +314,8 @@ constexpr Option variant_option{"variant",
                                 "released",
                                 "psi out of contact: kept, driven to 0, or released in full where it would pull",
                                 {"raw", "constrained", "released"}};
-constexpr Option chosen_options[] = {levels_option, variant_option, compliance_option};
+constexpr Option chosen_options[] = {levels_option, variant_option, compliance_option, profile_points_option};
+constexpr Option two_point_options[] = {compliance_option, profile_points_option};
 
 Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const std::string variant = choice_option(settings, variant_option);
@@ -314,20 +335,31 @@ constexpr const char* constrained_source = "Ducceschi et al. 2021, with g signed
 constexpr const char* released_source = "Ducceschi et al. 2021, psi released in full where it would pull";
 
 constexpr Descriptor quadratised(const char* name, const char* source, Made (*make)(const Descriptor&, const Scene&, const Settings&)) {
-    return {.name = name, .source = source, .represents = modal_features, .balance = Balance::exact, .clock = Clock::stepped, .make = make};
+    return {.name = name,
+            .source = source,
+            .represents = modal_features,
+            .balance = Balance::exact,
+            .clock = Clock::stepped,
+            .make = make,
+            .note = "One lumped barrier without contact loss: this form is built for one contact, the two-point forms take several."};
 }
-constexpr Descriptor with_options(Descriptor d, std::span<const Option> options) {
+constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
+constexpr Descriptor of_several_points(Descriptor d, std::span<const Option> options) {
+    d.represents =
+        modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss);
     d.options = options;
+    d.approximates = approximates;
+    d.note = "";
     return d;
 }
 }  // namespace
 
-extern const Descriptor modal_quadratised = with_options(quadratised("modal_quadratised", released_source, made_as_chosen), chosen_options);
-extern const Descriptor modal_quadratised_two_point_constrained =
-    with_options(quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>),
-                 compliance_options);
+extern const Descriptor modal_quadratised =
+    of_several_points(quadratised("modal_quadratised", released_source, made_as_chosen), chosen_options);
+extern const Descriptor modal_quadratised_two_point_constrained = of_several_points(
+    quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>), two_point_options);
 extern const Descriptor modal_quadratised_two_point_raw =
-    with_options(quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>), compliance_options);
+    of_several_points(quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>), two_point_options);
 extern const Descriptor modal_quadratised_three_point =
     quadratised("modal_quadratised_three_point", released_source, made_as<3, Quadratisation::released>);
 extern const Descriptor modal_quadratised_three_point_constrained =

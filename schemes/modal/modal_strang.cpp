@@ -39,12 +39,16 @@ double margin(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-extern const Descriptor modal_strang = {.name = "modal_strang",
-                                        .source = "Strang 1968, with the residual compliance of the cut modes (MacNeal 1971) in series",
-                                        .represents = modal_features,
-                                        .balance = Balance::none,
-                                        .clock = Clock::stepped,
-                                        .make = made,
-                                        .limit = {"penalty_limit", margin}};
+extern const Descriptor modal_strang = {
+    .name = "modal_strang",
+    .source = "Strang 1968, with the residual compliance of the cut modes (MacNeal 1971) in series",
+    .represents = modal_features,
+    .balance = Balance::none,
+    .clock = Clock::stepped,
+    .make = made,
+    .note =
+        "One lumped barrier without contact loss: several contacts behind one compliance have their forces "
+        "only by iteration, and a loss needs a velocity. An explicit kick has neither.",
+    .limit = {"penalty_limit", margin}};
 
 }  // namespace jvari

@@ -164,7 +164,10 @@ extern const Descriptor sitar_fdm = {
     .make = made,
     .options = options,
     .approximates = approximates,
-    .note = "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so.",
+    .note =
+        "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so. One decay "
+        "factor per period leaves no room for losses by frequency or measured modes. The bridge clamps nodes at the string's end: no "
+        "lumped barrier, no second one, no contact loss. The paper starts it from a shape, without thread or pluck, in one plane.",
 };
 
 }  // namespace jvari

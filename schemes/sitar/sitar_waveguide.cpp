@@ -382,7 +382,10 @@ extern const Descriptor sitar_waveguide = {
     .make = made,
     .options = options,
     .approximates = approximates,
-    .note = "The barrier is rigid and begins at x = 0; with bending stiffness it runs where the option stiffness says what becomes of it.",
+    .note =
+        "The barrier is rigid and begins at x = 0; with bending stiffness it runs where the option stiffness says what becomes of it. One "
+        "decay factor per period leaves no room for losses by frequency or measured modes. The bridge reflects waves at the string's "
+        "end: no lumped barrier, no second one, no contact loss. The paper starts it from a shape, without thread or pluck.",
 };
 
 }  // namespace jvari
