@@ -37,10 +37,15 @@ std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
     std::vector<const Descriptor*> able;
     for (const Descriptor& r : references())
         if ((needed_by(scene) - r.represents).empty()) able.push_back(&r);
+    const bool alone = able.size() == 1;
+    if (!settings.only.empty()) {
+        std::erase_if(able, [&](const Descriptor* r) { return r->name != settings.only; });
+        if (able.empty()) throw Refusal("no reference " + settings.only + " represents scene " + scene.name);
+    }
     std::vector<Job> jobs;
     for (const Descriptor* r : able)
         for (const Options& o : confirmation_of(*r, scene).accuracies) jobs.push_back({r, o, false});
-    if (able.size() == 1)
+    if (alone)
         for (const Options& o : confirmation_of(*able.front(), scene).other_methods) jobs.push_back({able.front(), o, false});
     if (jobs.empty() || settings.oversampled_rate > 0)
         if (const Descriptor* scheme = best_by_estimate(stand_ins(scene), scene, coarsest(settings), multiple))

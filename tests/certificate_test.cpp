@@ -147,6 +147,19 @@ TEST(Certificate, ShowsThatTheReferencesAgree) {
     EXPECT_LT(c.floor[0].relative_l2.back(), 1e-10);
 }
 
+TEST(Certificate, OfOneReferenceAloneHasItsTwoAccuraciesAndTwiceTheModes) {
+    CertifySettings settings{20, 44100, 0, {}};
+    settings.only = "exact_contact";
+    const Certificate c = certify(release(3e-3), settings);
+    ASSERT_EQ(c.entries.size(), 3u);
+    for (const auto& e : c.entries) EXPECT_EQ(e.reference, "exact_contact");
+    ASSERT_EQ(c.pairs.size(), 2u);
+    EXPECT_LT(c.pairs[0].taps[0].relative_l2.back(), 1e-10);
+    EXPECT_GT(c.pairs[0].taps[0].relative_l2.back(), 0);
+    settings.only = "exact_linear";  // which represents no contact
+    EXPECT_THROW(certify(release(3e-3), settings), Refusal);
+}
+
 // 60 modes are far from the string: what all references of 60 modes agree about to 1e-9 is wrong by more than 1e-2.
 TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
     const Scene scene = release(10e-3);

@@ -200,12 +200,13 @@ TEST(CertifyCommand, KeepsACertificateThatCoversMore) {
 TEST(CertifyCommand, WritesToTheFolderOfCertificatesAndLeavesTheScenesOwnToItWhereSetChangesIt) {
     const Scratch scratch;
     const std::string there = "cd " + scratch.path.string() + " &&";
-    for (const char* set : {"", " --set string.0.tension=34"})
+    for (const char* set : {"", " --set string.0.tension=34", " --reference exact_contact"})
         EXPECT_EQ(jvari(scratch, std::string("certify free_string --modes 5 --duration 0.005") + set, there).code, 0);
     int certificates = 0;
     for (const auto& entry : fs::directory_iterator(scratch.path / "results/certificates"))
         certificates += entry.path().string().find(".cost.json") == std::string::npos;
-    EXPECT_EQ(certificates, 2);
+    EXPECT_EQ(certificates, 3);
+    EXPECT_TRUE(fs::exists(scratch.path / "results/certificates/free_string-exact_contact.json"));
     EXPECT_TRUE(fs::exists(scratch.path / "results/certificates/free_string.json"));
     // and compare finds it there, as far as it reaches
     const Json json = Json::parse(

@@ -286,6 +286,10 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
             "the file, .json; results/certificates/<scene>.json where absent, with part of the scene's hash in its name where --set "
             "changes the scene. What a clock measured goes beside it, to .cost.json")
         ->type_name("FILE");
+    certify_verb
+        ->add_option("--reference", certify.reference,
+                     "this one alone, at its two accuracies: a whole second of one that is fast. Its file has its name in it")
+        ->type_name("NAME");
     certify_verb->add_flag("--again", certify.again, "runs the references also where the file is there and of the same scene and settings");
     certify_verb->footer(
         "Example: jvari certify tanpura_c3_release --duration 0.1\n"

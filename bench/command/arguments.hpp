@@ -59,7 +59,7 @@ struct SuiteRequest : Common {
 struct TrimCall : Common, trim::Request {};
 
 struct CertifyRequest : Common {
-    std::string scene, out;
+    std::string scene, out, reference;
     int modes = 0;
     std::optional<double> duration, tap_rate, oversampled_rate;  // [s], [Hz], [Hz]
     std::vector<std::string> set;

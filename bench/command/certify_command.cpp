@@ -36,7 +36,8 @@ fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed s
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw store::UsageError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
-    return folder / (trust::file_stem(scene.name) + (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) + ".json");
+    return folder / (trust::file_stem(scene.name) + (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) +
+                     (r.reference.empty() ? "" : "-" + r.reference) + ".json");
 }
 
 std::string entries_text(const Certificate& c) {
@@ -147,6 +148,7 @@ int certify_command(const CertifyRequest& r) {
     settings.modes = r.modes;
     settings.tap_rate = r.tap_rate.value_or(44100);
     settings.oversampled_rate = r.oversampled_rate.value_or(0);
+    settings.only = r.reference;
     if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size()) > 1e8)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     trust::KeptCertificate kept = trust::planned_certificate(scene, settings);
