@@ -1,4 +1,4 @@
-// The passes of modal_pass.hpp in the vectors of the instruction set that is being compiled: included once for each by Highway.
+// The passes of modal_pass.hpp in the vectors of the instruction set that is being compiled: included once for each, after Highway.
 // Presence of contact, thread and pluck is a template argument: an absent part costs nothing. Two accumulators per dot hide the latency of
 // adding.
 #if defined(JVARI_MODAL_PASS_INL) == defined(HWY_TARGET_TOGGLE)
@@ -7,8 +7,6 @@
 #else
 #define JVARI_MODAL_PASS_INL
 #endif
-
-#include <hwy/highway.h>
 
 #include "schemes/modal/modal_pass.hpp"
 

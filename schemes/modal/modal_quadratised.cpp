@@ -303,9 +303,17 @@ Made made(const Descriptor& descriptor, const Scene& scene, const Settings& sett
             };
         return std::make_unique<QuadratisedTwoPoint>(string, variant, missing);
     }
-    if (matched) throw Refusal(std::string(descriptor.name) + ": compliance=matched is for levels=2");
-    const QuadratisedThreePointContact contact{QuadratisedLaw::make(string.barrier, variant, 1), 0, 0, 0, {}};
     const ModalArray gain(string.size, string.dt * string.dt / string.mass), inertia(string.count, string.mass);
+    if (matched) {  // at low rates its string is too soft, which is refused with the figure
+        std::vector<double> own;
+        for (int i = 0; i < string.count; ++i) own.push_back(gain[i] / string.num[i]);  // under a steady force: d = 0
+        modal_compliance(descriptor, scene, ModeBasis(scene.strings.front(), string.count, 0), own);
+        throw Refusal(
+            std::string(descriptor.name) +
+            ": compliance=matched with levels=3: a compliance could stand in series here, but psi at half steps has no step for it; "
+            "ask for levels=2, or for modal_spatial_newton, which carries it on the same recursion");
+    }
+    const QuadratisedThreePointContact contact{QuadratisedLaw::make(string.barrier, variant, 1), 0, 0, 0, {}};
     return std::make_unique<ModalThreePoint<QuadratisedThreePointContact>>(std::move(string), gain, inertia, contact);
 }
 

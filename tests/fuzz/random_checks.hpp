@@ -18,9 +18,9 @@ constexpr double claim_allowed_alone = 2;  // where one does so itself, at anoth
 constexpr double pull = 1e-6;              // of the largest contact force
 constexpr double sundials_seconds = 10;    // of CPU, for one run
 
-constexpr int model_modes = 80;             // of a certificate about the scene, at most; those below 20 kHz where they are fewer
-constexpr int scene_multiple = 8;           // of these is the truth
-constexpr double about_scene_seconds = 20;  // of CPU: its certificate and its truth
+constexpr int model_modes = 80;            // of a certificate about the scene, at most; those below 20 kHz where they are fewer
+constexpr int scene_multiple = 8;          // of these is the truth
+constexpr double about_scene_seconds = 5;  // of CPU: its certificate and its truth
 
 struct Tally {
     long scenes = 0, runs = 0, ended = 0, refused = 0, failed = 0;  // ended: by its limit; failed: a run that says so itself

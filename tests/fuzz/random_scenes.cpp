@@ -109,7 +109,8 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
     long findings = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         findings += take(asked, seeds[i], tally);
-        if ((i + 1) % 100 == 0) std::printf("%zu of %zu scenes\n", i + 1, seeds.size()), std::fflush(stdout);
+        if ((i + 1) % (asked == Asked::about_scene ? 10 : 100) == 0)
+            std::printf("%zu of %zu scenes\n", i + 1, seeds.size()), std::fflush(stdout);
     }
     if (asked == Asked::about_scene) {
         std::printf(
