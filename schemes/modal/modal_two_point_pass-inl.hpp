@@ -73,7 +73,7 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e) {
     const double *HWY_RESTRICT gb = m.g_b, *HWY_RESTRICT gc = m.g_c, *HWY_RESTRICT ge = m.g_e;
     V yb[2], yc[2], ub[2], uc[2];
     for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
-    const auto at = [&](int j, int k) HWY_ATTR {
+    const auto at = [&](int j, int k) HWY_ATTR __attribute__((always_inline)) {
         const V y0 = hn::Load(d, y + j), u0 = hn::Load(d, u + j);
         V forced = hn::Zero(d), g_b{}, g_c{};
         if constexpr (pluck) forced = hn::Mul(hn::Load(d, ge + j), fe);
