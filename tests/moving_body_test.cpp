@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <complex>
+#include <map>
 #include <numbers>
 
 #include "reference/references.hpp"
@@ -183,18 +184,18 @@ TEST(MovingBody, PartialsOfAStringOnASpringWithAMassAreThoseOfTheClosedForm) {
     String& s = scene.strings.front();
     s.bending_stiffness = 0;
     s.initial = TriangleInitial{0.31, 1e-3, 0};
-    const BodyMode light = resonance(400, 1e-3, 0);  // twice the string's mass; a spring to the lower partials, a mass to the upper ones
+    const BodyMode light = resonance(200, 1e-3, 0);  // twice the string's mass; a spring to its first partial, a mass to those above 2
     scene.body = Body{"", "", 0, {light}};
     scene.duration = 0.5;
     std::vector<const Descriptor*> all = that_move_a_body();
     all.push_back(&sundials);
     for (const Descriptor* d : all) {
         const Trace t = run(*d, scene, {8 * rate, rate, 40, {}}).trace;
-        for (const int partial : {1, 2, 4, 5}) {
+        for (const int partial : {1, 3, 4, 5}) {
             const double f = partial_on_a_body(s, light, partial),
                          fixed = 0.5 * partial * std::sqrt(s.tension / s.linear_density) / s.length;
             EXPECT_GT(std::abs(f - fixed), 0.1) << "the body is felt";
-            EXPECT_NEAR(peak_near(t.column(0), rate, f), f, 2e-3) << d->name << " partial " << partial << " of " << fixed;
+            EXPECT_NEAR(peak_near(t.column(0), rate, f), f, 5e-3) << d->name << " partial " << partial << " of " << fixed;
         }
     }
 }
@@ -208,10 +209,12 @@ TEST(MovingBody, WithThreadsAloneSchemesConvergeToTheReferenceAndModesByTheSecon
     for (String& s : scene.strings) s.barriers.clear(), s.damping = NoDamping{};  // with losses the order of modal_spatial_newton is one
     for (BodyMode& m : scene.body->modes) m.damping = 0;
     scene.duration = 5e-3;
+    std::map<int, jvari::Run> truths;
     for (const Descriptor* d : that_move_a_body()) {
         const bool grid = std::string(d->name).starts_with("finite_difference");
         const int modes = grid ? 250 : 40;  // a grid is the whole string's
-        const jvari::Run truth = run(sundials, scene, {0, rate, modes, {}}, {.energy = true});
+        if (!truths.contains(modes)) truths[modes] = run(sundials, scene, {0, rate, modes, {}}, {.energy = true});
+        const jvari::Run& truth = truths[modes];
         ASSERT_EQ(truth.status.outcome, Outcome::ok);
         EXPECT_LT(ledger_gap(truth.trace), 1e-11);
         for (int tap = 0; tap < 3; ++tap) {
@@ -225,7 +228,7 @@ TEST(MovingBody, WithThreadsAloneSchemesConvergeToTheReferenceAndModesByTheSecon
 
 TEST(MovingBody, OverBridgesTheTwoPointSchemeConvergesAsThatOfOneString) {
     Scene scene = instrument(), one = c3_release();
-    scene.duration = one.duration = 10e-3;
+    scene.duration = one.duration = 5e-3;
     one.taps = {scene.taps[1]};
     const jvari::Run truth = run(sundials, scene, {0, rate, 40, {}}, {.energy = true}), alone = run(exact_contact, one, {0, rate, 40, {}});
     ASSERT_EQ(truth.status.outcome, Outcome::ok);
