@@ -1,4 +1,4 @@
-// A response as second-order sections side by side, an order of magnitude cheaper than its convolution.
+// A response as second-order sections side by side: no delay, and little to remember. Convolution in blocks of 512 costs less.
 //
 // Source: Bank, "Perceptually motivated audio equalization using fixed-pole parallel second-order filters", IEEE SPL 15, 2008, eqs 1-5 and
 // 8-10. The poles stand on a logarithmic scale of frequency, their damping such that neighbours meet at -3 dB; what is linear is solved
