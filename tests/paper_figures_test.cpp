@@ -432,5 +432,61 @@ TEST(Obstacle, TheCommittedTracesAreWhatTheProgramMakes) {
         EXPECT_NEAR(made.number(i, "value"), s.at(made.number(i, "time_s")), 1e-6);  // of 1.2 m/s
 }
 
+// ---- What the verdicts rest on beside the figures
+
+const std::string verdicts = "paper-verdicts/";
+
+TEST(Verdicts, Above15kHzTheBridgeIsTooStrongByStepAndCutAndMatchedHardly) {
+    const bench::store::Table t = committed(verdicts + "envelope.csv");
+    const auto off = [&t](const char* tap, const std::map<std::string, std::string>& of) {
+        const auto envelope = [&](std::map<std::string, std::string> where) {
+            where["tap"] = tap;
+            return series(t, where, "frequency_hz", "level_db");
+        };
+        return mean_difference(envelope(of), envelope({{"modes", "1064"}}), 15001, 20000);
+    };
+    const auto two_point = [](const char* compliance, const char* rate) -> std::map<std::string, std::string> {
+        return {{"scheme", "modal_two_point"}, {"options", compliance}, {"rate", rate}};
+    };
+    EXPECT_NEAR(off("driving", two_point("compliance=own", "44100")), 15.5, 0.5);
+    EXPECT_NEAR(off("driving", two_point("compliance=own", "352800")), 9.7, 0.5);
+    EXPECT_NEAR(off("driving", {{"scheme", "exact_contact"}, {"modes", "133"}}), 3.5, 0.5);
+    EXPECT_NEAR(off("driving", two_point("compliance=matched", "352800")), 1.7, 0.5);
+    EXPECT_NEAR(off("driving", two_point("compliance=matched", "44100")), 1.5, 0.5);
+    EXPECT_NEAR(off("nut", two_point("compliance=matched", "44100")), -21.6, 0.5);
+}
+
+TEST(Verdicts, AnElasticBridgeHardlyChangesTheDecayOfASitarsString) {
+    const bench::store::Table t = committed(verdicts + "extent.csv");
+    const auto lost_db = [&t](const char* scene, const char* scheme) {  // of the energy, after 20 periods of C5
+        const Series e = series(t, {{"scene", scene}, {"scheme", scheme}, {"tap", "energy"}}, "time_s", "high");
+        return -10 * std::log10(mean_between(e, 0.0378, 0.0388) / e.begin()->second);
+    };
+    for (const char* scheme : {"modal_spatial_newton", "finite_difference_explicit"}) {
+        const double without = lost_db("sitar_c5_decay", scheme);
+        EXPECT_NEAR(without, 1.54, 0.03) << scheme;
+        for (const char* bridge : {"sitar_c5_flat", "sitar_c5", "sitar_c5_raised"})
+            EXPECT_NEAR(lost_db(bridge, scheme), without, 0.1) << bridge << scheme;
+    }
+    EXPECT_GT(lost_db("sitar_c5", "sitar_fdm"), 4);
+}
+
+TEST(Verdicts, AtThePointItselfTheVelocityIsMostlyPositiveAndContactLossHardlyMatters) {
+    const bench::store::Table trace = committed(verdicts + "trace.csv"), extent = committed(verdicts + "extent.csv");
+    for (const char* position : {"0.2004", "0.8016"})
+        for (const char* window : {"0", "0.5"}) {
+            const Series v =
+                series(trace, {{"tap", "v6mm"}, {"string.0.initial.position", position}, {"window_s", window}}, "time_s", "value");
+            int positive = 0;
+            for (const auto& [time, y] : v) positive += y > 0;
+            EXPECT_GT(positive, 0.55 * static_cast<double>(v.size())) << position << " " << window;
+        }
+    const auto end = [&extent](const char* loss) {
+        return mean_between(series(extent, {{"scene", "two_point_bridge"}, {"string.0.barrier.0.contact_loss", loss}}, "time_s", "high"),
+                            0.98, 1);
+    };
+    EXPECT_NEAR(end("100") / end("0"), 1, 0.02);
+}
+
 }  // namespace
 }  // namespace jvari::test
