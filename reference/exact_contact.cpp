@@ -241,7 +241,9 @@ Gap ExactContact::gap(int a, int terms) const noexcept {
     return {touching_[a] ? -1.0 : 1.0,
             path_.data() + static_cast<long>(a) * window_.stride,
             terms,
-            touch_ ? touch_->set.growth() : window_.reach,
+            collocated_ ? HUGE_VAL  // a collocated path is as fast as the contact
+            : touch_    ? touch_->set.growth()
+                        : window_.reach,
             amplitude_.data() + a * pairs,
             touch_ ? touch_->set.rates() : nullptr,
             pairs};
@@ -250,9 +252,7 @@ Gap ExactContact::gap(int a, int terms) const noexcept {
 int ExactContact::next_crossing(double& end, int terms) noexcept {
     int first = -1;
     for (int a = 0; a < window_.contacts; ++a) {
-        Gap g = gap(a, terms);
-        if (collocated_) g.growth = HUGE_VAL;  // its polynomial is as fast as the contact
-        const double crossing = first_crossing(g, end, window_.rounding());
+        const double crossing = first_crossing(gap(a, terms), end, window_.rounding());
         if (crossing <= end) end = crossing, first = a;
     }
     return first;
