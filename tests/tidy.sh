@@ -11,7 +11,7 @@ judge() {
     exit 0
 }
 if [ "$1" = headers ]; then
-    find scenes schemes reference analysis bench -name '*.hpp' | sort | sed 's|.*|#include "&"|' >"$said/headers.cpp"
+    find scenes schemes reference analysis bench -name '*.hpp' ! -name '*-inl.hpp' | sort | sed 's|.*|#include "&"|' >"$said/headers.cpp"
     "$tidy" --quiet --config-file=.clang-tidy "$said/headers.cpp" -- -std=c++20 -I. >"$said/text" 2>/dev/null
     judge
 fi
