@@ -156,6 +156,7 @@ double first_crossing(const Gap& gap, double end, double bound) noexcept {
     Gap::Values v = gap.at_start();
     const PairBounds pairs(gap);
     const Bounds whole = bounds_until(gap, pairs, end);
+    if (!std::isfinite(whole.third)) return 2;  // beyond all numbers: so is the motion, which ends the run
     if (safe_over(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end)) return 2;
     double from = 0;
     for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {  // a stage has its own terms and bounds: early ones are cheap
