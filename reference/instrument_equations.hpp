@@ -28,8 +28,8 @@ struct InstrumentEquations final : Equations {
         int first = 0, count = 0;  // its modes
         double mass = 0;           // of a mode [kg]
         std::vector<double> mu;    // [kg]
-        std::optional<Pluck> pluck;
-        std::vector<double> g_e;
+        std::optional<Pluck> pluck = {};
+        std::vector<double> g_e = {};
         double finger = 0;  // psi where it is plucked
         bool plucked = false;
         int bridge = 0, thread = 0;  // of its impulses, among the sums

@@ -18,7 +18,7 @@ namespace jvari::bench::compare {
 struct Contender {
     Cell* cell;
     const Scene* scene;
-    std::optional<Element> added;  // the probe or the radiation, timed with the run
+    std::optional<Element> added = {};  // the probe or the radiation, timed with the run
 };
 void time_cells(const std::vector<Contender>&, int repeats, const store::Listener&);
 

@@ -9,8 +9,10 @@
 // Vector instructions are chosen at run time (Highway); the order of summation, so the last digits, depends on the machine.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schemes/spatial/spatial_restricted.cpp"
+#ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)  // vectors of unknown size make no arrays
-#include <hwy/foreach_target.h>                                                           // NOLINT: must come before highway.h
+#endif
+#include <hwy/foreach_target.h>  // NOLINT: must come before highway.h
 #include <hwy/highway.h>
 
 #include <algorithm>
