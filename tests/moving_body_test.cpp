@@ -97,6 +97,22 @@ TEST(MovingBody, TheLedgerClosesWhilePlucked) {
     }
 }
 
+TEST(MovingBody, ContactsOnItLoseEnergy) {
+    for (const Descriptor* d : that_move_a_body()) {
+        Scene scene = lossless_instrument();
+        for (String& s : scene.strings) s.thread.reset();
+        scene.taps.clear();
+        const auto lost = [&](double contact_loss) {
+            for (String& s : scene.strings) std::get<LumpedBarrier>(s.barriers.front()).contact_loss = contact_loss;
+            const jvari::Run r = probed(*d, scene, 0.05);
+            EXPECT_LT(ledger_gap(r.trace), 1e-11) << d->name;
+            return 1 - r.trace.energy[r.trace.rows - 1] / r.trace.energy[0];
+        };
+        EXPECT_LT(std::abs(lost(0)), 1e-11) << d->name;
+        EXPECT_GT(lost(100), 1e-3) << d->name;
+    }
+}
+
 TEST(MovingBody, AStringThatNobodyPluckedSoundsAndIsSilentWhereTheBodyIsStill) {
     for (const Descriptor* d : that_move_a_body()) {
         Scene scene = instrument();
