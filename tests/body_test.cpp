@@ -99,7 +99,7 @@ TEST(Radiation, OfAnImpulseIsTheResponseAndSectionsComeNear) {
 }
 
 Scene with_body(Scene scene, const Folder& folder) {
-    scene.body = Body{folder / "bridge.wav", folder / "nut.wav"};
+    scene.body = Body{folder / "bridge.wav", folder / "nut.wav", 0, {}};
     write_response(scene.body->bridge, std::vector<double>{1, 0}, 44100);
     write_response(scene.body->nut, std::vector<double>{0, 0, 0.5}, 44100);
     return scene;
