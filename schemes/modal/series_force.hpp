@@ -25,10 +25,10 @@ struct SeriesForce {
         SeriesPoints::Forces force{};      // at the step
         double least_force = 0, most_force = 0;
 
-        void act(const SeriesPoints& p, const MissingCompliance& C, double b, double c, double pluck, bool at_start) {
+        void act(const SeriesPoints& p, const MissingCompliance& missing, double b, double c, double pluck, bool at_start) {
             F_e = pluck;
-            y_b = b + C.be * pluck;
-            y_c = c + C.ce * pluck;
+            y_b = b + missing.be * pluck;
+            y_c = c + missing.ce * pluck;
             const SeriesPoints::Instant i = p.instant(y_b, y_c, Y, at_start);
             Y_now = i.Y_now;
             force = i.force;
