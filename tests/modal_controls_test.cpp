@@ -238,16 +238,21 @@ TEST(ImpulseInvariant, EnergyThatStartsInAHighModeGrowsAsAnObstacleSpreadsIt) {
     RunOptions options;
     options.energy = true;
     for (int j : {104, 118}) {  // above the obstacle at the start
-        scene.strings.front().initial = ModeInitial{j, 1e-4};
         const double h = m.omega0[j - 1] / rate, expected = h / std::sin(h) * mean - 1;
         const auto play = [&](const char* name, std::vector<std::pair<std::string, std::string>> with) {
             return run(scheme(name), scene, {rate, 44100, count, std::move(with)}, options);
         };
-        const auto own = play("modal_impulse_invariant", {});
-        const auto stored = own.trace.energy_column(0);
-        double late = 0;
-        for (long n = own.trace.rows / 2; n < own.trace.rows; ++n) late += stored[n] / (own.trace.rows - own.trace.rows / 2);
-        EXPECT_NEAR((late / stored[0] - 1) / expected, 1, 0.1) << "mode " << j << ": " << late / stored[0] - 1 << " of " << expected;
+        constexpr int starts = 4;  // one alone is up to 15 % off
+        double gain = 0;
+        for (int k = 0; k < starts; ++k) {
+            scene.strings.front().initial = ModeInitial{j, 1e-4 * (1 + 1e-3 * k)};
+            const auto own = play("modal_impulse_invariant", {});
+            const auto stored = own.trace.energy_column(0);
+            double late = 0;
+            for (long n = own.trace.rows / 2; n < own.trace.rows; ++n) late += stored[n] / (own.trace.rows - own.trace.rows / 2);
+            gain += (late / stored[0] - 1) / starts;
+        }
+        EXPECT_NEAR(gain / expected, 1, 0.1) << "mode " << j << ": " << gain << " of " << expected;
         EXPECT_LT(worst_residual(play("modal_impulse_invariant", {{"energy", "adapted"}}).trace), 1e-11);
         EXPECT_LT(worst_residual(play("modal_two_point", {}).trace), 1e-11);
     }
