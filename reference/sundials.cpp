@@ -280,7 +280,7 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
     if (l.contact == -2) return Stop::failed;
     const int contacts = l.equations.contacts;
     double target = to;
-    int splits = 0;
+    int splits = 0, crawled = 0;
     const auto inward = [&](int a, double speed) { return l.equations.touched[a] ? speed > 0 : speed < 0; };  // away from the surface
     while (l.time < to) {
         if (to - l.time <= 8 * std::numeric_limits<double>::epsilon() * to) break;  // shorter than the library would step
@@ -289,6 +289,8 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
         std::swap(l.depth, l.depth_before);
         const int result = l.step(target);
         if (result < 0 || out.stopped()) return Stop::failed;
+        crawled = l.time - l.time_before < 1e-12 * to ? crawled + 1 : 0;  // what is that stiff would need 1e12 steps
+        if (crawled > 10000) return Stop::failed;
         l.contact = -1;
         if (result == CV_ROOT_RETURN) {
             const bool failed = multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) != CV_SUCCESS
