@@ -7,14 +7,9 @@ namespace jvari {
 namespace {
 constexpr int rows_at_a_time = 64;  // of one string after the other
 
-struct Listened {  // a tap of one string
-    int column;    // in the whole scene
-    bool first;    // the first string that is heard there, so that nothing is added to nothing
-};
-
 struct OneOfSeveral {
     std::unique_ptr<Scheme> scheme;
-    std::vector<Listened> taps;
+    std::vector<HeardTap> taps;
 };
 
 void put(double* to, const double* from, int rows, bool first) noexcept {
@@ -56,10 +51,7 @@ public:
     std::vector<Fact> facts() const override {
         std::vector<Fact> all;
         for (std::size_t k = 0; k < strings_.size(); ++k)
-            for (Fact f : strings_[k].scheme->facts()) {
-                f.name.insert(0, "string." + std::to_string(k) + ".");
-                all.push_back(std::move(f));
-            }
+            for (Fact& f : facts_of_string(static_cast<int>(k), strings_[k].scheme->facts())) all.push_back(std::move(f));
         return all;
     }
     std::vector<FreeMode> free_modes() const override { return strings_.front().scheme->free_modes(); }
@@ -129,27 +121,37 @@ std::string renamed(const std::string& key, int k) {  // of the one string a sch
     return key;
 }
 
-std::unique_ptr<Scheme> one_of_several(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int k) {
-    try {
-        return make_scheme(descriptor, alone(scene, k), settings);
-    } catch (const BadScene& e) {
-        throw BadScene(renamed(e.key, k), e.found, e.expected);
-    } catch (const Refusal& e) {
-        throw Refusal(of_string(k) + ": " + e.what());
-    }
-}
 }  // namespace
+
+std::vector<HeardTap> heard_taps(const Scene& scene, int string, std::vector<bool>& heard_already) {
+    std::vector<HeardTap> all;
+    for (int t = 0; t < static_cast<int>(scene.taps.size()); ++t) {
+        if (!hears(scene.taps[t], scene, string)) continue;
+        all.push_back({t, !heard_already[t]});
+        heard_already[t] = true;
+    }
+    return all;
+}
+
+std::vector<Fact> facts_of_string(int k, std::vector<Fact> facts) {
+    for (Fact& f : facts) f.name.insert(0, of_string(k) + ".");
+    return facts;
+}
+
+std::string named_after_string(int k, const char* refusal) {
+    return of_string(k) + ": " + refusal;
+}
+
+BadScene named_after_string(int k, const BadScene& e) {
+    return {renamed(e.key, k), e.found, e.expected};
+}
 
 std::unique_ptr<Scheme> several_strings(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     std::vector<OneOfSeveral> strings;
     std::vector<bool> heard_already(scene.taps.size(), false);
     for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) {
-        OneOfSeveral& s = strings.emplace_back(OneOfSeveral{one_of_several(descriptor, scene, settings, k), {}});
-        for (int t = 0; t < static_cast<int>(scene.taps.size()); ++t) {
-            if (!hears(scene.taps[t], scene, k)) continue;
-            s.taps.push_back({t, !heard_already[t]});
-            heard_already[t] = true;
-        }
+        auto scheme = made_of_string(scene, k, [&](const Scene& one) { return make_scheme(descriptor, one, settings); });
+        strings.push_back({std::move(scheme), heard_taps(scene, k, heard_already)});
     }
     const bool continuous = descriptor.clock == Clock::continuous;
     return std::make_unique<SeveralStrings>(std::move(strings), continuous ? 1 : settings.sample_rate / settings.tap_rate);

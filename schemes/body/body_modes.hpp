@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "schemes/body/body_step.hpp"
@@ -79,11 +80,7 @@ public:
         for (const auto& m : modes_) sum += (m.zeta * m.zeta + m.A * m.z * m.z) / m.xi;
         return sum;
     }
-    double take_lost() noexcept {
-        const double lost = lost_;
-        lost_ = 0;
-        return lost;
-    }
+    double take_lost() noexcept { return std::exchange(lost_, 0.0); }
 
 private:
     double dt_, lost_ = 0;
@@ -172,11 +169,7 @@ public:
         for (const auto& m : modes_) sum += 0.5 * m.mass * (0.5 * (2 - m.loss) * m.d * m.d + m.kappa * m.z * (m.z + m.d));
         return sum / (dt_ * dt_);
     }
-    double take_lost() noexcept {
-        const double lost = lost_;
-        lost_ = 0;
-        return lost;
-    }
+    double take_lost() noexcept { return std::exchange(lost_, 0.0); }
 
 private:
     double dt_, lost_ = 0;

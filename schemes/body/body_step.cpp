@@ -66,11 +66,7 @@ BodyStep::BodyStep(const std::vector<StringAtBody>& strings, double beta, double
             between[a * contacts + b] = between[b * contacts + a] = sum;
         }
     contacts_ = ObstacleStep(laws, heights, {}, between, span);
-    for (const double beta_of_contact : loss)
-        if (beta_of_contact != 0) {
-            contacts_.lose(loss);
-            break;
-        }
+    contacts_.lose(loss);
     for (auto* v : {&older_, &free_}) v->assign(all, 0.0);
     for (auto* v : {&eta_, &b_, &push_}) v->assign(contacts, 0.0);
     for (auto* v : {&pull_, &moved_}) v->assign(threads, 0.0);

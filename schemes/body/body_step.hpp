@@ -83,7 +83,6 @@ private:
         int point;
         double stiffness, damping, rest, s;  // s = k/2 + damping/span [N/m]
     };
-    void split(const double* reading, double w) noexcept;
 
     std::vector<StringAtBody> strings_;
     double beta_ = 0, kappa_ = 1, span_ = 1, D_ = 1;

@@ -11,31 +11,27 @@
 
 #include <algorithm>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "schemes/body/body_step.hpp"
 #include "schemes/scheme.hpp"
+#include "schemes/several_strings.hpp"
 
 namespace jvari {
 
-// What body and points report, instead of each string.
-std::vector<Fact> body_facts(const BodyStep&);
-
-// The taps of a scene on its strings: which of them hears it, and how much of w and w' it hears beside v.
-struct BodyTap {
-    int column;
-    bool first;                     // the first string that is heard there
+// The taps of a scene on one of its strings, and how much of w and w' they hear beside v.
+struct BodyTap : HeardTap {
     double on_w = 0, on_speed = 0;  // per m and m/s
 };
 std::vector<BodyTap> body_taps(const Scene&, int string, std::vector<bool>& heard_already);
+void add_taps(const Block& out, int row, const std::vector<BodyTap>&, const double* of_v, double w, double speed) noexcept;
 
 template <class String, class Body>
 class Instrument final : public Scheme {
 public:
     Instrument(const Scene& scene, std::vector<std::unique_ptr<String>> strings, Body body, int steps_per_row)
-        : body_(std::move(body)), steps_(steps_per_row), scene_(scene) {
+        : body_(std::move(body)), steps_(steps_per_row) {
         std::vector<StringAtBody> at;
         std::vector<bool> heard(scene.taps.size(), false);
         std::size_t taps = 0;
@@ -98,12 +94,10 @@ public:
         return sum;
     }
     std::vector<Fact> facts() const override {
-        std::vector<Fact> all = body_facts(step_);
+        std::vector<Fact> all;
+        if (step_.contacts().contacts() > 0) all = step_.contacts().facts();
         for (std::size_t k = 0; k < parts_.size(); ++k)
-            for (Fact f : parts_[k].string->facts()) {
-                if (parts_.size() > 1) f.name.insert(0, "string." + std::to_string(k) + ".");
-                all.push_back(std::move(f));
-            }
+            for (Fact& f : of_string(k)) all.push_back(std::move(f));
         return all;
     }
 
@@ -115,6 +109,11 @@ private:
         int points;
         double finger;  // psi where the pluck acts
     };
+
+    std::vector<Fact> of_string(std::size_t k) const {
+        auto facts = parts_[k].string->facts();
+        return parts_.size() > 1 ? facts_of_string(static_cast<int>(k), std::move(facts)) : facts;
+    }
 
     bool solve(BodyStep& by, const BodyMotion& motion) noexcept {  // after approach() of every string
         double inertia = 0, *older = older_.data(), *free = free_.data();
@@ -151,12 +150,7 @@ private:
         for (Part& p : parts_) {
             Block own{1, static_cast<int>(p.taps.size()), 1, tap_.data(), out.energy ? energy_ : nullptr, nullptr, nullptr};
             p.string->write(own, 0);
-            for (std::size_t t = 0; t < p.taps.size(); ++t) {
-                const BodyTap& tap = p.taps[t];
-                double& cell = out.tap[tap.column * out.stride + row];
-                const double heard = tap_[t] + (tap.on_w * w + tap.on_speed * speed);
-                cell = tap.first ? heard : cell + heard;
-            }
+            add_taps(out, row, p.taps, tap_.data(), w, speed);
             if (out.energy) momentum += p.string->momentum();
             stored += energy_[0];
             supplied_ += energy_[1];
@@ -180,7 +174,6 @@ private:
 
     Body body_;
     int steps_;
-    Scene scene_;
     std::vector<Part> parts_;
     BodyStep step_, start_;
     std::vector<double> older_, free_, force_, tap_;
@@ -193,15 +186,16 @@ private:
 template <class String, class Make>  // make(scene of one string) -> std::unique_ptr<String>
 std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) {
     std::vector<std::unique_ptr<String>> all;
-    for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) {
-        const bool several = scene.strings.size() > 1;
-        try {
-            all.push_back(make(alone(scene, k)));
-        } catch (const Refusal& e) {
-            throw Refusal((several ? "string." + std::to_string(k) + ": " : "") + e.what());
-        }
-    }
+    for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) all.push_back(made_of_string(scene, k, make));
     return all;
+}
+
+// The scheme of one string, or of all strings on a moving body. make as above, body() -> the body in the form of that scheme.
+template <class String, class Make, class MakeBody>
+std::unique_ptr<Scheme> on_its_support(const Scene& scene, int steps_per_row, Make make, MakeBody body) {
+    if (!needed_by(scene).has(Feature::moving_body)) return make(scene);
+    auto strings = each_string<String>(scene, make);
+    return std::make_unique<Instrument<String, decltype(body())>>(scene, std::move(strings), body(), steps_per_row);
 }
 
 }  // namespace jvari

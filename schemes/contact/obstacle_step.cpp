@@ -39,6 +39,7 @@ std::vector<double> ObstacleStep::between_contacts() const {
 }
 
 void ObstacleStep::lose(std::span<const double> beta) {
+    if (std::all_of(beta.begin(), beta.end(), [](double b) { return b == 0; })) return;
     const int n = contacts_;
     Lossy z;
     z.beta.assign(beta.begin(), beta.end());

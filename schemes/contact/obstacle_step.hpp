@@ -36,7 +36,7 @@ public:
     ObstacleStep(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
                  std::span<const double> theta, double span);
 
-    void lose(std::span<const double> beta);  // Hunt-Crossley beta of each contact [s/m]; with nothing in series
+    void lose(std::span<const double> beta);  // Hunt-Crossley beta of each contact [s/m], 0: it loses nothing; with nothing in series
 
     int contacts() const { return contacts_; }
     int coupled() const { return gram_.coupled(); }

@@ -306,11 +306,8 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
                                                                           : displacement_stencil(g.grid, r.at.position));
     g.series = missing_matrix(d.name, s, sites, scene.taps.size(), [&](int r, int f) { return reader[r].read(shape[f].data()); });
 }
-}  // namespace
 
-namespace {
-void put_on_body(GridString& g, const Descriptor& d, const String& s) {  // schemes/body/body_step.hpp
-    if (g.series) throw Refusal(std::string(d.name) + ": compliance=matched leaves out a moving body");
+void put_on_body(GridString& g, const String& s) {  // schemes/body/body_step.hpp
     g.at_body = at_body(s);
     g.at_body->laws = g.laws;
     g.at_body->heights = g.heights;
@@ -321,9 +318,7 @@ void put_on_body(GridString& g, const Descriptor& d, const String& s) {  // sche
 }  // namespace
 
 GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const Grid& grid, const LossFit& loss) {
-    const bool matched = choice_option(settings, compliance_option) == "matched";
-    if (matched && needed_by(scene).has(Feature::contact_loss))
-        throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out contact loss");
+    const bool matched = matched_without_loss(descriptor, scene, settings);
     const String s = matched ? with_profile_points(scene.strings.front(), settings) : scene.strings.front();
     GridString g;
     g.grid = grid;
@@ -360,13 +355,13 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
         g.taps.push_back(t);
     }
     if (matched) put_in_series(g, descriptor, scene, s);
-    if (needed_by(scene).has(Feature::moving_body)) put_on_body(g, descriptor, s);
+    if (needed_by(scene).has(Feature::moving_body)) put_on_body(g, s);
     return g;
 }
 
 ObstacleStep GridString::obstacle(std::span<const double> theta, double span) const {
     ObstacleStep o(laws, heights, thread, theta, span);
-    if (std::any_of(beta.begin(), beta.end(), [](double b) { return b != 0; })) o.lose(beta);
+    o.lose(beta);
     return o;
 }
 

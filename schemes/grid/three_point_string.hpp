@@ -334,10 +334,8 @@ private:
 // A string on its grid as a scheme, or all strings of a scene on a moving body. make(scene of one string) -> unique_ptr<String>.
 template <class String, class Make>
 std::unique_ptr<Scheme> on_its_support(const Scene& scene, const Settings& settings, Make make) {
-    if (!needed_by(scene).has(Feature::moving_body)) return make(scene);
-    ThreePointBody body(scene.body->modes, 1 / settings.sample_rate);
-    return std::make_unique<Instrument<String, ThreePointBody>>(scene, each_string<String>(scene, make), std::move(body),
-                                                                steps_per_row(settings));
+    return on_its_support<String>(scene, steps_per_row(settings), make,
+                                  [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
 }
 
 // (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`. Of the increment u+ - u- instead: (2M - dt^2 K) u - 2M u-, which
