@@ -135,11 +135,7 @@ private:
             for (int i = 0; i < s.count; ++i) y_[i] = z[s.first + i] / equations_.omega(s.first + i);
             h.readout.write(own, 0, y_.data(), z + equations_.padded + s.first, 1, sums_[s.bridge] * tap_rate_,
                             sums_[s.thread] * tap_rate_);
-            for (std::size_t t = 0; t < h.taps.size(); ++t) {
-                const BodyTap& tap = h.taps[t];
-                double& cell = out.tap[tap.column * out.stride + row];
-                cell = (tap.first ? 0 : cell) + tap_[t] + (tap.on_w * w + tap.on_speed * speed);
-            }
+            add_taps(out, row, h.taps, tap_.data(), w, speed);
         }
         if (out.energy) write_energy(out, row, equations_.energy(z), sums_[equations_.sums - 2], sums_[equations_.sums - 1]);
         std::fill(sums_.begin(), sums_.end(), 0.0);
@@ -161,8 +157,7 @@ private:
 std::unique_ptr<Scheme> integrated_instrument(const Descriptor& descriptor, const Scene& scene, const Settings& settings,
                                               const Integrator::Settings& integrator, double first_step, double longest_step) {
     if (integrator.method != Method::erk) throw Refusal(std::string(descriptor.name) + ": a moving body takes method=erk alone");
-    if (choice_option(settings, compliance_option) == "matched")
-        throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out a moving body");
+    matched_without_loss(descriptor, scene, settings);
     std::vector<Modes> modes;
     std::vector<String> strings;
     for (const String& s : scene.strings) {

@@ -184,6 +184,14 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
     return m;
 }
 
+bool matched_without_loss(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    if (choice_option(settings, compliance_option) != "matched") return false;
+    const Features needed = needed_by(scene);
+    for (const auto& [feature, name] : {std::pair(Feature::contact_loss, "contact loss"), std::pair(Feature::moving_body, "a moving body")})
+        if (needed.has(feature)) throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out " + name);
+    return true;
+}
+
 MissingCompliance::MissingCompliance(const MissingMatrix& m) {
     const bool barrier = m.contacts > 0;
     const int points = m.contacts + (m.thread ? 1 : 0), c = m.contacts;

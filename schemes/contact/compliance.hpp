@@ -88,6 +88,10 @@ struct MissingCompliance {                          // of one contact at most [m
 // sentence.
 MissingCompliance missing_compliance(const std::string& who, const String&, const Sites&, std::size_t taps, const OwnResponse& own);
 
+// Whether compliance=matched is asked for, of a scheme that leaves out contact loss and a moving body then: Refusal where the scene has
+// one.
+bool matched_without_loss(const Descriptor&, const Scene&, const Settings&);
+
 // ---- Profiles. A scheme's nodes are no places for what stands in series: at them a grid yields more than the true string. So a profile is
 // touched at points of its own, in the middles of as many equal parts.
 

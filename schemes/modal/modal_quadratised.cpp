@@ -274,24 +274,13 @@ private:
 
 using Made = std::unique_ptr<Scheme>;
 
-TwoPointCoefficients exact(double omega0, double sigma, double dt) {  // (33)
-    const ModeStep m = exact_step(omega0, sigma, dt);
-    return {m.A(), m.B()};
-}
-
-bool is_one_point_without_loss(const String& s) {
-    if (s.barriers.empty()) return true;
-    const auto* lumped = std::get_if<LumpedBarrier>(&s.barriers.front());
-    return s.barriers.size() == 1 && lumped && lumped->contact_loss == 0;
-}
-
 Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels, Quadratisation variant) {
-    if (!is_one_point_without_loss(scene.strings.front())) {
+    if (!touches_once_without_loss(scene.strings.front())) {
         if (levels == 3) throw Refusal(std::string(descriptor.name) + ": several barriers, profiles and contact loss are for levels=2");
         if (choice_option(settings, compliance_option) == "matched")
             throw Refusal(std::string(descriptor.name) + ": compliance=matched is for one lumped barrier without contact loss");
         return std::make_unique<ModalTwoPointPoints<QuadratisedPoints>>(
-            descriptor, scene, settings, exact, [variant](const auto&... parts) { return QuadratisedPoints(parts..., variant); });
+            descriptor, scene, settings, exact_two_point, [variant](const auto&... parts) { return QuadratisedPoints(parts..., variant); });
     }
     ModalString string = modal_string(descriptor, scene, settings);
     const bool matched = choice_option(settings, compliance_option) == "matched";

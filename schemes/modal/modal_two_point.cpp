@@ -31,10 +31,6 @@ namespace {
 using Coefficients = TwoPointCoefficients;
 using Law = TwoPointLaw;
 
-Coefficients exact(double omega0, double sigma, double dt) {  // (33)
-    const ModeStep m = exact_step(omega0, sigma, dt);
-    return {m.A(), m.B()};
-}
 Coefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i of (32)
     return {0.25 * omega0 * omega0 * dt * dt, sigma * dt};
 }
@@ -157,9 +153,7 @@ public:
         m_.taps = taps_.data();
         if (matched) put_in_series(descriptor, scene, modes, A);
         const ContactKind kind = !m_.g_b ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
-        const Compliance series = matched ? Compliance::matched : Compliance::own;
-        advance_ = two_point_advance(kind, m_.g_c != nullptr, series);
-        together_ = two_point_advance_together(kind, m_.g_c != nullptr, series);
+        kernel_ = two_point_kernel(kind, m_.g_c != nullptr, matched ? Compliance::matched : Compliance::own);
         ModalTwoPoint::reset();
     }
 
@@ -175,7 +169,7 @@ public:
         m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.least_force = m_.depth = m_.iterations = m_.iterations_most = 0;
         m_.status = {};
     }
-    Status advance(const Block& out) noexcept override { return advance_(m_, out); }
+    Status advance(const Block& out) noexcept override { return kernel_.one(m_, out); }
     void advance_all(std::span<Lane> all) noexcept override {
         while (!all.empty()) {
             std::size_t n = 1;
@@ -205,7 +199,7 @@ public:
 private:
     static bool together(const Lane& a, const Lane& b) {  // in one kernel: neither profiles nor other rates
         const auto *one = dynamic_cast<const ModalTwoPoint*>(a.scheme), *other = dynamic_cast<const ModalTwoPoint*>(b.scheme);
-        return one && other && one->together_ == other->together_ && one->m_.steps_per_row == other->m_.steps_per_row &&
+        return one && other && one->kernel_.together == other->kernel_.together && one->m_.steps_per_row == other->m_.steps_per_row &&
                one->m_.status.outcome == Outcome::ok && other->m_.status.outcome == Outcome::ok && a.out.rows == b.out.rows &&
                !a.out.energy == !b.out.energy;
     }
@@ -216,7 +210,7 @@ private:
             strings[i] = &static_cast<ModalTwoPoint*>(lanes[i].scheme)->m_;
             blocks[i] = lanes[i].out;
         }
-        const int rows = static_cast<ModalTwoPoint*>(lanes[0].scheme)->together_({strings.data(), lanes.size()}, blocks.data());
+        const int rows = static_cast<ModalTwoPoint*>(lanes[0].scheme)->kernel_.together({strings.data(), lanes.size()}, blocks.data());
         for (std::size_t i = 0; i < lanes.size(); ++i)  // beyond a failure each by itself
             lanes[i].status = lanes[i].scheme->advance(from_row(lanes[i].out, rows));
     }
@@ -264,8 +258,7 @@ private:
     TwoPoint m_;
     double Y_c0_ = 0;  // of the thread at t = 0 less h_c [m], where C is in series
     std::vector<double> pluck_now_;
-    TwoPointAdvance advance_ = nullptr;
-    TwoPointTogether together_ = nullptr;
+    TwoPointKernel kernel_;
     double offset_ = 0;
     double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
     std::vector<FreeMode> free_;
@@ -278,10 +271,7 @@ private:
 
 template <Law law>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    const auto& barriers = scene.strings.front().barriers;
-    const bool on_body = needed_by(scene).has(Feature::moving_body);
-    const auto* lumped = barriers.empty() ? nullptr : std::get_if<LumpedBarrier>(&barriers.front());
-    if (!on_body && (barriers.empty() || (barriers.size() == 1 && lumped && lumped->contact_loss == 0)))
+    if (!needed_by(scene).has(Feature::moving_body) && touches_once_without_loss(scene.strings.front()))
         return std::make_unique<ModalTwoPoint>(descriptor, scene, settings, law);
     if (number_option(settings, effective_option) != 0)
         throw Refusal(std::string(descriptor.name) +
@@ -299,7 +289,7 @@ extern const Descriptor modal_two_point = {.name = "modal_two_point",
                                            .represents = two_point_features,
                                            .balance = Balance::exact,
                                            .clock = Clock::stepped,
-                                           .make = made<exact>,
+                                           .make = made<exact_two_point>,
                                            .options = two_point_options,
                                            .approximates = two_point_approximates,
                                            .stand_in_rank = 2};

@@ -279,16 +279,11 @@ int advance_together(std::span<TwoPoint* const> strings, const Block* out) {
     }
 }
 
-struct Kernel {
-    TwoPointAdvance one;
-    TwoPointTogether together;
-};
-
 template <ContactKind kind, bool thread, Compliance compliance>
-constexpr Kernel kernel = {advance<kind, thread, compliance>, advance_together<kind, thread, compliance>};
+constexpr TwoPointKernel kernel = {advance<kind, thread, compliance>, advance_together<kind, thread, compliance>};
 
 template <Compliance compliance>
-Kernel choose_for(ContactKind kind, bool thread) {
+TwoPointKernel choose_for(ContactKind kind, bool thread) {
     using enum ContactKind;
     switch (kind) {
         case none: return thread ? kernel<none, true, compliance> : kernel<none, false, compliance>;
@@ -297,12 +292,8 @@ Kernel choose_for(ContactKind kind, bool thread) {
     }
     return {};
 }
-TwoPointAdvance choose(ContactKind kind, bool thread, Compliance compliance) {
-    return (compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread)).one;
-}
-TwoPointTogether choose_together(ContactKind kind, bool thread, Compliance compliance) {
-    return (compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread))
-        .together;
+TwoPointKernel choose(ContactKind kind, bool thread, Compliance compliance) {
+    return compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread);
 }
 
 double plain_dot(const double* w, const double* x, int size) {
@@ -316,14 +307,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace jvari {
 HWY_EXPORT(choose);
-HWY_EXPORT(choose_together);
 HWY_EXPORT(plain_dot);
 
-TwoPointAdvance two_point_advance(ContactKind kind, bool thread, Compliance compliance) {
+TwoPointKernel two_point_kernel(ContactKind kind, bool thread, Compliance compliance) {
     return HWY_DYNAMIC_DISPATCH(choose)(kind, thread, compliance);
-}
-TwoPointTogether two_point_advance_together(ContactKind kind, bool thread, Compliance compliance) {
-    return HWY_DYNAMIC_DISPATCH(choose_together)(kind, thread, compliance);
 }
 double two_point_dot(const double* w, const double* x, int size) {
     return HWY_DYNAMIC_DISPATCH(plain_dot)(w, x, size);

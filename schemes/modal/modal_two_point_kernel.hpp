@@ -74,14 +74,18 @@ using TwoPointAdvance = Status (*)(TwoPoint&, const Block&);
 // The kernel for these parts, in the widest vector instructions of this machine. It starts from the dots y_b .. u_c.
 enum class ContactKind { none, linear, power };
 enum class Compliance { own, matched };  // the modes' own, or with C in series
-TwoPointAdvance two_point_advance(ContactKind, bool thread, Compliance);
 
 // The same for two to four strings at once, step by step, each into its own block: the same bits, and while one string waits for its
 // contact another is under way. Of as many as fit in the first-level cache. Rows and steps per row are those of the first. Ends after the
 // row in which a string fails, and gives the rows made.
 constexpr int two_point_together = 4;
 using TwoPointTogether = int (*)(std::span<TwoPoint* const>, const Block*);
-TwoPointTogether two_point_advance_together(ContactKind, bool thread, Compliance);
+
+struct TwoPointKernel {
+    TwoPointAdvance one = nullptr;
+    TwoPointTogether together = nullptr;
+};
+TwoPointKernel two_point_kernel(ContactKind, bool thread, Compliance);
 
 // Sum of w_i x_i over the padded modes, by the kernel's own instructions and order of summation.
 double two_point_dot(const double* w, const double* x, int size);

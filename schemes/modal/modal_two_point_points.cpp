@@ -5,20 +5,27 @@
 
 namespace jvari {
 
+TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt) {
+    const ModeStep m = exact_step(omega0, sigma, dt);
+    return {m.A(), m.B()};
+}
+
+bool touches_once_without_loss(const String& s) {
+    if (s.barriers.empty()) return true;
+    const auto* lumped = std::get_if<LumpedBarrier>(&s.barriers.front());
+    return s.barriers.size() == 1 && lumped && lumped->contact_loss == 0;
+}
+
 std::unique_ptr<Scheme> modal_two_point_points(const Descriptor& descriptor, const Scene& scene, const Settings& settings,
                                                TwoPointLaw law) {
     using OnPoints = ModalTwoPointPoints<ObstacleStep>;
-    const bool matched = choice_option(settings, compliance_option) == "matched";
-    if (matched && needed_by(scene).has(Feature::contact_loss))
-        throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out contact loss");
-    const auto one = [&](const Scene& of) {
-        return std::make_unique<OnPoints>(descriptor, of, settings, law, [](const auto&... parts) { return ObstacleStep(parts...); });
-    };
-    if (!needed_by(scene).has(Feature::moving_body)) return one(scene);
-    if (matched) throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out a moving body");
-    TwoPointBody body(scene.body->modes, 1 / settings.sample_rate, law);
-    return std::make_unique<Instrument<OnPoints, TwoPointBody>>(scene, each_string<OnPoints>(scene, one), std::move(body),
-                                                                steps_per_row(settings));
+    matched_without_loss(descriptor, scene, settings);
+    return on_its_support<OnPoints>(
+        scene, steps_per_row(settings),
+        [&](const Scene& one) {
+            return std::make_unique<OnPoints>(descriptor, one, settings, law, [](const auto&... parts) { return ObstacleStep(parts...); });
+        },
+        [&] { return TwoPointBody(scene.body->modes, 1 / settings.sample_rate, law); });
 }
 
 }  // namespace jvari

@@ -29,6 +29,9 @@ struct TwoPointCoefficients {  // of one mode (van Walstijn et al. 2016, eqs 32-
     double A, B;
 };
 using TwoPointLaw = TwoPointCoefficients (*)(double omega0, double sigma, double dt);
+TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt);  // eq 33
+
+bool touches_once_without_loss(const String&);  // one lumped barrier at most: what the kernels of one contact take
 
 // Profiles touch at points of their own (option `points`). Contact loss with compliance=own alone.
 std::unique_ptr<Scheme> modal_two_point_points(const Descriptor&, const Scene&, const Settings&, TwoPointLaw);
@@ -207,7 +210,7 @@ private:
         }
         if (on_body) return put_on_body(s, scaled(end_inertia(modes, s)), laws, heights, loss);
         p_.obstacle = make_obstacle(laws, heights, s.thread, theta, dt_);
-        if (std::any_of(loss.begin(), loss.end(), [](double beta) { return beta != 0; })) p_.obstacle.lose(loss);
+        p_.obstacle.lose(loss);
     }
 
     void put_on_body(const String& s, const ModalArray& mu, const std::vector<ContactLaw>& laws, const std::vector<double>& heights,

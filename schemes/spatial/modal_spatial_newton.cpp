@@ -365,17 +365,13 @@ Problem problem_of(const Descriptor& descriptor, const Scene& scene, const Setti
     p.scene = scene;
     p.dt = 1 / settings.sample_rate;
     p.steps_per_row = steps_per_row(settings);
-    const bool matched = choice_option(settings, compliance_option) == "matched", on_body = needed_by(scene).has(Feature::moving_body);
-    if (matched && on_body) throw Refusal("modal_spatial_newton: compliance=matched leaves out a moving body");
+    const bool matched = matched_without_loss(descriptor, scene, settings), on_body = needed_by(scene).has(Feature::moving_body);
     if (matched) p.scene.strings.front() = with_profile_points(p.string(), settings);
     const int intervals = matched ? modes_for(p.string(), settings) + 1 : intervals_for(p.string(), settings);
     if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
     p.modes = modes_of(p.string(), intervals - 1);
     p.initial = initial_displacement(p.modes, p.string());
     p.ports = spatial_ports(p.string(), p.modes, intervals, scene.name, matched || on_body, on_body);
-    if (matched)
-        for (const ContactPoint& point : p.ports.points)
-            if (point.contact_loss != 0) throw Refusal("modal_spatial_newton: compliance=matched leaves out contact loss");
     const bool linear = p.ports.points.empty() && !p.string().thread;
     p.three_point = three_point(p.modes, p.dt, (linear ? 0.95 : 0.25) * std::numbers::pi);
     p.update = {intervals, p.three_point.Ct, p.three_point.kappa, p.three_point.gain, p.ports.ports, 0};
