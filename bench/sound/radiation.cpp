@@ -73,20 +73,23 @@ std::vector<double> Radiation::operator()(std::span<const double> force) const {
     return sections_ ? filtered(*sections_, force) : convolved(force, response_);
 }
 
+Radiation radiation_of(const Body& body, const RadiatingEnd& end, double rate) {
+    std::vector<double> response = impulse_response(body.*end.response, rate, end.key);
+    try {
+        return {std::move(response), rate, body.sections};
+    } catch (const std::invalid_argument& e) {
+        throw store::UsageError(fmt::format("body.sections: found {} for {}; {}", body.sections, end.key, e.what()));
+    }
+}
+
 std::vector<RadiatingTap> radiating_taps(const Scene& scene, double rate) {
     std::vector<RadiatingTap> all;
     for (std::size_t k = 0; scene.body && k < scene.taps.size(); ++k) {
         const Tap& tap = scene.taps[k];
-        const bool bridge = tap.quantity == Quantity::driving_force, nut = tap.quantity == Quantity::nut_force;
-        const std::string& file = bridge ? scene.body->bridge : scene.body->nut;
-        if ((tap.string && scene.strings.size() > 1) || !(bridge || nut) || file.empty()) continue;
-        const std::string key = bridge ? "body.bridge" : "body.nut";
-        std::vector<double> response = impulse_response(file, rate, key);
-        try {
-            all.push_back({static_cast<int>(k), Radiation(std::move(response), rate, scene.body->sections)});
-        } catch (const std::invalid_argument& e) {
-            throw store::UsageError(fmt::format("body.sections: found {} for {}; {}", scene.body->sections, key, e.what()));
-        }
+        if (tap.string && scene.strings.size() > 1) continue;
+        for (const RadiatingEnd& end : {bridge_end, nut_end})
+            if (tap.quantity == end.force && !((*scene.body).*end.response).empty())
+                all.push_back({static_cast<int>(k), radiation_of(*scene.body, end, rate)});
     }
     return all;
 }

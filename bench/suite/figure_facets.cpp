@@ -18,12 +18,9 @@ constexpr const char* profile_tap = "profile_";
 // A pressure is a filter of a force, whose tap has its name.
 struct Pressure {
     const char* tap;
-    Quantity force;
-    const char* key;
-    std::string Body::*response;
+    sound::RadiatingEnd end;
 };
-constexpr Pressure pressures[] = {{"bridge_pressure", Quantity::driving_force, "body.bridge", &Body::bridge},
-                                  {"nut_pressure", Quantity::nut_force, "body.nut", &Body::nut}};
+constexpr Pressure pressures[] = {{"bridge_pressure", sound::bridge_end}, {"nut_pressure", sound::nut_end}};
 const Pressure* pressure_of(const std::string& tap) {
     const auto* p = std::ranges::find_if(pressures, [&tap](const Pressure& one) { return tap == one.tap; });
     return p == std::end(pressures) ? nullptr : p;
@@ -43,8 +40,7 @@ std::vector<double> column_of(const MeasuredCell& m, const std::string& tap) {
     const auto x = m.trace.column(static_cast<int>(name - m.trace.names.begin()));
     const Pressure* p = pressure_of(tap);
     if (!p) return copy(x);
-    return sound::Radiation(sound::impulse_response(*m.scene.body.*p->response, m.trace.tap_rate, p->key), m.trace.tap_rate,
-                            m.scene.body->sections)(x);
+    return sound::radiation_of(*m.scene.body, p->end, m.trace.tap_rate)(x);
 }
 
 double position_of(const ProfileRows& p, int i) {
@@ -62,9 +58,9 @@ Scene with_figure_taps(Scene scene, const FigureFacets& f) {
             if (std::find(names.begin(), names.end(), tap) != names.end()) continue;
             const Pressure* p = pressure_of(tap);
             if (!p) throw store::UsageError(std::string(key) + ": " + store::unknown("tap", tap, names));
-            if (!scene.body || ((*scene.body).*p->response).empty())
-                throw store::UsageError(fmt::format("{}: tap {}: the scene has no {}", key, tap, p->key));
-            scene.taps.push_back({tap, p->force, {}, 0});
+            if (!scene.body || ((*scene.body).*p->end.response).empty())
+                throw store::UsageError(fmt::format("{}: tap {}: the scene has no {}", key, tap, p->end.key));
+            scene.taps.push_back({tap, p->end.force, {}, 0});
             names.push_back(tap);
         }
     };
