@@ -3,20 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/readout.hpp"
 #include "scenes/excitation.hpp"
 
 namespace jvari {
-
-namespace {
-double dot(const std::vector<double>& g, const double* x) {  // four partial sums in a fixed order
-    double sum[4] = {};
-    std::size_t i = 0;
-    for (; i + 4 <= g.size(); i += 4)
-        for (int k = 0; k < 4; ++k) sum[k] += g[i + k] * x[i + k];
-    for (; i < g.size(); ++i) sum[0] += g[i] * x[i];
-    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
-}
-}  // namespace
 
 InstrumentEquations::InstrumentEquations(const std::vector<String>& all, const std::vector<Modes>& modes,
                                          const std::vector<BodyMode>& body_modes) {
@@ -94,7 +84,7 @@ InstrumentEquations::Motion InstrumentEquations::motion(const Point& p, const do
     const int first = strings[p.string].first;
     double y = 0;
     for (std::size_t i = 0; i < p.g.size(); ++i) y += p.g[i] * z[first + i] / omega_[first + i];
-    return {y + p.e * w(z), dot(p.g, z + padded + first) + p.e * w_speed(z)};
+    return {y + p.e * w(z), weighted_sum(p.g.data(), z + padded + first, static_cast<int>(p.g.size())) + p.e * w_speed(z)};
 }
 
 InstrumentEquations::Pull InstrumentEquations::pull(int a, Motion m) const noexcept {
@@ -142,9 +132,9 @@ void InstrumentEquations::slope(double t, const double* z, double* dz) const noe
             const double F = jvari::force(*s.pluck, s.pluck->start + std::clamp(time + t - s.pluck->start, 0.0, s.pluck->duration));
             for (int i = 0; i < s.count; ++i) dv[s.first + i] += F / s.mass * s.g_e[i];
             g += s.finger * F;
-            supplied += F * (dot(s.g_e, v + s.first) + s.finger * w_speed(z));
+            supplied += F * (weighted_sum(s.g_e.data(), v + s.first, s.count) + s.finger * w_speed(z));
         }
-        g -= dot(s.mu, dv + s.first);
+        g -= weighted_sum(s.mu.data(), dv + s.first, s.count);
     }
     double held = 0;  // sum A_k
     for (int k = body; k < padded; ++k) held += dv[k];
@@ -158,7 +148,7 @@ double InstrumentEquations::energy(const double* z) const noexcept {
     const double *p = z, *v = z + padded, speed = w_speed(z), at = w(z);
     double sum = 0.5 * inertia_ * speed * speed + 0.5 * tension_ * at * at;
     for (int i = 0; i < padded; ++i) sum += 0.5 * mass_[i] * (p[i] * p[i] + v[i] * v[i]);
-    for (const OfString& s : strings) sum += speed * dot(s.mu, v + s.first);
+    for (const OfString& s : strings) sum += speed * weighted_sum(s.mu.data(), v + s.first, s.count);
     for (int a = 0; a < static_cast<int>(points.size()); ++a) {
         const double eta = points[a].height - motion(points[a], z).y;
         if (a >= contacts) sum += 0.5 * points[a].law.k * eta * eta;

@@ -2,7 +2,6 @@
 
 namespace jvari {
 
-namespace {
 double weighted_sum(const double* w, const double* y, int count) {
     double sum[8] = {};
     int i = 0;
@@ -11,7 +10,6 @@ double weighted_sum(const double* w, const double* y, int count) {
     for (; i < count; ++i) sum[0] += w[i] * y[i];
     return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
 }
-}  // namespace
 
 Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count()) {
     for (const Tap& tap : scene.taps) {

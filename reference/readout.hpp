@@ -8,6 +8,8 @@
 
 namespace jvari {
 
+double weighted_sum(const double* w, const double* y, int count);  // in eight partial sums, in a fixed order
+
 struct Readout {
     Readout(const Scene&, const Modes&);
 

@@ -1,6 +1,7 @@
 // What can be left out of a scene, or made plainer, part by part: one list for everybody who asks which parts matter.
 //
-// A body is no part: it filters what is heard, and nothing that a scheme computes depends on it.
+// The filters of a body are no part: they shape what is heard, and nothing that a scheme computes depends on them. Its modes are left as
+// they are.
 //
 // Keys are those of scene files, so that a reduction can be told to a reader. The list is ordered so that any of its reductions can be
 // applied in turn: first what changes a value, then what empties a part, then what shortens an array, its last entry first. So each key
