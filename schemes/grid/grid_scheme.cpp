@@ -2,6 +2,19 @@
 
 namespace jvari {
 
+std::vector<double> compliances(const std::vector<Stencil>& places, const std::vector<Stencil>& responses, double gain, const Grid& grid) {
+    const std::size_t all = places.size();
+    std::vector<double> theta(all * all), line(grid.intervals + 1);
+    for (std::size_t b = 0; b < all; ++b) {
+        std::fill(line.begin(), line.end(), 0.0);
+        responses[b].add(gain, line.data());
+        for (std::size_t a = 0; a < all; ++a) theta[a * all + b] = places[a].read(line.data());
+    }
+    for (std::size_t a = 0; a < all; ++a)
+        for (std::size_t b = 0; b < a; ++b) theta[a * all + b] = theta[b * all + a];
+    return theta;
+}
+
 std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) {
     std::vector<Fact> f = {{facts::grid_intervals, static_cast<double>(g.grid.intervals)},
                            {facts::loss_fit_sigma0, g.loss.sigma0},

@@ -31,6 +31,10 @@ Squares squares(const Grid& g, At at) noexcept {
     return sum;
 }
 
+// What a unit of force at each place moves every place: places x places, symmetric to the last bit. responses: what the scheme's solve
+// makes of each place, gain: times that.
+std::vector<double> compliances(const std::vector<Stencil>& places, const std::vector<Stencil>& responses, double gain, const Grid&);
+
 // A row of taps: u its nodes, velocity(stencil) what a stencil reads of theirs, the means of its contact forces.
 template <class Velocity>
 void write_taps(const Block& out, int row, const std::vector<GridTap>& taps, const double* u, Velocity velocity, double bridge,

@@ -26,16 +26,8 @@ public:
         pull_ = {-2 * (2 * slope + 6 * curve), 2 * (slope + 4 * curve), -2 * curve, 2, 0, 0};
         pass_ = five_point_pass(pull_);
         const int points = static_cast<int>(g_.points.size());
-        std::vector<double> theta(points * points), line(g_.grid.intervals + 1);
-        for (int b = 0; b < points; ++b) {
-            responses_.push_back(solve_.response(g_.points[b]));
-            std::fill(line.begin(), line.end(), 0.0);
-            responses_[b].add(xi_, line.data());
-            for (int a = 0; a < points; ++a) theta[a * points + b] = g_.points[a].read(line.data());
-        }
-        for (int a = 0; a < points; ++a)  // symmetric to the last bit
-            for (int b = 0; b < a; ++b) theta[a * points + b] = theta[b * points + a];
-        obstacle_ = g_.obstacle(theta, dt);
+        for (const Stencil& s : g_.points) responses_.push_back(solve_.response(s));
+        obstacle_ = g_.obstacle(compliances(g_.points, responses_, xi_, g_.grid), dt);
         if (g_.series) obstacle_.put_in_series(*g_.series, 1);
         for (auto* v : {&older_, &free_, &force_, &now_}) v->assign(points, 0.0);
         for (auto* b : {&y_store_, &q_store_, &s_store_}) *b = AlignedVector(offset + g_.grid.intervals + five_point_overhang);

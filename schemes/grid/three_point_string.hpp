@@ -51,9 +51,9 @@ public:
         if (g_.pluck) pluck_response_ = update_.response(g_.pluck_stencil);
         if (g_.at_body) {
             mu_response_ = update_.response(g_.mu);
-            g_.at_body->theta = compliances();
+            g_.at_body->theta = compliances_of_points();
         } else {
-            const std::vector<double> theta = compliances();
+            const std::vector<double> theta = compliances_of_points();
             std::vector<double> half(theta.size());
             for (std::size_t i = 0; i < theta.size(); ++i) half[i] = 0.5 * theta[i];
             obstacle_ = g_.obstacle(theta, 2 * dt);
@@ -150,19 +150,13 @@ private:
         bridge_ = thread_ = supplied_ = dissipated_ = 0;           // row 0 takes the halves of this force
     }
 
-    // Of the points, and then of the body where there is one.
-    std::vector<double> compliances() const {
-        const int points = static_cast<int>(g_.points.size()), all = points + (g_.at_body ? 1 : 0);
-        const auto place = [&](int a) -> const Stencil& { return a < points ? g_.points[a] : g_.mu; };
-        std::vector<double> theta(static_cast<std::size_t>(all) * all), line(g_.grid.intervals + 1);
-        for (int b = 0; b < all; ++b) {
-            std::fill(line.begin(), line.end(), 0.0);
-            (b < points ? responses_[b] : mu_response_).add(gain_, line.data());
-            for (int a = 0; a < all; ++a) theta[a * all + b] = place(a).read(line.data());
+    std::vector<double> compliances_of_points() const {  // and then of the body where there is one
+        std::vector<Stencil> places = g_.points, responses = responses_;
+        if (g_.at_body) {
+            places.push_back(g_.mu);
+            responses.push_back(mu_response_);
         }
-        for (int a = 0; a < all; ++a)  // symmetric to the last bit
-            for (int b = 0; b < a; ++b) theta[a * all + b] = theta[b * all + a];
-        return theta;
+        return compliances(places, responses, gain_, g_.grid);
     }
 
 public:
