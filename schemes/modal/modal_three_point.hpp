@@ -55,11 +55,11 @@ public:
             if (m_.num[i] > 0) compliance_ += m_.g_b[i] * e_b_[i] / m_.num[i];  // d = 0
         e_c_ = scaled(m_.g_c, gain);
         e_e_ = scaled(m_.g_e, gain);
-        theta_cc_ = modal_dot(m_.g_c, e_c_);
-        theta_bc_ = modal_dot(m_.g_b, e_c_);
-        theta_bb_ = modal_dot(m_.g_b, e_b_);
-        theta_be_ = modal_dot(m_.g_b, e_e_);
-        theta_ce_ = modal_dot(m_.g_c, e_e_);
+        theta_.cc = modal_dot(m_.g_c, e_c_);
+        theta_.bc = modal_dot(m_.g_b, e_c_);
+        theta_.bb = modal_dot(m_.g_b, e_b_);
+        theta_.be = modal_dot(m_.g_b, e_e_);
+        theta_.ce = modal_dot(m_.g_c, e_e_);
         steady_ = couple(0.5 * m_.k_c + 0.5 * m_.r_c / m_.dt, m_.k_c);
         first_ = couple(0.5 * m_.k_c, 0.5 * m_.k_c);
         const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
@@ -84,12 +84,12 @@ public:
     void reset() noexcept override {
         q_ = m_.y0;
         d_ = d0_;
-        step_ = 0;
+        now_.step = 0;
         contact_ = start_;
         status_ = {};
-        impulse_b_ = impulse_c_ = supplied_ = dissipated_ = 0;
-        y_b_ = y_b_old_ = modal_dot(m_.g_b, q_);
-        y_c_ = y_c_old_ = modal_dot(m_.g_c, q_);
+        now_.impulse_b = now_.impulse_c = supplied_ = dissipated_ = 0;
+        now_.y_b = y_b_old_ = modal_dot(m_.g_b, q_);
+        now_.y_c = y_c_old_ = modal_dot(m_.g_c, q_);
         r_b_ = r_c_ = 0;  // in the first step: the free increments of the first half, see solve()
         for (int i = 0; i < m_.size; ++i) {
             const double d = free_increment(i);
@@ -97,10 +97,10 @@ public:
             if (!m_.g_c.empty()) r_c_ += m_.g_c[i] * d;
         }
         if constexpr (ActsInSeries<Contact>) {
-            contact_.begin(y_c_);
-            pass_.v_b = y_b_ + r_b_;
-            pass_.v_c = y_c_ + r_c_;
-        } else contact_.begin(m_.h_b - y_b_);
+            contact_.begin(now_.y_c);
+            pass_.v_b = now_.y_b + r_b_;
+            pass_.v_c = now_.y_c + r_c_;
+        } else contact_.begin(m_.h_b - now_.y_b);
         solve();
     }
 
@@ -112,43 +112,34 @@ public:
         }
         for (int row = 0; row < out.rows; ++row) {
             write(out, row);
-            const double weight = step_ == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
-            impulse_b_ = weight * F_b_;
-            impulse_c_ = weight * F_c_;
+            const double weight = now_.step == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
+            now_.impulse_b = weight * now_.F_b;
+            now_.impulse_c = weight * now_.F_c;
             supplied_ = dissipated_ = 0;
             if constexpr (ActsInSeries<Contact>) contact_.lost = 0;
-            if (out.energy && step_ > 0) ledger(0.5);
+            if (out.energy && now_.step > 0) ledger(0.5);
             for (int k = 0; k < m_.steps_per_row; ++k) {
                 step();
                 solve();
                 if (out.stopped(k, steps_between_questions)) return {};
                 if (k + 1 == m_.steps_per_row) break;
-                impulse_b_ += F_b_;
-                impulse_c_ += F_c_;
+                now_.impulse_b += now_.F_b;
+                now_.impulse_c += now_.F_c;
                 if (out.energy) ledger(1);
             }
-            impulse_b_ += 0.5 * F_b_;
-            impulse_c_ += 0.5 * F_c_;
+            now_.impulse_b += 0.5 * now_.F_b;
+            now_.impulse_c += 0.5 * now_.F_c;
             if (out.energy) ledger(0.5);
             if constexpr (ActsInSeries<Contact>) dissipated_ += contact_.lost;
-            if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
-            if (!contact_.solved()) return status_ = {Outcome::not_converged, step_ - 1};
+            if (!(std::abs(now_.y_b + now_.y_c) < modal_overflow)) return status_ = {Outcome::diverged, now_.step - 1};
+            if (!contact_.solved()) return status_ = {Outcome::not_converged, now_.step - 1};
         }
         return {};
     }
 
     Status advance_unprobed(const Block& out) noexcept {
-        SeriesRows rows{&m_,   q_.data(), &contact_, &pass_, theta_bb_, theta_bc_, theta_cc_,  theta_be_, theta_ce_,
-                        step_, y_b_,      y_c_,      F_b_,   F_c_,      F_e_,      impulse_b_, impulse_c_};
+        SeriesRows rows{&m_, q_.data(), &contact_, &pass_, &theta_, &now_};
         status_ = rows_(rows, out);
-        step_ = rows.step;
-        y_b_ = rows.y_b;
-        y_c_ = rows.y_c;
-        F_b_ = rows.F_b;
-        F_c_ = rows.F_c;
-        F_e_ = rows.F_e;
-        impulse_b_ = rows.impulse_b;
-        impulse_c_ = rows.impulse_c;
         return status_;
     }
 
@@ -171,8 +162,8 @@ private:
         double phi, k, inverse, beta_c, theta;
     };
     Coupling couple(double phi, double k) const {
-        const double inverse = 1 / (1 + phi * theta_cc_), beta_c = phi * theta_bc_ * inverse;
-        return {phi, k, inverse, beta_c, theta_bb_ - beta_c * theta_bc_};
+        const double inverse = 1 / (1 + phi * theta_.cc), beta_c = phi * theta_.bc * inverse;
+        return {phi, k, inverse, beta_c, theta_.bb - beta_c * theta_.bc};
     }
     static ModalArray scaled(const ModalArray& g, const ModalArray& gain) {
         ModalArray e = g;
@@ -181,8 +172,8 @@ private:
     }
     double free_increment(int i) const { return (1 - m_.loss[i]) * d_[i] - m_.num[i] * q_[i]; }
     double next_increment(int i) const {
-        return free_increment(i) + (e_b_.empty() ? 0 : e_b_[i] * F_b_) + (e_c_.empty() ? 0 : e_c_[i] * F_c_) +
-               (e_e_.empty() ? 0 : e_e_[i] * F_e_);
+        return free_increment(i) + (e_b_.empty() ? 0 : e_b_[i] * now_.F_b) + (e_c_.empty() ? 0 : e_c_[i] * now_.F_c) +
+               (e_e_.empty() ? 0 : e_e_[i] * now_.F_e);
     }
 
     // The forces of step n from the dots that the last pass left.
@@ -191,55 +182,55 @@ private:
         else solve_points();
     }
     void act() {
-        const bool at_start = step_ == 0;
-        const double share = at_start ? 0.5 : 1, pluck = m_.pluck_at(step_);
-        contact_.act(y_b_, y_c_, pluck, at_start);
-        F_e_ = share * pluck;
-        F_b_ = share * contact_.now.force.b;
-        F_c_ = share * contact_.now.force.c;
+        const bool at_start = now_.step == 0;
+        const double share = at_start ? 0.5 : 1, pluck = m_.pluck_at(now_.step);
+        contact_.act(now_.y_b, now_.y_c, pluck, at_start);
+        now_.F_e = share * pluck;
+        now_.F_b = share * contact_.now.force.b;
+        now_.F_c = share * contact_.now.force.c;
     }
     void solve_points() {
-        const bool at_start = step_ == 0;
+        const bool at_start = now_.step == 0;
         const Coupling& c = at_start ? first_ : steady_;
-        F_e_ = (at_start ? 0.5 : 1) * m_.pluck_at(step_);
-        const double rb = r_b_ + theta_be_ * F_e_, rc = r_c_ + theta_ce_ * F_e_;
+        now_.F_e = (at_start ? 0.5 : 1) * m_.pluck_at(now_.step);
+        const double rb = r_b_ + theta_.be * now_.F_e, rc = r_c_ + theta_.ce * now_.F_e;
         const double v_c = (c.k * (m_.h_c - y_c_old_) - c.phi * rc) * c.inverse;
-        F_b_ = 0;
-        F_c_ = v_c;
-        increment_b_ = rb + theta_bc_ * v_c;
+        now_.F_b = 0;
+        now_.F_c = v_c;
+        increment_b_ = rb + theta_.bc * v_c;
         if (!m_.g_b.empty()) {
-            F_b_ = at_start ? contact_.first(m_.h_b - y_b_, increment_b_, c.theta)
-                            : contact_.next(m_.h_b - y_b_, m_.h_b - y_b_old_, increment_b_, c.theta);
-            F_c_ -= c.beta_c * F_b_;
-            increment_b_ += c.theta * F_b_;
+            now_.F_b = at_start ? contact_.first(m_.h_b - now_.y_b, increment_b_, c.theta)
+                                : contact_.next(m_.h_b - now_.y_b, m_.h_b - y_b_old_, increment_b_, c.theta);
+            now_.F_c -= c.beta_c * now_.F_b;
+            increment_b_ += c.theta * now_.F_b;
         }
-        increment_c_ = rc + theta_bc_ * F_b_ + theta_cc_ * F_c_;
+        increment_c_ = rc + theta_.bc * now_.F_b + theta_.cc * now_.F_c;
     }
 
     void step() {
-        pass_.F_b = F_b_;
-        pass_.F_c = F_c_;
-        pass_.F_e = F_e_;
+        pass_.F_b = now_.F_b;
+        pass_.F_c = now_.F_c;
+        pass_.F_e = now_.F_e;
         if constexpr (ActsInSeries<Contact>) step_ahead();
         else step_and_settle();
-        ++step_;
+        ++now_.step;
     }
     // The readings need the last pass and the forces alone: this pass runs beside the next forces.
     void step_ahead() {
-        y_b_ = pass_.v_b + theta_bb_ * F_b_ + theta_bc_ * F_c_ + theta_be_ * F_e_;
-        y_c_ = pass_.v_c + theta_bc_ * F_b_ + theta_cc_ * F_c_ + theta_ce_ * F_e_;
-        (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
+        now_.y_b = pass_.v_b + theta_.bb * now_.F_b + theta_.bc * now_.F_c + theta_.be * now_.F_e;
+        now_.y_c = pass_.v_c + theta_.bc * now_.F_b + theta_.cc * now_.F_c + theta_.ce * now_.F_e;
+        (now_.F_e != 0 ? plucked_ : unplucked_)(pass_);
     }
     void step_and_settle() {
-        (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
+        (now_.F_e != 0 ? plucked_ : unplucked_)(pass_);
         if (!m_.g_b.empty()) {
-            contact_.settle(m_.h_b - pass_.x_b, m_.h_b - y_b_);
-            y_b_old_ = y_b_;
-            y_b_ = pass_.x_b;
+            contact_.settle(m_.h_b - pass_.x_b, m_.h_b - now_.y_b);
+            y_b_old_ = now_.y_b;
+            now_.y_b = pass_.x_b;
             r_b_ = pass_.v_b;
         }
-        y_c_old_ = y_c_;
-        y_c_ = pass_.x_c;
+        y_c_old_ = now_.y_c;
+        now_.y_c = pass_.x_c;
         r_c_ = pass_.v_c;
     }
 
@@ -249,12 +240,12 @@ private:
         for (int i = 0; i < m_.size; ++i) {
             const double r = next_increment(i) + d_[i];
             loss += W_[i] * m_.loss[i] * r * r;
-            if (F_e_ != 0) work += m_.g_e[i] * r;
+            if (now_.F_e != 0) work += m_.g_e[i] * r;
         }
         const double r_c = increment_c_;
         if constexpr (ActsInSeries<Contact>) dissipated_ += weight * loss / (4 * m_.dt * m_.dt);  // the thread's: at the row
         else dissipated_ += weight * (loss / (4 * m_.dt * m_.dt) + m_.r_c * r_c * r_c / (4 * m_.dt));
-        supplied_ += weight * 0.5 * F_e_ * work;
+        supplied_ += weight * 0.5 * now_.F_e * work;
     }
 
     double half_step_energy(double yc, double yc_other, double contact, bool after) const {
@@ -272,27 +263,29 @@ private:
 
     double stored() const {
         if constexpr (ActsInSeries<Contact>)
-            return contact_.energy() + (step_ == 0 ? modal_energy(true) : 0.5 * (modal_energy(true) + modal_energy(false)));
+            return contact_.energy() + (now_.step == 0 ? modal_energy(true) : 0.5 * (modal_energy(true) + modal_energy(false)));
         else return stored_at_half_steps();
     }
     double stored_at_half_steps() const {
-        const bool at_start = step_ == 0, barrier = !m_.g_b.empty();
-        const double yb_next = (at_start ? y_b_ : y_b_old_) + increment_b_, yc_next = (at_start ? y_c_ : y_c_old_) + increment_c_;
-        const double after = half_step_energy(y_c_, yc_next, barrier ? contact_.energy_next(m_.h_b - yb_next, m_.h_b - y_b_) : 0, true);
+        const bool at_start = now_.step == 0, barrier = !m_.g_b.empty();
+        const double yb_next = (at_start ? now_.y_b : y_b_old_) + increment_b_, yc_next = (at_start ? now_.y_c : y_c_old_) + increment_c_;
+        const double after =
+            half_step_energy(now_.y_c, yc_next, barrier ? contact_.energy_next(m_.h_b - yb_next, m_.h_b - now_.y_b) : 0, true);
         if (at_start) return after;
-        return 0.5 * (after + half_step_energy(y_c_, y_c_old_, barrier ? contact_.energy(m_.h_b - y_b_, m_.h_b - y_b_old_) : 0, false));
+        return 0.5 *
+               (after + half_step_energy(now_.y_c, y_c_old_, barrier ? contact_.energy(m_.h_b - now_.y_b, m_.h_b - y_b_old_) : 0, false));
     }
 
     void write(const Block& out, int row) const {
         const double per_row = m_.steps_per_row;
         const auto velocity = [this](const ModalArray& weights) {  // centred; at rest in row 0
             double sum = 0;
-            if (step_ > 0)
+            if (now_.step > 0)
                 for (int i = 0; i < m_.size; ++i) sum += weights[i] * (next_increment(i) + d_[i]);
             return sum / (2 * m_.dt);
         };
-        write_taps<ActsInSeries<Contact> ? series_dot : modal_dot>(out, row, m_.taps, q_, velocity, impulse_b_ / per_row,
-                                                                   impulse_c_ / per_row);
+        write_taps<ActsInSeries<Contact> ? series_dot : modal_dot>(out, row, m_.taps, q_, velocity, now_.impulse_b / per_row,
+                                                                   now_.impulse_c / per_row);
         if constexpr (ActsInSeries<Contact>)
             for (int k = 0; k < out.taps; ++k)
                 if (!m_.taps[k].weights.empty()) out.tap[k * out.stride + row] += contact_.on_tap(k);
@@ -303,20 +296,18 @@ private:
     Contact contact_, start_;
     ModalArray q_, d_, d0_, W_, e_b_, e_c_, e_e_;
     double compliance_ = 0;  // under a steady force at the bridge [m/N]
-    double theta_bb_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
+    SeriesRows::Compliances theta_;
     Coupling steady_{}, first_{};
     ModalPass pass_;
     ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
     SeriesAdvance rows_ = nullptr;  // in series, where no energy is asked for
     bool readable_ = true;          // and all taps can be read without increments
-    long step_ = 0;
     Status status_;
-    double y_b_ = 0, y_b_old_ = 0, y_c_ = 0, y_c_old_ = 0;  // at steps n and n - 1 [m]
-    double r_b_ = 0, r_c_ = 0;                              // force-free increments from n - 1 to n + 1 [m]
-    double F_b_ = 0, F_c_ = 0, F_e_ = 0;                    // of step n [N]
-    double increment_b_ = 0, increment_c_ = 0;              // y^{n+1} - y^{n-1} with the forces; in the first step y^1 - y^0 [m]
-    double impulse_b_ = 0, impulse_c_ = 0;                  // sums of F over the interval of a row [N]
-    double supplied_ = 0, dissipated_ = 0;                  // [J]
+    SeriesRows::State now_;
+    double y_b_old_ = 0, y_c_old_ = 0;          // at step n - 1 [m]
+    double r_b_ = 0, r_c_ = 0;                  // force-free increments from n - 1 to n + 1 [m]
+    double increment_b_ = 0, increment_c_ = 0;  // y^{n+1} - y^{n-1} with the forces; in the first step y^1 - y^0 [m]
+    double supplied_ = 0, dissipated_ = 0;      // [J]
 };
 
 }  // namespace jvari

@@ -22,11 +22,12 @@ Status advance(SeriesRows& s, const Block& out) {
     const double per_row = m.steps_per_row;
     const int steps = m.steps_per_row;
     const bool plucked = !m.g_e.empty();
-    double impulse_b = s.impulse_b, impulse_c = s.impulse_c;
-    double y_b = s.y_b, y_c = s.y_c, F_b = s.F_b, F_c = s.F_c, F_e = s.F_e;
+    const SeriesRows::Compliances theta = *s.theta;
+    SeriesRows::State now = *s.state;
     Status status;
     for (int row = 0; row < out.rows; ++row) {
-        const double mean_b = steps == 1 ? impulse_b : impulse_b / per_row, mean_c = steps == 1 ? impulse_c : impulse_c / per_row;
+        const double mean_b = steps == 1 ? now.impulse_b : now.impulse_b / per_row,
+                     mean_c = steps == 1 ? now.impulse_c : now.impulse_c / per_row;
         for (int k = 0; k < out.taps; ++k) {
             double& value = out.tap[k * out.stride + row];
             switch (m.taps[k].quantity) {
@@ -36,43 +37,37 @@ Status advance(SeriesRows& s, const Block& out) {
                 default: value = dot(m.taps[k].weights.data(), s.q, pass_of.size) + contact.C.on_tap(k, at.force.b, at.force.c, at.F_e);
             }
         }
-        const double weight = s.step == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
-        impulse_b = weight * F_b;
-        impulse_c = weight * F_c;
+        const double weight = now.step == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
+        now.impulse_b = weight * now.F_b;
+        now.impulse_c = weight * now.F_c;
         for (int k = 0; k < steps; ++k) {
-            pass_of.F_b = F_b;
-            pass_of.F_c = F_c;
-            pass_of.F_e = F_e;
-            y_b = pass_of.v_b + s.theta_bb * F_b + s.theta_bc * F_c + s.theta_be * F_e;
-            y_c = pass_of.v_c + s.theta_bc * F_b + s.theta_cc * F_c + s.theta_ce * F_e;
-            if (F_e != 0) pass<AheadForm, barrier, thread, true>(pass_of);
+            pass_of.F_b = now.F_b;
+            pass_of.F_c = now.F_c;
+            pass_of.F_e = now.F_e;
+            now.y_b = pass_of.v_b + theta.bb * now.F_b + theta.bc * now.F_c + theta.be * now.F_e;
+            now.y_c = pass_of.v_c + theta.bc * now.F_b + theta.cc * now.F_c + theta.ce * now.F_e;
+            if (now.F_e != 0) pass<AheadForm, barrier, thread, true>(pass_of);
             else pass<AheadForm, barrier, thread, false>(pass_of);
-            ++s.step;
-            F_e = plucked ? m.pluck_at(s.step) : 0;
-            at.act(points, contact.C, y_b, y_c, F_e, false);
-            F_b = at.force.b;
-            F_c = at.force.c;
+            ++now.step;
+            now.F_e = plucked ? m.pluck_at(now.step) : 0;
+            at.act(points, contact.C, now.y_b, now.y_c, now.F_e, false);
+            now.F_b = at.force.b;
+            now.F_c = at.force.c;
             if (out.stopped(k, steps_between_questions)) return {};
             if (k + 1 == steps) break;
-            impulse_b += F_b;
-            impulse_c += F_c;
+            now.impulse_b += now.F_b;
+            now.impulse_c += now.F_c;
         }
-        impulse_b += 0.5 * F_b;
-        impulse_c += 0.5 * F_c;
-        if (!(std::abs(y_b + y_c) < modal_overflow)) {
-            status = {Outcome::diverged, s.step - 1};
+        now.impulse_b += 0.5 * now.F_b;
+        now.impulse_c += 0.5 * now.F_c;
+        if (!(std::abs(now.y_b + now.y_c) < modal_overflow)) {
+            status = {Outcome::diverged, now.step - 1};
             break;
         }
     }
     *s.pass = pass_of;
     contact.now = at;
-    s.impulse_b = impulse_b;
-    s.impulse_c = impulse_c;
-    s.y_b = y_b;
-    s.y_c = y_c;
-    s.F_b = F_b;
-    s.F_c = F_c;
-    s.F_e = F_e;
+    *s.state = now;
     return status;
 }
 

@@ -8,16 +8,22 @@
 namespace jvari {
 
 struct SeriesRows {
+    struct Compliances {  // between bridge, thread and plucking finger, times dt^2: what a newton moves in a step [m/N]
+        double bb = 0, bc = 0, cc = 0, be = 0, ce = 0;
+    };
+    struct State {
+        long step = 0;
+        double y_b = 0, y_c = 0;              // at the step [m]
+        double F_b = 0, F_c = 0, F_e = 0;     // of the step [N]
+        double impulse_b = 0, impulse_c = 0;  // sums of F over the interval of a row [N]
+    };
+
     const ModalString* string = nullptr;
     const double* q = nullptr;  // of the modes at the step
     SeriesForce* contact = nullptr;
     ModalPass* pass = nullptr;
-    double theta_bb = 0, theta_bc = 0, theta_cc = 0, theta_be = 0, theta_ce = 0;
-
-    long step = 0;
-    double y_b = 0, y_c = 0;  // at the step [m]
-    double F_b = 0, F_c = 0, F_e = 0;
-    double impulse_b = 0, impulse_c = 0;  // sums of F over the interval of a row [N]
+    const Compliances* theta = nullptr;
+    State* state = nullptr;
 };
 using SeriesAdvance = Status (*)(SeriesRows&, const Block&);
 SeriesAdvance series_advance(bool barrier, bool thread);
