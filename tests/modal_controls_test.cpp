@@ -258,6 +258,91 @@ TEST(ImpulseInvariant, EnergyThatStartsInAHighModeGrowsAsAnObstacleSpreadsIt) {
     }
 }
 
+// ---- Several contacts
+
+TEST(ControlsOnSeveralContacts, OneOfThemThatNothingTouchesChangesNothing) {  // one contact goes through other code
+    for (const char* name : {"modal_explicit_penalty", "modal_impulse_invariant"})
+        for (Scene scene : {c3_release(), c3_pluck()}) {
+            scene.duration = 3e-3;
+            barrier(scene).stiffness.k = 1e6;
+            for (const Quantity q : {Quantity::velocity, Quantity::driving_force}) scene.taps.push_back({"more", q, 0, 0.4});
+            const RunOptions options{.energy = true};
+            const Settings settings{44100 * 8, 44100, 60, {}};
+            const auto one = run(scheme(name), scene, settings, options);
+            scene.strings.front().barriers.push_back(LumpedBarrier{0.6, 0, -1, {1e6}, 1, 0.5});
+            const auto two = run(scheme(name), scene, settings, options);
+            EXPECT_EQ(fact(two.facts, "contact_points"), 2);
+            for (int k = 0; k < one.trace.taps(); ++k)
+                EXPECT_LT(distance(two.trace.column(k), one.trace.column(k)), 1e-9) << name << " " << k;
+            for (int k = 0; k < 3; ++k)
+                for (long n = 0; n < one.trace.rows; ++n)
+                    ASSERT_NEAR(two.trace.energy_column(k)[n], one.trace.energy_column(k)[n], 1e-9 * one.trace.energy_column(0).back())
+                        << name << " " << k << " row " << n;
+        }
+}
+
+Scene touched_in_three_places() {  // softly, and each takes some of the energy
+    Scene scene = c3_release();
+    barrier(scene) = {10e-3, 2e-3, 0, {1e4}, 1.5, 20};
+    scene.strings.front().barriers.push_back(LumpedBarrier{0.03, 0, 1e-5, {2e4}, 1, 5});
+    scene.strings.front().barriers.push_back(LumpedBarrier{0.4, 0.02, 1e-4, {5e3}, 2, 0});
+    scene.duration = 0.01;
+    return scene;
+}
+
+TEST(ControlsOnSeveralContacts, ConvergeToTheTwoPointScheme) {
+    const Scene scene = touched_in_three_places();
+    const auto truth = run(scheme("modal_two_point"), scene, {44100.0 * 128, 44100, 60, {}});
+    for (const char* name : {"modal_explicit_penalty", "modal_impulse_invariant"})
+        for (int tap : {0, 1, 2}) {
+            double last = 1;
+            for (int times : {8, 16, 32}) {
+                const auto r = run(scheme(name), scene, {44100.0 * times, 44100, 60, {}});
+                const double e = distance(r.trace.column(tap), truth.trace.column(tap));
+                EXPECT_LT(e, 0.7 * last) << name << " tap " << tap << " at " << times;
+                last = e;
+            }
+            EXPECT_LT(last, 2e-3) << name << " tap " << tap;
+        }
+}
+
+TEST(ControlsOnSeveralContacts, AdaptedMassesCloseTheBalance) {
+    Scene profile = c3_release();
+    profile.strings.front().barriers = {ProfileBarrier{FlatCurve{}, 0, 0.02, {1e9}, 1.3, 0.1}};
+    for (Scene scene : {touched_in_three_places(), lossless(touched_in_three_places()), profile}) {
+        scene.duration = 0.05;
+        const auto r = run(scheme("modal_impulse_invariant"), scene, {88200, 44100, 60, {{"energy", "adapted"}}}, {.energy = true});
+        EXPECT_EQ(r.status.outcome, Outcome::ok);
+        EXPECT_GT(fact(r.facts, "contact_points"), 1);
+        EXPECT_GT(fact(r.facts, "deepest_penetration"), 1e-7);
+        EXPECT_LT(worst_residual(r.trace), 1e-11);
+    }
+}
+
+TEST(ControlsOnSeveralContacts, ALossTakesEnergyAndIsAccountedFor) {
+    Scene scene = lossless(touched_in_three_places());
+    scene.strings.front().thread.reset();
+    scene.taps.pop_back();
+    const auto end = [&](const char* name, double beta) {
+        for (Barrier& b : scene.strings.front().barriers) std::get<LumpedBarrier>(b).contact_loss = beta;
+        const auto r = run(scheme(name), scene, {44100.0 * 64, 44100, 60, {}}, {.energy = true});
+        double lost = 0;
+        for (double x : r.trace.energy_column(2)) lost += x;
+        const double start = r.trace.energy_column(0)[0], left = r.trace.energy_column(0).back();
+        EXPECT_NEAR((left + lost) / start, 1, 2e-3) << name;
+        return left / start;
+    };
+    for (const char* name : {"modal_explicit_penalty", "modal_impulse_invariant"}) {
+        EXPECT_NEAR(end(name, 0), 1, 2e-3) << name;
+        EXPECT_LT(end(name, 20), 0.95) << name;
+    }
+}
+
+TEST(ControlsOnSeveralContacts, MatchedComplianceIsRefused) {
+    EXPECT_THROW(run(scheme("modal_explicit_penalty"), touched_in_three_places(), {88200, 44100, 40, {{"compliance", "matched"}}}),
+                 Refusal);
+}
+
 TEST(ImpulseInvariant, OptionsAreChecked) {
     EXPECT_THROW(run(scheme("modal_impulse_invariant"), c3_release(), {44100, 44100, 40, {{"energy", "own"}}}), Refusal);
     EXPECT_THROW(run(scheme("modal_explicit_penalty"), c3_release(), {44100, 44100, 40, {{"energy", "true"}}}), Refusal);

@@ -19,11 +19,19 @@
 //   left. True energy grows by up to a_j/a_1 - 1 after a start in mode j, by a_j mean(1/a) - 1 where all modes end with equal shares of
 //   what is conserved; energy that goes the other way is lost by the same factor.
 //
-// Leaves out: contact loss, several barriers, profiles, polarisation, the body.
+// One lumped barrier without contact loss goes through the kernels of modal_three_point.hpp. Several, profiles by points (option `points`)
+// and contact loss go through modal_three_point_points.hpp: F^n = V'(eta^n) less beta V'(eta^n) (y^{n+1} - y^{n-1})/(2 dt), whose
+// resistance is solved for; or the coupled discrete gradients of obstacle_step.hpp, which conserve the adapted energy as one does. Leaves
+// out: a stability limit of several contacts, compliance=matched with them, polarisation, a body that moves.
 #include <cmath>
 #include <limits>
 
+#include "schemes/contact/compliance.hpp"
+#include "schemes/contact/explicit_points.hpp"
+#include "schemes/contact/obstacle_step.hpp"
 #include "schemes/modal/modal_three_point.hpp"
+#include "schemes/modal/modal_three_point_points.hpp"
+#include "schemes/modal/modal_two_point_points.hpp"
 #include "schemes/modal/series_force.hpp"
 #include "schemes/run.hpp"
 
@@ -91,16 +99,76 @@ double stiffness_limit(const ModalString& m) {
     return m.mass / (m.dt * m.dt * (bb - kappa_c * bc * bc / (1 + kappa_c * cc)));
 }
 
+struct GradientPoints {  // GradientContact's, of several contacts
+    ObstacleStep start, step;
+
+    GradientPoints() = default;
+    GradientPoints(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
+                   std::span<const double> theta, double span, std::span<const double> contact_loss)
+        : step(laws, heights, thread, theta, span) {
+        std::vector<double> half(theta.begin(), theta.end());
+        for (double& x : half) x *= 0.5;
+        std::optional<Thread> taut = thread;  // at rest the outer levels are one: the newer is their mean, which takes s = k_c
+        if (taut) taut->damping = 0.5 * taut->stiffness * span;
+        start = ObstacleStep(laws, heights, taut, half, span);
+        step.lose(contact_loss);
+    }
+    bool first(const double* now, const double* free, double* force) noexcept {
+        const bool solved = start.solve(now, free, force);
+        for (int p = 0; p < step.points(); ++p) force[p] *= 0.5;
+        return solved;
+    }
+    bool next(const double*, const double* older, const double* free, double* force) noexcept { return step.solve(older, free, force); }
+    double potential(const double* reading) const { return step.potential(reading); }
+    double loss(double r_c) const { return step.loss(r_c); }
+    void clear() { step.clear(); }
+    std::vector<Fact> facts() const { return step.facts(); }
+};
+
 using Made = std::unique_ptr<Scheme>;
+
+// gains(string) are those of each mode [m/N], inertia(string, gain) its W.
+template <class Points, class Gains, class Inertia>
+Made made_of_points(const Descriptor& descriptor, const Scene& scene, const Settings& settings, Gains gains, Inertia inertia) {
+    const String s = with_profile_points(scene.strings.front(), settings);
+    Scene bare = scene;
+    bare.strings.front().barriers.clear();
+    ModalString string = modal_string(descriptor, bare, settings);
+    const Modes modes = modes_of(s, settings);
+    ContactsOfString at;
+    for (const Barrier& barrier : s.barriers) {
+        const auto& b = std::get<LumpedBarrier>(barrier);
+        at.laws.push_back({b.stiffness.k, b.exponent});
+        at.heights.push_back(b.height);
+        at.loss.push_back(b.contact_loss);
+        const auto g = footprint_weights(modes, b.position, b.width);
+        at.g.emplace_back(g.begin(), g.end());
+        at.g.back().resize(string.size);
+    }
+    const ModalArray gain = gains(string);
+    ModalArray W = inertia(string, gain);
+    return std::make_unique<ModalThreePointPoints<Points>>(std::move(string), s.thread, std::move(at), gain, std::move(W),
+                                                           [](const auto&... parts) { return Points(parts...); });
+}
 
 ModalArray explicit_gain(const ModalString& string) {
     return ModalArray(string.size, string.dt * string.dt / string.mass);
 }
 
+ModalArray modal_masses(const ModalString& string) {
+    return ModalArray(string.count, string.mass);
+}
+
 Made made_explicit(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    const bool matched = choice_option(settings, compliance_option) == "matched";
+    if (!touches_once_without_loss(scene.strings.front())) {
+        if (matched) throw Refusal(std::string(descriptor.name) + ": compliance=matched is for one lumped barrier without contact loss");
+        return made_of_points<ExplicitPoints>(descriptor, scene, settings, explicit_gain,
+                                              [](const ModalString& string, const ModalArray&) { return modal_masses(string); });
+    }
     ModalString string = modal_string(descriptor, scene, settings);
-    const ModalArray gain = explicit_gain(string), inertia(string.count, string.mass);
-    if (choice_option(settings, compliance_option) == "matched") return explicit_in_series(descriptor, scene, std::move(string), gain);
+    const ModalArray gain = explicit_gain(string), inertia = modal_masses(string);
+    if (matched) return explicit_in_series(descriptor, scene, std::move(string), gain);
     ExplicitContact contact;
     contact.law = string.barrier;
     contact.limit = stiffness_limit(string);
@@ -109,21 +177,34 @@ Made made_explicit(const Descriptor& descriptor, const Scene& scene, const Setti
 
 constexpr Option energy_option{
     "energy", "true", "what the energy columns hold: the true energy, or the one that the scheme conserves", {"true", "adapted"}};
-constexpr Option impulse_invariant_options[] = {energy_option};
+constexpr Option explicit_options[] = {compliance_option, profile_points_option};
+constexpr Option impulse_invariant_options[] = {energy_option, profile_points_option};
 
-Made made_impulse_invariant(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    const bool true_energy = choice_option(settings, energy_option) == "true";
-    ModalString string = modal_string(descriptor, scene, settings);
-    GradientContact contact;
-    contact.law = string.barrier;
+ModalArray impulse_gain(const ModalString& string) {
+    ModalArray gain;
     const double dt = string.dt;
-    ModalArray gain, inertia;
     for (int i = 0; i < string.count; ++i) {
         const double w = string.omega[i], wave = w > 0 ? std::sin(w * dt) / w : w < 0 ? std::sinh(w * dt) / w : dt;
         gain.push_back(dt * std::exp(-string.sigma[i] * dt) * wave / string.mass);
-        inertia.push_back(true_energy ? string.mass : dt * dt / gain.back());
     }
-    return std::make_unique<ModalThreePoint<GradientContact>>(std::move(string), gain, inertia, contact);
+    return gain;
+}
+
+Made made_impulse_invariant(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    const bool true_energy = choice_option(settings, energy_option) == "true";
+    const auto inertia_of = [true_energy](const ModalString& string, const ModalArray& gain) {
+        ModalArray inertia = modal_masses(string);
+        for (int i = 0; i < string.count && !true_energy; ++i) inertia[i] = string.dt * string.dt / gain[i];
+        return inertia;
+    };
+    if (!touches_once_without_loss(scene.strings.front()))
+        return made_of_points<GradientPoints>(descriptor, scene, settings, impulse_gain, inertia_of);
+    ModalString string = modal_string(descriptor, scene, settings);
+    GradientContact contact;
+    contact.law = string.barrier;
+    const ModalArray gain = impulse_gain(string);
+    ModalArray inertia = inertia_of(string, gain);
+    return std::make_unique<ModalThreePoint<GradientContact>>(std::move(string), gain, std::move(inertia), contact);
 }
 
 // ---- Limits that are known.
@@ -134,7 +215,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // C = 2 R cos(omega dt), C~ = R^2. The thread is its spring alone: its damper acts on y^{n+1} - y^{n-1} = 0.
 double penalty_margin(const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.front();
-    if (s.barriers.empty()) return nan;
+    if (s.barriers.size() != 1) return nan;
     const auto* barrier = std::get_if<LumpedBarrier>(&s.barriers.front());
     if (!barrier || barrier->exponent != 1) return nan;
     if (choice_option(settings, compliance_option) == "matched")
@@ -173,27 +254,28 @@ double shares_margin(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-constexpr const char* one_contact =
-    "One lumped barrier without contact loss: a control, whose fault one contact shows; nothing in the method hinders more.";
+constexpr Features of_several_points =
+    modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss);
+constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
 
 extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalty",
                                                   .source = "exact modes, contact force of the last step (conditionally stable control)",
-                                                  .represents = modal_features,
+                                                  .represents = of_several_points,
                                                   .balance = Balance::none,
                                                   .clock = Clock::stepped,
                                                   .make = made_explicit,
-                                                  .options = compliance_options,
-                                                  .note = one_contact,
+                                                  .options = explicit_options,
+                                                  .approximates = approximates,
                                                   .limit = {"penalty_limit", penalty_margin}};
 extern const Descriptor modal_impulse_invariant = {
     .name = "modal_impulse_invariant",
     .source = "van Walstijn et al. 2016, end of section 2.3: gains that differ from mode to mode (control)",
-    .represents = modal_features,
+    .represents = of_several_points,
     .balance = Balance::none,
     .clock = Clock::stepped,
     .make = made_impulse_invariant,
     .options = impulse_invariant_options,
-    .note = one_contact,
+    .approximates = approximates,
     .limit = {"equal_shares", shares_margin}};
 
 }  // namespace jvari

@@ -45,6 +45,19 @@ double modal_dot_by_eights(const ModalArray& a, const ModalArray& b) {
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
+ModalArray rest_increments(const ModalString& m) {
+    ModalArray d(m.size);
+    for (int i = 0; i < m.count; ++i) {  // C~ d^0 = (q^1 - q^0) + num q^0
+        const double h = m.omega[i] * m.dt, over_omega = m.omega[i] == 0 ? m.dt : m.sigma[i] / m.omega[i];
+        const double R = std::exp(-m.sigma[i] * m.dt), E = std::expm1(-m.sigma[i] * m.dt);
+        const double half = m.omega[i] >= 0 ? std::sin(h / 2) : std::sinh(-h / 2), whole = m.omega[i] >= 0 ? std::sin(h) : std::sinh(h);
+        const double even = m.omega[i] >= 0 ? -2 * half * half : 2 * half * half;  // cos h - 1
+        const double odd = m.omega[i] == 0 ? m.sigma[i] * m.dt : over_omega * whole;
+        d[i] = (E + R * (even + odd) + m.num[i]) / (1 - m.loss[i]) * m.y0[i];
+    }
+    return d;
+}
+
 ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.front();
     ModalString m;

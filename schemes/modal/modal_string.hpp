@@ -59,6 +59,9 @@ void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 // Refuses modes above half the sample rate.
 ModalString modal_string(const Descriptor&, const Scene&, const Settings&);
 
+// d^0 = q^0 - q^{-1} of the free motion that passes y0 at rest, for three-point recursions.
+ModalArray rest_increments(const ModalString&);
+
 double modal_dot(const ModalArray&, const ModalArray&);
 double modal_dot_by_eights(const ModalArray&, const ModalArray&);  // eight partial sums: of padded arrays, and faster
 

@@ -39,17 +39,14 @@ class ModalThreePoint : public Scheme {
 public:
     // gain: dt^2/m of each mode as the scheme has it; inertia: W.
     ModalThreePoint(ModalString string, const ModalArray& gain, ModalArray inertia, Contact contact)
-        : m_(std::move(string)), contact_(contact), start_(contact), q_(m_.size), d_(m_.size), d0_(m_.size), W_(std::move(inertia)) {
+        : m_(std::move(string)),
+          contact_(contact),
+          start_(contact),
+          q_(m_.size),
+          d_(m_.size),
+          d0_(rest_increments(m_)),
+          W_(std::move(inertia)) {
         W_.resize(m_.size);
-        for (int i = 0; i < m_.count; ++i) {  // d^0 of the free motion at rest in y0: C~ d^0 = (q^1 - q^0) + num q^0
-            const double h = m_.omega[i] * m_.dt, over_omega = m_.omega[i] == 0 ? m_.dt : m_.sigma[i] / m_.omega[i];
-            const double R = std::exp(-m_.sigma[i] * m_.dt), E = std::expm1(-m_.sigma[i] * m_.dt);
-            const double half = m_.omega[i] >= 0 ? std::sin(h / 2) : std::sinh(-h / 2),
-                         whole = m_.omega[i] >= 0 ? std::sin(h) : std::sinh(h);
-            const double even = m_.omega[i] >= 0 ? -2 * half * half : 2 * half * half;  // cos h - 1
-            const double odd = m_.omega[i] == 0 ? m_.sigma[i] * m_.dt : over_omega * whole;
-            d0_[i] = (E + R * (even + odd) + m_.num[i]) / (1 - m_.loss[i]) * m_.y0[i];
-        }
         e_b_ = scaled(m_.g_b, gain);
         for (std::size_t i = 0; i < m_.g_b.size(); ++i)
             if (m_.num[i] > 0) compliance_ += m_.g_b[i] * e_b_[i] / m_.num[i];  // d = 0
