@@ -430,6 +430,10 @@ TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
     EXPECT_NE(late.err.find("string 1 of tanpura_drone stays silent: its pluck begins at 1.2 s"), std::string::npos) << late.err;
     EXPECT_EQ(late.err.find("string 0"), std::string::npos);
     EXPECT_EQ(jvari(scratch, "run tanpura_c3 --scheme modal_two_point --duration 0.01").err, "");
+    const std::string sympathetic = "run sitar_sympathetic --scheme modal_two_point --duration 0.01";
+    EXPECT_EQ(jvari(scratch, sympathetic).err, "") << "its bridge shakes the strings that nobody plucks";
+    const Outcome still = jvari(scratch, sympathetic + " --set string.0.initial.amplitude=0");
+    EXPECT_NE(still.err.find("string 2 of sitar_sympathetic stays silent"), std::string::npos) << still.err;
 }
 
 TEST(Quiet, SaysNothingButErrors) {

@@ -58,6 +58,7 @@ TEST(Library, HoldsThePapersScenesWithWhatTheyNeed) {
         {"free_string", c3 | Features(initial_shape)},
         {"sitar_c5", features({damping, profile_barrier, initial_shape})},
         {"sitar_parabola", steel | Features(profile_barrier)},
+        {"sitar_sympathetic", c3 | features({lumped_barrier, initial_shape, moving_body})},
         {"tanpura_c3", c3 | features({lumped_barrier, thread, pluck})},
         {"tanpura_c3_release", c3 | features({lumped_barrier, thread, initial_shape})},
         {"two_point_bridge", steel | Features(lumped_barrier)},

@@ -6,7 +6,7 @@
 
 namespace jvari::bench::compare {
 
-// Warns of each string that nothing sets in motion before the scene ends.
+// Warns of each string that nothing sets in motion before the scene ends: no start, no pluck, no other string through a moving body.
 void note_silent_strings(const Scene&, const store::Listener&);
 
 }  // namespace jvari::bench::compare
