@@ -230,5 +230,56 @@ TEST(SeveralQuadratisedPoints, TakesThemInTheTwoPointFormWithItsOwnComplianceAlo
     EXPECT_THROW(make_scheme(named("modal_quadratised_three_point"), s, {44100, 44100, 40, {}}), Refusal);
 }
 
+// The small version of bench/suites/distributed.toml: the same points in both.
+Scene parabola_on_nodes(int intervals, int points) {  // from the middle before the first node to the middle behind the last
+    Scene scene = read_scene("sitar_parabola");
+    auto& barrier = std::get<ProfileBarrier>(scene.strings[0].barriers[0]);
+    const double h = scene.strings[0].length / intervals;
+    barrier.from = 0.5 * h;
+    barrier.to = (points + 0.5) * h;
+    return scene;
+}
+
+TEST(SeveralPoints, TheDistributedTwoPointSchemeGoesToTheSpatialNewtonAt4200Kilohertz) {
+    constexpr double rate = 44100;
+    struct Case {
+        Scene scene;
+        int modes;
+        OptionValues options;
+        int tap;
+    };
+    for (const Case& c :
+         {Case{read_scene("two_point_bridge"), 94, {}, 1}, Case{read_scene("two_point_bridge"), 94, {}, 2},
+          Case{parabola_on_nodes(422, 8), 421, {{"points", "8"}}, 2}, Case{parabola_on_nodes(422, 8), 421, {{"points", "8"}}, 3}}) {
+        const Scene scene = lasting(c.scene, 2e-3);
+        const auto newton = [&](int times) { return run(named("modal_spatial_newton"), scene, {times * rate, rate, c.modes, {}}); };
+        const jvari::Run fine = newton(96);
+        const double uncertain = difference(newton(48).trace.column(c.tap), fine.trace.column(c.tap));  // of the spatial Newton itself
+        double last = 1;
+        for (const int times : {8, 32, 96}) {
+            const jvari::Run r = run(named("modal_two_point"), scene, {times * rate, rate, c.modes, c.options});
+            const double apart = difference(r.trace.column(c.tap), fine.trace.column(c.tap));
+            EXPECT_LT(apart, 0.6 * last) << scene.name << " tap " << c.tap << " at " << times;
+            last = apart;
+        }
+        EXPECT_LT(last, uncertain) << scene.name << " tap " << c.tap;
+    }
+}
+
+TEST(SeveralPoints, TheDistributedTwoPointSchemeKeepsItsEnergyInEveryStep) {
+    for (const Scene& whole : {read_scene("two_point_bridge"), parabola_on_nodes(422, 8)})
+        for (const int times : {8, 32}) {
+            const double rate = times * 44100.0;  // a row a step
+            const Trace t = run(named("modal_two_point"), lasting(whole, 2e-3), {rate, rate, whole.name == "sitar_parabola" ? 421 : 94, {}},
+                                {.energy = true})
+                                .trace;
+            double worst = 0;
+            for (long n = 1; n < t.rows; ++n)
+                worst = std::max(
+                    worst, std::abs(t.energy_column(0)[n] - t.energy_column(0)[n - 1] - t.energy_column(1)[n] + t.energy_column(2)[n]));
+            EXPECT_LT(worst, 1e-13 * t.energy_column(0)[0]) << whole.name << " x" << times;
+        }
+}
+
 }  // namespace
 }  // namespace jvari
