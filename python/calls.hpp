@@ -20,7 +20,7 @@
 #include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
 #include "bench/store/side_by_side.hpp"
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "bench/trim/trim_record.hpp"
 #include "python/listening.hpp"
@@ -166,9 +166,9 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
             tables.emplace_back("cells", compare::with_bounds(suite::table_of(plan, run.records)));
             tables.emplace_back("maps", map::maps_table(maps));
             tables.emplace_back("boundaries", map::boundaries_table(maps, {}));
-            for (const suite::RowFacet& f : suite::row_facets())
-                if (store::Table rows = suite::rows_of(f.facet, plan, run.records); !rows.rows.empty() && !f.write)
-                    tables.emplace_back(suite::name_of(f.facet), std::move(rows));
+            for (const suite::Facet& f : suite::facets())
+                if (store::Table rows = suite::rows_of(f.name, plan, run.records); !rows.rows.empty() && !f.write)
+                    tables.emplace_back(f.name, std::move(rows));
         },
         [&] {
             return folder.empty() ? "nothing is kept, for there is no out"

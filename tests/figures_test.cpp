@@ -36,7 +36,7 @@ TEST(FigureFile, WhatIsWrongWithAFigureIsSaidWithFileLineAndKey) {
          "a.toml:9: figure.0.y.domain: found an array, expected [from, to] with from < to"},
         {figure + y + "where = { tap = [] }", "a.toml:10: figure.0.where.tap: found an array, expected at least one value"},
         {figure + y + "across = 0", "a.toml:10: figure.0.across: found 0, expected a whole number from 1 to 20"},
-        {cells + "[[figure]]\nname = \"a/b\"\ntitle = \"\"", "a.toml:4: figure.0.name: found \"a/b\", expected small letters"},
+        {cells + "[[figure]]\nname = \"a/b\"\ntitle = \"\"", "a.toml:4: figure.0.name: found \"a/b\", expected lower-case letters"},
         {cells + "[[figure]]\nname = \"1\"\ntitle = \"\"\nkind = \"line\"",
          "a.toml:6: figure.0.kind: unknown kind \"line\"; did you mean \"lines\"?"},
         {cells + "[[figure]]\nname = \"1\"\ntitle = \"\"\nkind = \"lines\"\ntable = \"trac\"", "a.toml:7: figure.0.table: unknown table"},
@@ -109,10 +109,10 @@ struct OneMode {
 TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     const OneMode m;
     ASSERT_EQ(m.records[0].row.at(0, "status"), "ok");
-    const auto rows = [&m](bench::suite::Facet f) { return bench::suite::rows_of(f, m.plan, m.records); };
+    const auto rows = [&m](const char* f) { return bench::suite::rows_of(f, m.plan, m.records); };
     const double digits = 1e-7 * m.amplitude;  // eight are written
 
-    const bench::store::Table profile = rows(bench::suite::Facet::profile);
+    const bench::store::Table profile = rows("profile");
     ASSERT_EQ(profile.rows.size(), 2u * 9);  // the third instant lies past the end
     for (std::size_t i = 0; i < profile.rows.size(); ++i) {
         const double t = std::round(profile.number(i, "time_s") * 44100) / 44100;
@@ -123,7 +123,7 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     EXPECT_EQ(profile.number(2, "position_m"), 0.25);
     EXPECT_EQ(profile.number(8, "position_m"), 1);
 
-    const bench::store::Table trace = rows(bench::suite::Facet::trace);
+    const bench::store::Table trace = rows("trace");
     int energies = 0;
     for (std::size_t i = 0; i < trace.rows.size(); ++i) {
         const double t = std::round(trace.number(i, "time_s") * 44100) / 44100;
@@ -138,7 +138,7 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     EXPECT_EQ(energies, 442 + 5);  // rows from 0.1 to 0.11 s and from 0.4999 s to the end
     EXPECT_EQ(trace.rows.size(), 2u * energies);
 
-    const bench::store::Table extent = rows(bench::suite::Facet::extent);
+    const bench::store::Table extent = rows("extent");
     ASSERT_EQ(extent.rows.size(), 10u);
     for (std::size_t i = 0; i < 10; ++i) {  // 50 ms hold six periods: both turning points
         EXPECT_NEAR(extent.number(i, "low"), -std::abs(m.amplitude), 1e-3 * std::abs(m.amplitude));
@@ -146,7 +146,7 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     }
 
     const double f = m.omega / (2 * std::numbers::pi), level = 10 * std::log10(m.amplitude * m.amplitude / 2);
-    const bench::store::Table envelope = rows(bench::suite::Facet::envelope);
+    const bench::store::Table envelope = rows("envelope");
     ASSERT_EQ(envelope.rows.size(), 1000u);
     double top = -HUGE_VAL;
     for (std::size_t i = 0; i < 1000; ++i) {
@@ -155,7 +155,7 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
         EXPECT_LT(envelope.number(i, "level_db"), level - 60);
     }
     EXPECT_NEAR(top, level, 3.3);  // the strongest bin of a Hann window holds two thirds of the power or a little less: -1.8 to -3.2 dB
-    const bench::store::Table centroid = rows(bench::suite::Facet::centroid);
+    const bench::store::Table centroid = rows("centroid");
     ASSERT_EQ(centroid.rows.size(), 9u);
     for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(centroid.number(i, "centroid_hz"), f, 0.2);
 }
@@ -176,7 +176,7 @@ TEST(FigureRows, OfACentroidKnowOnlyTheirBand) {
                                                                     "a.toml");
         const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
         const auto records = bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records;
-        return bench::suite::rows_of(bench::suite::Facet::centroid, plan, records).number(0, "centroid_hz");
+        return bench::suite::rows_of("centroid", plan, records).number(0, "centroid_hz");
     };
     const auto modes = modes_of(read_scene("free_string").strings[0], 2);
     const double first = modes.omega0[0] / (2 * std::numbers::pi), second = modes.omega0[1] / (2 * std::numbers::pi);
@@ -210,7 +210,7 @@ TEST(FigureRows, OfAPressureAreTheForceThroughTheBodysResponse) {
         set + "sweep = { \"body.bridge\" = [\"synthetic_bridge.wav\"], \"body.nut\" = [\"synthetic_nut.wav\"] }", "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
     const auto records = bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records;
-    const bench::store::Table rows = bench::suite::rows_of(bench::suite::Facet::trace, plan, records);
+    const bench::store::Table rows = bench::suite::rows_of("trace", plan, records);
     EXPECT_EQ(records[0].row.column("error_l2_whole_bridge_pressure"), -1);  // what is drawn alone has no error
 
     Scene scene = plan.points[0].scene;

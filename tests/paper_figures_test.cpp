@@ -257,8 +257,8 @@ TEST(Tanpura, Figure11ThePrecursorOfTheFirstStringFallsInARunOfToday) {
     )",
                                                                 "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    const bench::store::Table made = bench::suite::rows_of(bench::suite::Facet::centroid, plan,
-                                                           bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
+    const bench::store::Table made =
+        bench::suite::rows_of("centroid", plan, bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
     for (const char* options : {"compliance=own", "compliance=matched"}) {
         EXPECT_TRUE(falls(descent(made, {{"options", options}}, "0", "6.03e-05", 0))) << options;
         EXPECT_FALSE(falls(descent(made, {{"options", options}}, "0", "0", 0))) << options;
@@ -279,8 +279,8 @@ TEST(Tanpura, TheCommittedProfilesAreWhatTheProgramMakes) {
     )",
                                                                 "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    const bench::store::Table made = bench::suite::rows_of(bench::suite::Facet::profile, plan,
-                                                           bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
+    const bench::store::Table made =
+        bench::suite::rows_of("profile", plan, bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
     ASSERT_EQ(made.rows.size(), 33u);
     for (std::size_t i = 0; i < made.rows.size(); ++i) {
         const Series s = series(kept, {{"scheme", "modal_two_point"}, {"time_s", made.at(i, "time_s")}}, "position_m", "displacement_m");
@@ -421,8 +421,8 @@ TEST(Obstacle, TheCommittedTracesAreWhatTheProgramMakes) {
     )",
                                                                 "a.toml");
     const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    const bench::store::Table made = bench::suite::rows_of(bench::suite::Facet::trace, plan,
-                                                           bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
+    const bench::store::Table made =
+        bench::suite::rows_of("trace", plan, bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
     auto where = point;
     where["window_s"] = "0";
     const Series s = series(kept, where, "time_s", "value");

@@ -116,12 +116,14 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
 
     ListRequest list;
     auto* list_verb = app.add_subcommand("list", "what exists, and which scheme represents which scene");
-    list_verb->add_option("what", list.what, "schemes, scenes, references, options, facts, taps or suites; absent: all, and the matrix")
-        ->check(CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites"}))
+    list_verb
+        ->add_option("what", list.what,
+                     "schemes, scenes, references, options, facts, taps, suites or keys (of suite files); absent: all, and the matrix")
+        ->check(CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites", "keys"}))
         ->type_name("WHAT")
         ->option_text("");
     list_verb->add_flag("--markdown", list.markdown,
-                        "with `schemes`: the capability table of the README; with `options` or `facts`: their table");
+                        "with `schemes`: the capability table of the README; with `options`, `facts` or `keys`: their table");
     list_verb->footer("Example: jvari list schemes --markdown");
     add_common(*list_verb, list);
 
@@ -355,8 +357,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     must_be_assignments(trim.set);
     run.options = scheme_options(run_options);
     compare.options = scheme_options(compare_options);
-    if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts")
-        throw store::UsageError("--markdown goes with `jvari list schemes`, `jvari list options` or `jvari list facts`");
+    if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts" && list.what != "keys")
+        throw store::UsageError("--markdown goes with `jvari list schemes`, `jvari list options`, `jvari list facts` or `jvari list keys`");
 
     if (new_verb->parsed()) return fresh;
     if (list_verb->parsed()) return list;

@@ -6,6 +6,7 @@
 
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/list_keys.hpp"
 #include "bench/command/list_seam.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/indented.hpp"
@@ -152,6 +153,7 @@ int list_command(const ListRequest& r) {
         all.insert(all.end(), shelf.catalogue.references.begin(), shelf.catalogue.references.end());
         const std::string table = r.what == "options" ? list_options(shelf.catalogue).markdown
                                   : r.what == "facts" ? list_facts().markdown
+                                  : r.what == "keys"  ? list_keys().markdown
                                                       : list_descriptors("", all).markdown;
         console.print(table);
         console.print_json(store::indented({{"markdown", table}}));
@@ -172,6 +174,7 @@ int list_command(const ListRequest& r) {
     part("scenes", scenes_json(shelf), scenes_text(shelf));
     part("taps", taps_json(), taps_text());
     if (asked("suites")) part("suites", suites_json(), suites_text());
+    listing("keys", list_keys());
     if (asked("scenes")) {
         json["matrix"] = matrix_json(shelf);
         text += "\n" + matrix_text(shelf);

@@ -27,7 +27,7 @@
 #include "bench/store/interruption.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/suite/ensemble_facet.hpp"
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 #include "bench/suite/suite_run.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -160,9 +160,9 @@ int suite_command(const SuiteRequest& r) {
             write("errors.csv", store::csv(compare::errors_only(cells)));
             write("cost.csv", store::csv(clock_only(cells)));
         }
-        for (const suite::RowFacet& f : suite::row_facets())
-            if (const store::Table rows = suite::rows_of(f.facet, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
-            else if (!rows.rows.empty()) write((std::string(suite::name_of(f.facet)) + ".csv").c_str(), store::csv(rows));
+        for (const suite::Facet& f : suite::facets())
+            if (const store::Table rows = suite::rows_of(f.name, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
+            else if (!rows.rows.empty()) write((std::string(f.name) + ".csv").c_str(), store::csv(rows));
         if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty()) write("convergence.csv", store::csv(orders));
         if (const store::Table scaling = compare::scaling_of(cells, suite::sets_of(plan)); !scaling.rows.empty())
             write("scaling.csv", store::csv(scaling));
@@ -175,7 +175,7 @@ int suite_command(const SuiteRequest& r) {
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
-    if (const store::Table told = suite::rows_of(suite::Facet::ensemble, plan, run.records); !told.rows.empty())
+    if (const store::Table told = suite::rows_of(suite::measured::ensemble, plan, run.records); !told.rows.empty())
         console.print("by 32 runs of each\n" + suite::ensemble_text(told));
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + folder.string());

@@ -1,27 +1,11 @@
-// Maps of a suite file: what becomes of each scheme over two settings of one scene. bench/suites/README.md says the keys for writers.
-//
-//   [[map]]                     name = "stiffness_rate"        scene = "tanpura_c3_release"
-//   schemes = ["modal_two_point"]                              (absent: every scheme that represents the scene)
-//   x = { key = "rate", from = 44100, to = 705600, points = 5 }    from .. to are spaced by equal ratios
-//   y = { key = "string.0.barrier.0.stiffness", values = [1e4, 1e16] }       (absent: one row)
-//   duration = 0.01    amplitude = 1    rate = 44100    modes = 40    options = { grid = 100 }    set = { "string.0.tension" = 30 }
-//   reference = "exact_contact" or "none"                      (absent: the highest that represents the scene)
-//   reference_modes = 1064                                     of the reference, the same at every point (absent: those of the point)
-//   theory = "grid_limit"                                      a boundary that is known: map_theory.hpp
-//   refine = 12                                                bisections of each boundary along x (absent: 0)
-//   reproduce = false                                          its failures are not minimised (absent: they are)
+// Maps of a suite file: what becomes of each scheme over two settings of one scene. map_file.cpp declares their keys.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace jvari {
-struct Value;
-}
-namespace jvari::bench::store {
-class SuiteReader;
-}
+#include "bench/store/keys.hpp"
 
 namespace jvari::bench::map {
 
@@ -46,7 +30,7 @@ struct Map {
     bool reproduce = true;
 };
 
-// The maps of a suite's root table. Throws SceneFileError with file, line and key.
-std::vector<Map> maps_of(const store::SuiteReader&, const Value& root);
+// [[map]] tables of a suite.
+store::Kind<std::vector<Map>> maps();
 
 }  // namespace jvari::bench::map

@@ -12,7 +12,7 @@
 #include "bench/report/results.hpp"
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/report/vega.hpp"
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::report {
 
@@ -108,7 +108,7 @@ std::string spectrogram_figure(const suite::Figure& f, const suite::SuitePlan& p
                                const store::Table& cells) {
     std::vector<Panel> panels;
     for (std::size_t i = 0; i < records.size(); ++i)
-        if (plan.cells[i].set->measures(suite::Facet::spectrogram) && chosen(f, cells, i))
+        if (plan.cells[i].set->measures(suite::measured::spectrogram) && chosen(f, cells, i))
             panels.push_back({name_in(f, cells, i, f.colour), name_in(f, cells, i, f.panels), cells.at(i, "status"), records[i].levels});
     if (panels.empty()) throw store::UsageError("no cell with a spectrogram is left by `where`");
     const int scale = panels.size() == 1 ? 2 : 1;
@@ -223,8 +223,8 @@ std::vector<DrawnFigure> draw_figures(const suite::Suite& suite, const suite::Su
     if (suite.figures.empty()) return {};
     return drawn(suite.figures, listener, [&](const suite::Figure& f) {
         if (f.kind == suite::FigureKind::spectrogram) return spectrogram_figure(f, plan, records, cells);
-        for (const suite::RowFacet& facet : suite::row_facets())
-            if (f.table == suite::name_of(facet.facet)) return figure_spec(f, suite::rows_of(facet.facet, plan, records));
+        for (const suite::Facet& facet : suite::facets())
+            if (facet.rows && f.table == facet.name) return figure_spec(f, suite::rows_of(facet.name, plan, records));
         return figure_spec(f, cells);
     });
 }

@@ -2,7 +2,7 @@
 // (Scheme::free_modes) and from the trace by the matrix pencil of analysis/dispersion.hpp.
 #pragma once
 
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
 

@@ -5,7 +5,7 @@
 // The reference has the modes of the cell, or reference_modes where the suite says a number; it is the first that represents the scene.
 #pragma once
 
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
 

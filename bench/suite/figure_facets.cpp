@@ -46,7 +46,39 @@ std::vector<double> column_of(const MeasuredCell& m, const std::string& tap) {
 double position_of(const ProfileRows& p, int i) {
     return p.positions == 1 ? p.from : p.from + (p.to - p.from) * i / (p.positions - 1);
 }
+
+template <class Part>
+store::Key<Part> taps_key(std::vector<std::string> Part::*taps) {
+    return store::needed("taps", taps, store::several(store::text()), "names of taps, or energy, bridge_pressure, nut_pressure");
+}
+
+// A table of the set, which makes a cell with another one another cell.
+template <class Member, class T>
+store::Key<FigureFacets> table_key(const char* name, Member FigureFacets::*member, const store::Kind<T>& kind, const char* meaning) {
+    store::Key<FigureFacets> key = store::key(name, member, kind, meaning);
+    key.read = [read = key.read, name](FigureFacets& f, const store::Entry& e) {
+        read(f, e);
+        f.identity += std::string(name) + "=" + e.identity() + ";";
+    };
+    return key;
+}
+
+std::vector<std::pair<std::string, Quantity>> quantities() {
+    std::vector<std::pair<std::string, Quantity>> all;
+    for (int q = 0; q <= static_cast<int>(Quantity::driving_force); ++q)
+        all.emplace_back(name_of(static_cast<Quantity>(q)), static_cast<Quantity>(q));
+    return all;
+}
 }  // namespace
+
+store::Key<FigureFacets> figure_taps_key() {
+    const auto tap =
+        store::table(std::vector{store::needed("name", &Tap::name, store::text(), "what it is called"),
+                                 store::needed("quantity", &Tap::quantity, store::one_of("quantity", quantities()), "what is heard"),
+                                 store::key("string", &Tap::string, store::whole(0, 1000), "which one", "of forces, the sum over strings"),
+                                 store::key("position", &Tap::position, store::not_negative("m"), "of displacement and velocity")});
+    return table_key("taps", &FigureFacets::taps, store::several(tap), "taps beside those of the scene");
+}
 
 Scene with_figure_taps(Scene scene, const FigureFacets& f) {
     scene.taps.insert(scene.taps.end(), f.taps.begin(), f.taps.end());
@@ -80,6 +112,15 @@ Scene without_drawn_taps(Scene scene) {
     return scene;
 }
 
+store::Key<FigureFacets> trace_key() {
+    return table_key(
+        "trace", &FigureFacets::trace,
+        store::table(std::vector{taps_key(&TraceRows::taps),
+                                 store::needed("windows", &TraceRows::windows, store::several(store::from_to(store::not_negative("s"))),
+                                               "every row of each is kept")}),
+        "describes the measure `trace`");
+}
+
 store::Table trace_rows(const MeasuredCell& m) {
     store::Table t{{"tap", "window_s", "time_s", "value"}, {}};
     const TraceRows& f = *m.set.figures.trace;
@@ -92,6 +133,14 @@ store::Table trace_rows(const MeasuredCell& m) {
         }
     }
     return t;
+}
+
+store::Key<FigureFacets> extent_key() {
+    return table_key(
+        "extent", &FigureFacets::extent,
+        store::table(std::vector{taps_key(&ExtentRows::taps),
+                                 store::needed("intervals", &ExtentRows::intervals, store::whole(1, 100'000), "equal parts of the run")}),
+        "describes the measure `extent`");
 }
 
 store::Table extent_rows(const MeasuredCell& m) {
@@ -110,6 +159,20 @@ store::Table extent_rows(const MeasuredCell& m) {
     return t;
 }
 
+store::Key<FigureFacets> profile_key() {
+    const auto from_below_to = [](ProfileRows& p, const store::Entry& e) {
+        if (!(p.from < p.to)) e.need("to").refuse("more than from");
+    };
+    return table_key("profile", &FigureFacets::profile,
+                     store::table(std::vector{store::needed("instants", &ProfileRows::instants, store::several(store::not_negative("s")),
+                                                            "the row nearest each is kept"),
+                                              store::needed("from", &ProfileRows::from, store::not_negative("m"), "along string 0"),
+                                              store::needed("to", &ProfileRows::to, store::positive("m"), "along string 0"),
+                                              store::needed("positions", &ProfileRows::positions, store::whole(1, 2000), "between them")},
+                                  +from_below_to),
+                     "describes the measure `profile`");
+}
+
 store::Table profile_rows(const MeasuredCell& m) {
     store::Table t{{"time_s", "position_m", "displacement_m"}, {}};
     const ProfileRows& f = *m.set.figures.profile;
@@ -122,6 +185,16 @@ store::Table profile_rows(const MeasuredCell& m) {
                               short_text(m.trace.column(first + i)[row])});
     }
     return t;
+}
+
+store::Key<FigureFacets> envelope_key() {
+    return table_key("envelope", &FigureFacets::envelope,
+                     store::table(std::vector{taps_key(&EnvelopeRows::taps),
+                                              store::needed("width_hz", &EnvelopeRows::width_hz, store::positive("Hz"),
+                                                            "the largest bin within half of it is the envelope"),
+                                              store::needed("to_hz", &EnvelopeRows::to_hz, store::positive("Hz"), "the last point"),
+                                              store::needed("points", &EnvelopeRows::points, store::whole(1, 100'000), "spaced evenly")}),
+                     "describes the measure `envelope`");
 }
 
 store::Table envelope_rows(const MeasuredCell& m) {
@@ -137,6 +210,16 @@ store::Table envelope_rows(const MeasuredCell& m) {
         }
     }
     return t;
+}
+
+store::Key<FigureFacets> centroid_key() {
+    return table_key("centroid", &FigureFacets::centroid,
+                     store::table(std::vector{
+                         taps_key(&CentroidRows::taps), store::needed("window", &CentroidRows::window, store::positive("s"), "of a frame"),
+                         store::needed("hop", &CentroidRows::hop, store::positive("s"), "from frame to frame"),
+                         store::key("from_hz", &CentroidRows::from_hz, store::not_negative("Hz"), "what is below does not count"),
+                         store::key("to_hz", &CentroidRows::to_hz, store::positive("Hz"), "what is above does not count", "all")}),
+                     "describes the measure `centroid`");
 }
 
 store::Table centroid_rows(const MeasuredCell& m) {

@@ -1,11 +1,5 @@
-// What figures are drawn from, beyond errors and cost: rows that a set of cells asks for, made of each cell's accuracy run (row_facet.hpp).
-//
-//   taps = [{ name = "y_b", quantity = "displacement", string = 0, position = 0.01 }]     beside those of the scene
-//   trace    = { taps = ["y_b"], windows = [[0.05, 0.07]] }                every row of each window [s]
-//   extent   = { taps = ["nut"], intervals = 400 }                         smallest and largest in each of equal parts of the run
-//   profile  = { instants = [0.049], from = 0, to = 1, positions = 101 }   displacement along string 0 at the row nearest each instant
-//   envelope = { taps = ["nut"], width_hz = 200, to_hz = 2e4, points = 200 }     upper envelope of the run's spectrum (Hann)
-//   centroid = { taps = ["nut"], window = 0.02, hop = 0.01, from_hz = 500, to_hz = 8e3 }     of the power between them, frame by frame
+// What figures are drawn from, beyond errors and cost: rows that a set of cells asks for, made of each cell's accuracy run (facet.hpp).
+// Each kind of rows has a table of the set, whose keys figure_facets.cpp declares beside what it makes of them.
 //
 // A tap "energy" is the energy stored; "bridge_pressure" and "nut_pressure" are what the scene's body makes of the driving force of all
 // strings, and of their force on the nut (bench/sound/radiation.hpp). Values carry eight digits: they are for drawing and for findings, not
@@ -18,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/store/keys.hpp"
 #include "scenes/scene.hpp"
 
 namespace jvari::bench::suite {
@@ -54,6 +49,13 @@ struct FigureFacets {
     std::optional<CentroidRows> centroid;
     std::string identity;  // all of it as text: what makes a cell another cell
 };
+
+store::Key<FigureFacets> figure_taps_key();  // beside those of the scene
+store::Key<FigureFacets> trace_key();
+store::Key<FigureFacets> extent_key();
+store::Key<FigureFacets> profile_key();
+store::Key<FigureFacets> envelope_key();
+store::Key<FigureFacets> centroid_key();
 
 // The scene with the taps that the set asks for; those of a profile come last. Throws BadScene, and UsageError for a tap that is not there.
 Scene with_figure_taps(Scene, const FigureFacets&);

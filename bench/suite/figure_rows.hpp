@@ -1,7 +1,7 @@
 // The row facets that figures are drawn from; figure_facets.hpp says what each holds.
 #pragma once
 
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
 

@@ -1,7 +1,7 @@
 // The row facet `sound` of a suite: a cell's samples and its reference's lie in its record, and become sounds/*.wav and sounds.csv.
 #pragma once
 
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
 

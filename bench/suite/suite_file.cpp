@@ -1,16 +1,14 @@
-// Reads by scenes/document.hpp, the one reader of TOML there is, so that messages carry file, line and key as those of scenes do.
+// Reads by scenes/document.hpp, the one reader of TOML there is, and by declared keys (store/keys.hpp).
 #include "bench/suite/suite_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "bench/map/map_file.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/table_reader.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/suite/facet.hpp"
 #include "scenes/installed.hpp"
 
 namespace jvari::bench::suite {
@@ -18,82 +16,100 @@ namespace jvari::bench::suite {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr std::array facet_names = {"errors", "cost",   "spectrogram", "sound",    "dispersion", "ensemble",
-                                    "trace",  "extent", "profile",     "envelope", "centroid"};
-constexpr std::array all_facets = {Facet::errors, Facet::cost,   Facet::spectrogram, Facet::sound,    Facet::dispersion, Facet::ensemble,
-                                   Facet::trace,  Facet::extent, Facet::profile,     Facet::envelope, Facet::centroid};
-static_assert(facet_names.size() == all_facets.size());
+using store::key;
+using store::needed;
 
-CellSet set_of(const store::SuiteReader& read, const Value& v, const std::string& within) {
-    read.table(v, within);
-    read.only(v, within + ": ", {"scenes",          "schemes", "rates",   "modes",    "duration", "tap_rate", "repeats",      "reference",
-                                 "reference_modes", "options", "sweep",   "measure",  "tap",      "elements", "time_limit_s", "taps",
-                                 "trace",           "extent",  "profile", "envelope", "centroid"});
-    const auto text = [&read](const Value& x, const std::string& k) { return read.text(x, k); };
-    const auto number = [&read](const Value& x, const std::string& k) { return read.positive(x, k); };
-    const auto count = [&read](const Value& x, const std::string& k) { return read.count(x, k); };
-    const auto key = [&within](const char* name) { return within + "." + name; };
-    CellSet s;
-    s.modes = {0};
-    s.measure = {Facet::errors};
-    if (!v.find("scenes")) throw SceneFileError(read.place(v) + ": " + within + ": the key scenes is missing");
-    s.scenes = read.several(*v.find("scenes"), key("scenes"), text);
-    if (const Value* x = v.find("schemes")) s.schemes = read.several(*x, key("schemes"), text);
-    if (const Value* x = v.find("rates")) s.rates = read.several(*x, key("rates"), number);
-    if (const Value* x = v.find("modes")) s.modes = read.several(*x, key("modes"), count);
-    if (const Value* x = v.find("duration")) s.duration = number(*x, key("duration"));
-    if (const Value* x = v.find("tap_rate")) s.tap_rate = number(*x, key("tap_rate"));
-    if (const Value* x = v.find("repeats")) s.repeats = count(*x, key("repeats"));
-    if (const Value* x = v.find("reference")) s.reference = text(*x, key("reference"));
-    if (s.modes.size() > 1) s.reference_modes = 0;  // a truth that shrank with the cells would call the fewest modes the best
-    if (const Value* x = v.find("reference_modes")) {
-        const auto* word = std::get_if<std::string>(&x->content);
-        if (word && *word != "cell") read.refuse(*x, key("reference_modes"), "a whole number, 0 or more, or \"cell\"");
-        if (word) s.reference_modes.reset();
-        else s.reference_modes = read.none_or(*x, key("reference_modes"));
+// ---- A set of cells
+
+store::Kind<std::optional<int>> reference_modes() {
+    const char* says = "a whole number, 0 or more, or \"cell\"";
+    return {says, [says](const store::Entry& e) -> std::optional<int> {
+                if (e.is_text() && e.text() == "cell") return {};
+                const auto n = e.whole();
+                if (!n || *n < 0 || *n >= 10'000'000) e.refuse(says);
+                return static_cast<int>(*n);
+            }};
+}
+
+VariedOption varied(const std::string& name, const store::Entry& e) {
+    const auto colon = name.find(':');
+    VariedOption o{colon == std::string::npos ? "" : name.substr(0, colon), colon == std::string::npos ? name : name.substr(colon + 1), {}};
+    for (const store::Entry& one : e.items()) o.values.push_back(one.option_text());
+    return o;
+}
+
+SweptKey swept(const std::string& name, const store::Entry& e) {
+    if (!e.is_array()) e.refuse("an array of the values to vary");
+    SweptKey k{name, {}};
+    for (const store::Entry& one : e.items()) k.values.push_back(one.toml());
+    return k;
+}
+
+std::vector<std::string> names_of_facets() {
+    std::vector<std::string> all;
+    for (const Facet& f : facets()) all.emplace_back(f.name);
+    return all;
+}
+
+store::Kind<compare::Element> element() {
+    std::vector<std::pair<std::string, compare::Element>> words;
+    for (const compare::Element e : compare::elements()) words.emplace_back(compare::name_of(e), e);
+    return store::one_of("element", std::move(words));
+}
+
+std::vector<store::Key<CellSet>> set_keys() {
+    using Set = CellSet;
+    std::vector<store::Key<Set>> keys{
+        needed("scenes", &Set::scenes, store::several(store::text()),
+               "files, beside the suite or where the program runs, or names of the library"),
+        key("schemes", &Set::schemes, store::several(store::text()), "what is compared", "all that represent the scene"),
+        key("rates", &Set::rates, store::several(store::positive("Hz")), "at which each runs", "44100 x 1, 2, 4 ... 64"),
+        key("modes", &Set::modes, store::several(store::count()), "of each string", "as compare"),
+        key("duration", &Set::duration, store::positive("s"), "of each run", "the scene's"),
+        key("tap_rate", &Set::tap_rate, store::positive("Hz"), "of the rows that are compared", "as compare"),
+        key("repeats", &Set::repeats, store::count(), "timed runs"),
+        key("reference", &Set::reference, store::text(), "what errors are against", "the highest that represents the scene"),
+        key("reference_modes", &Set::reference_modes, reference_modes(), "0: doubled until nothing moves; \"cell\": those of the cell",
+            "\"cell\"; 0 where several modes are listed"),
+        key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap", "the scene's first"),
+        key("time_limit_s", &Set::time_limit, store::positive("s"),
+            "processor time of a cell's accuracy run, and of each of its reference's two", "none"),
+        key("options", &Set::options, store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),
+            "one value, or several to vary"),
+        key("sweep", &Set::sweep, store::by_name<SweptKey>("a table: key = [values]", swept),
+            "any key of the scene, with the values to vary"),
+        key("measure", &Set::measure, store::several(store::word("measure", names_of_facets())), "what is measured", measured::errors),
+        key("elements", &Set::elements, store::several(element()), "beside the scene, the scene without each of these", "none"),
+        store::inside(&Set::figures, figure_taps_key())};
+    for (const Facet& f : facets())
+        if (f.described) keys.push_back(store::inside(&Set::figures, f.described()));
+    return keys;
+}
+
+void hold_together(CellSet& s, const store::Entry& e) {
+    if (s.modes.size() > 1 && !e.at("reference_modes"))
+        s.reference_modes = 0;  // a truth that shrank with the cells would call the fewest best
+    if (s.measures(measured::cost) && !s.measures(measured::errors))
+        e.need("measure").fail("found cost without errors, expected both: no speed without an error");
+    if (!s.elements.empty() && !s.measures(measured::cost))
+        e.need("elements").fail("measure does not ask for cost, which elements are compared by");
+    for (const Facet& f : facets()) {
+        if (!f.described) continue;
+        const auto table = e.at(f.name);
+        if (s.measures(f.name) && !table) e.fail(std::string("measure asks for ") + f.name + ", the table " + f.name + " is missing");
+        if (table && !s.measures(f.name)) table->refuse(std::string("\"") + f.name + "\" in measure beside it");
     }
-    if (const Value* x = v.find("tap")) s.tap = text(*x, key("tap"));
-    if (const Value* x = v.find("time_limit_s")) s.time_limit = number(*x, key("time_limit_s"));
-    if (const Value* x = v.find("options"))
-        for (const Member& m : read.table(*x, key("options"))) {
-            const auto colon = m.key.find(':');
-            VariedOption o{
-                colon == std::string::npos ? "" : m.key.substr(0, colon), colon == std::string::npos ? m.key : m.key.substr(colon + 1), {}};
-            o.values = read.several(m.value, key("options.") + m.key,
-                                    [&read](const Value& one, const std::string& k) { return read.option_text(one, k); });
-            s.options.push_back(std::move(o));
-        }
-    if (const Value* x = v.find("sweep"))
-        for (const Member& m : read.table(*x, key("sweep"))) {
-            const std::string name = key("sweep.") + m.key;
-            if (!std::holds_alternative<Array>(m.value.content)) read.refuse(m.value, name, "an array of the values to vary");
-            s.sweep.push_back(
-                {m.key, read.several(m.value, name, [&read](const Value& one, const std::string& k) { return read.toml(one, k); })});
-        }
-    const auto word_of = [&read](const char* what, auto all) {  // one of a list of values that have names
-        return [&read, what, all](const Value& one, const std::string& k) {
-            const std::string word = read.text(one, k);
-            std::vector<std::string> known;
-            for (const auto value : all) {
-                if (word == name_of(value)) return value;
-                known.emplace_back(name_of(value));
-            }
-            throw SceneFileError(read.place(one) + ": " + k + ": " + store::unknown(what, word, known));
-        };
-    };
-    if (const Value* x = v.find("measure")) {
-        s.measure = read.several(*x, key("measure"), word_of("measure", facets()));
-        if (s.measures(Facet::cost) && !s.measures(Facet::errors))
-            throw SceneFileError(read.place(*x) + ": " + key("measure") +
-                                 ": found cost without errors, expected both: no speed without an error");
-    }
-    if (const Value* x = v.find("elements")) {
-        s.elements = read.several(*x, key("elements"), word_of("element", compare::elements()));
-        if (!s.measures(Facet::cost))
-            throw SceneFileError(read.place(*x) + ": " + key("elements") +
-                                 ": measure does not ask for cost, which elements are compared by");
-    }
-    return s;
+}
+
+// ---- A suite
+
+std::vector<store::Key<Suite>> keys_of_suite() {
+    return {key("name", &Suite::name, store::text(), "what it is called", "the file's"),
+            key("source", &Suite::source, store::text(), "what it follows", "none"),
+            key("map", &Suite::maps, map::maps(), "maps of what becomes of each scheme"),
+            key("figure", &Suite::figures, figures(), "pictures of what was measured"),
+            key("cells", &Suite::sets, store::tables("cells", store::table(set_keys(), hold_together)),
+                "sets of cells: each the product of what it lists")};
 }
 
 fs::path library() {
@@ -104,37 +120,28 @@ fs::path library() {
 }
 }  // namespace
 
-std::span<const Facet> facets() {
-    return all_facets;
+bool CellSet::measures(std::string_view facet) const {
+    return std::find(measure.begin(), measure.end(), facet) != measure.end();
 }
 
-const char* name_of(Facet f) {
-    return facet_names[static_cast<std::size_t>(f)];
-}
-
-bool CellSet::measures(Facet f) const {
-    return std::find(measure.begin(), measure.end(), f) != measure.end();
+std::vector<TableWords> suite_keys() {
+    std::vector<TableWords> all(1);
+    for (store::KeyWords& k : store::words_of(keys_of_suite())) {
+        if (!k.below.empty()) all.push_back({k.name, std::exchange(k.below, {})});
+        all.front().keys.push_back(std::move(k));
+    }
+    return all;
 }
 
 Suite parse_suite(std::string_view content, const std::string& file_name) {
+    static const auto keys = keys_of_suite();
     const Document document = parse_document(content, file_name, {});
-    const store::SuiteReader read(document);
-    read.only(document.root, "", {"name", "source", "cells", "figure", "map"});
+    const store::Entry root(document, document.root, "");
     Suite suite;
     suite.name = fs::path(file_name).stem().string();
-    if (const Value* x = document.root.find("name")) suite.name = read.text(*x, "name");
-    if (const Value* x = document.root.find("source")) suite.source = read.text(*x, "source");
-    suite.maps = map::maps_of(read, document.root);
-    suite.figures = figures_of(read, document.root);
-    const Value* cells = document.root.find("cells");
-    if (!cells && !suite.maps.empty()) return suite;
-    const auto* sets = cells ? std::get_if<Array>(&cells->content) : nullptr;
-    if (!sets || sets->empty())
-        throw SceneFileError(read.place(cells ? *cells : document.root) + ": cells: expected at least one [[cells]]");
-    for (std::size_t i = 0; i < sets->size(); ++i) {
-        suite.sets.push_back(set_of(read, (*sets)[i], "cells." + std::to_string(i)));
-        suite.sets.back().figures = figure_facets_of(read, (*sets)[i], "cells." + std::to_string(i));
-    }
+    store::read_keys(root, keys, suite);
+    if (suite.sets.empty() && (suite.maps.empty() || root.at("cells")))
+        root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") + "expected at least one [[cells]]");
     return suite;
 }
 

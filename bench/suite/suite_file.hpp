@@ -1,24 +1,8 @@
-// Suite files: TOML that declares what to compare. bench/suites/README.md says the keys for writers of suites.
-//
-//   name = "paper-deshmukh"            source = "figs 16-27"          (absent: "")
-//   [[cells]]                          one table per set; its cells are the product of what it lists
-//   scenes = ["sitar_c5"]              schemes = ["sitar_fdm"]        (absent: every scheme that represents the scene)
-//   rates = [44100]                    modes = 40 or [20, 40]         (absent: as compare)
-//   duration = 0.5      tap_rate = 44100      repeats = 5             [s], [Hz], timed runs
-//   reference = "exact_contact"                                       (absent: the highest that represents the scene)
-//   reference_modes = 0    (0: doubled until nothing moves, also absent where modes vary; "cell": those of the cell, else absent)
-//   options = { "modal_controls:control" = ["a", "b"], name = "x" }   [SCHEME:]NAME, one value or several to vary
-//   sweep = { "string.0.barrier.0.stiffness" = [1e6, 1e8] }           any scene key, each with the values to vary
-//   measure = ["errors", "cost", "spectrogram", "sound", "dispersion", "ensemble"]   cost goes with errors alone: no speed without an error
-//   tap = "y03"                        of the spectrogram             (absent: the scene's first)
-//   elements = ["thread", "probe"]     also without each of these    (absent: none), elements.hpp
-//   time_limit_s = 60                  of one accuracy run            (absent: none)
-//   taps, trace, extent, profile, envelope, centroid                  figure_facets.hpp
-//   [[figure]]                                                        figure_file.hpp
+// Suite files: TOML that declares what to compare. suite_file.cpp declares their keys, facet.hpp what can be measured; `jvari list keys`
+// and bench/suites/README.md show them.
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,25 +11,14 @@
 #include "bench/compare/elements.hpp"
 #include "bench/compare/request.hpp"
 #include "bench/map/map_file.hpp"
+#include "bench/suite/figure_facets.hpp"
 #include "bench/suite/figure_file.hpp"
 
 namespace jvari::bench::suite {
 
-enum class Facet {
-    errors,
-    cost,
-    spectrogram,
-    sound,
-    dispersion,
-    ensemble,
-    trace,
-    extent,
-    profile,
-    envelope,
-    centroid
-};  // what is measured of a cell
-std::span<const Facet> facets();
-const char* name_of(Facet);
+namespace measured {  // facets that more than their own file knows
+inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram", *ensemble = "ensemble";
+}
 
 struct SweptKey {
     std::string key;                  // of a scene: "string.0.tension"
@@ -59,18 +32,18 @@ struct VariedOption {
 struct CellSet {
     std::vector<std::string> scenes, schemes;
     std::vector<double> rates;  // [Hz]
-    std::vector<int> modes;     // {0}: as compare
+    std::vector<int> modes{0};  // 0: as compare
     std::optional<double> duration, tap_rate;
     std::optional<int> reference_modes;
     int repeats = 5;
     std::string reference, tap;
     std::vector<VariedOption> options;
     std::vector<SweptKey> sweep;
-    std::vector<Facet> measure;
+    std::vector<std::string> measure{measured::errors};  // names of facets
     std::vector<compare::Element> elements;
     std::optional<double> time_limit;  // [s]
     FigureFacets figures;
-    bool measures(Facet) const;
+    bool measures(std::string_view facet) const;
 };
 
 struct Suite {
@@ -83,6 +56,13 @@ struct Suite {
 // A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12: cells.0.raets: unknown key; did you mean rates?".
 Suite read_suite(const std::string& file_or_library_name);
 Suite parse_suite(std::string_view text, const std::string& file_name);
+
+// The keys of a suite file, of each of its tables: "", "cells", "map", "figure".
+struct TableWords {
+    std::string table;
+    std::vector<store::KeyWords> keys;
+};
+std::vector<TableWords> suite_keys();
 
 // Names of the suites in the library, sorted: the directory $JVARI_SUITES, else that of the sources, else the installed one.
 std::vector<std::string> library_suites();

@@ -12,7 +12,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/records.hpp"
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 #include "bench/trust/certificate_library.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -56,7 +56,7 @@ compare::Plan planned(const SuitePoint& point, const compare::Catalogue& catalog
 }
 
 bool makes_rows(const CellSet& set) {
-    return std::ranges::any_of(row_facets(), [&set](const RowFacet& f) { return set.measures(f.facet); });
+    return std::ranges::any_of(facets(), [&set](const Facet& f) { return f.rows && set.measures(f.name); });
 }
 }  // namespace
 
@@ -87,8 +87,8 @@ SuitePlan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const
             for (Json& r : modeless) r["settings"].erase("modes");
             p.truth_key = std::to_string(p.truth_modes) + hash + modeless.dump() + limit;
         }
-        for (const Facet f : facets())
-            if (point.set->measures(f)) measure.push_back(name_of(f));
+        for (const Facet& f : facets())
+            if (point.set->measures(f.name)) measure.push_back(f.name);
         for (const compare::Cell& cell : plan.cells) {
             Json identity{{"program", program},
                           {"scene", p.scene.name},
@@ -96,12 +96,12 @@ SuitePlan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const
                           {"scheme", cell.scheme->name},
                           {"settings", settings_json(cell.settings)},
                           {"measure", measure}};
-            if (point.set->measures(Facet::errors)) {
+            if (point.set->measures(measured::errors)) {
                 identity["references"] = references;
                 if (point.request.reference_modes) identity["reference_modes"] = *point.request.reference_modes;
             }
-            if (point.set->measures(Facet::cost)) identity["repeats"] = point.set->repeats;
-            if (point.set->measures(Facet::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
+            if (point.set->measures(measured::cost)) identity["repeats"] = point.set->repeats;
+            if (point.set->measures(measured::spectrogram) || makes_rows(*point.set)) identity["tap"] = p.scene.taps.at(p.tap).name;
             if (!point.set->figures.identity.empty()) identity["figures"] = point.set->figures.identity;
             if (p.element && compare::is_added(*p.element)) identity[compare::name_of(*p.element)] = true;
             if (point.set->time_limit) identity["time_limit_s"] = *point.set->time_limit;

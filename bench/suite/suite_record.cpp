@@ -77,7 +77,7 @@ std::string json_of(const SuiteRecord& r, const std::string& identity) {
     const Levels& l = r.levels;
     j["levels"] = {{"frames", l.frames}, {"rows", l.rows},     {"start", l.start},
                    {"hop", l.hop},       {"row_hz", l.row_hz}, {"tenths_of_db", l.level}};
-    for (const auto& [facet, table] : r.rows) j["rows"][name_of(facet)] = {{"columns", table.columns}, {"rows", table.rows}};
+    for (const auto& [facet, table] : r.rows) j["rows"][facet] = {{"columns", table.columns}, {"rows", table.rows}};
     return store::sealed(j.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -103,9 +103,7 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path& path, const 
         r.levels = {store::whole<int>(l.at("frames")), store::whole<int>(l.at("rows")), l.at("start"), l.at("hop"), l.at("row_hz"), {}};
         for (const Json& tenths : l.at("tenths_of_db")) r.levels.level.push_back(store::whole<int>(tenths));
         if (j.contains("rows"))
-            for (const Facet facet : facets())
-                if (const auto kept = j["rows"].find(name_of(facet)); kept != j["rows"].end())
-                    r.rows[facet] = {kept->at("columns"), kept->at("rows")};
+            for (const auto& [facet, kept] : j["rows"].items()) r.rows[facet] = {kept.at("columns"), kept.at("rows")};
         if (r.levels.frames < 0 || r.levels.rows < 0) return std::nullopt;
         if (r.levels.level.size() != static_cast<std::size_t>(r.levels.frames) * r.levels.rows) return std::nullopt;
         for (const auto& [facet, table] : r.rows)
@@ -150,7 +148,7 @@ store::Table table_of(const SuitePlan& plan, const std::vector<SuiteRecord>& rec
     return t;
 }
 
-store::Table rows_of(Facet facet, const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
+store::Table rows_of(const std::string& facet, const SuitePlan& plan, const std::vector<SuiteRecord>& records) {
     const store::Table cells = table_of(plan, records);
     std::vector<std::string> names(cells.columns.begin(), cells.columns.begin() + cells.column("options") + 1);
     names.insert(names.end(), {"rate", "modes"});

@@ -22,9 +22,9 @@ struct SuiteRecord {
     bool timed = false;                // its row has a clock's figures: they are kept apart from it (suite_clock.hpp)
     double duration = 0, seconds = 0;  // simulated, and wall time of the accuracy run [s]
     long steps = 0;
-    Levels levels;                       // of the spectrogram; none where it was not asked for
-    std::map<Facet, store::Table> rows;  // of each row facet that was asked for
-    store::Stamp stamp;                  // of the machine that ran it
+    Levels levels;                             // of the spectrogram; none where it was not asked for
+    std::map<std::string, store::Table> rows;  // of each facet that makes rows and was asked for
+    store::Stamp stamp;                        // of the machine that ran it
     bool known() const { return !row.rows.empty(); }
 };
 
@@ -45,6 +45,6 @@ std::optional<SuiteRecord> read_record(const std::filesystem::path&, const std::
 store::Table table_of(const SuitePlan&, const std::vector<SuiteRecord>&);
 
 // The rows of one facet over all cells, each behind what names its cell: cell, scene, swept keys, scheme, options, rate, modes.
-store::Table rows_of(Facet, const SuitePlan&, const std::vector<SuiteRecord>&);
+store::Table rows_of(const std::string& facet, const SuitePlan&, const std::vector<SuiteRecord>&);
 
 }  // namespace jvari::bench::suite

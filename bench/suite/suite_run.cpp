@@ -15,7 +15,7 @@
 #include "bench/compare/truth.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/side_by_side.hpp"
-#include "bench/suite/row_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
 
@@ -50,7 +50,7 @@ public:
     Accuracy(const SuitePlan& plan, std::vector<std::size_t> missing, std::filesystem::path folder, SuiteRun& into)
         : plan_(plan), todo_(std::move(missing)), folder_(std::move(folder)), into_(into) {
         for (const std::size_t i : todo_)
-            if (plan_.cells[i].set->measures(Facet::errors)) {
+            if (plan_.cells[i].set->measures(measured::errors)) {
                 for (const std::string& key : {plan_.cells[i].point->reference_key, plan_.cells[i].point->truth_key}) {
                     if (key.empty()) continue;
                     auto& known = known_[key];
@@ -81,7 +81,7 @@ private:
         const PlannedPoint& point = *planned.point;
         const store::PartOf part(fraction);
         Known *model = nullptr, *truth = nullptr;
-        if (planned.set->measures(Facet::errors)) {
+        if (planned.set->measures(measured::errors)) {
             model = truth = known_.at(point.reference_key).get();
             model->make([&] { return compare::Truth{compare::run_reference(point.references, point.scene, 1, part, limit), {}}; });
         }
@@ -118,12 +118,12 @@ private:
         SuiteRecord record = record_of(planned, cell, against);
         if (!status.empty()) record.row.rows[0][record.row.column("status")] = status;
         if (known) record.reference = truth->reference()->choice.name();
-        if (planned.set->measures(Facet::spectrogram) && !cell.refused)
+        if (planned.set->measures(measured::spectrogram) && !cell.refused)
             record.levels = levels_of(trace.column(planned.point->tap), trace.tap_rate);
-        for (const RowFacet& f : row_facets())
-            if (planned.set->measures(f.facet) && !cell.refused)
-                record.rows[f.facet] = f.rows({planned.point->scene, *cell.scheme, cell.settings, trace, known ? truth->trace() : nullptr,
-                                               planned.point->tap, *planned.set});
+        for (const Facet& f : facets())
+            if (planned.set->measures(f.name) && f.rows && !cell.refused)
+                record.rows[f.name] = f.rows({planned.point->scene, *cell.scheme, cell.settings, trace, known ? truth->trace() : nullptr,
+                                              planned.point->tap, *planned.set});
         if (truth && truth != model) truth->release();
         if (model) model->release();
         return record;
@@ -209,7 +209,7 @@ SuiteWork all_of(const SuitePlan& plan) {
     SuiteWork work;
     for (std::size_t i = 0; i < plan.cells.size(); ++i) work.cells.push_back(i);
     for (const store::Rows& set : sets_of(plan))
-        if (plan.cells[set.front()].set->measures(Facet::cost)) work.clocks.push_back(set);
+        if (plan.cells[set.front()].set->measures(measured::cost)) work.clocks.push_back(set);
     return work;
 }
 
@@ -286,7 +286,7 @@ void keep_references_in(SuitePlan& plan, const std::filesystem::path& folder) {
 int make_references(const SuitePlan& plan, int jobs, const store::Listener& listener) {
     std::map<std::string, std::function<void(const store::Listener&)>> all;  // by their keys
     for (const PlannedCell& c : plan.cells) {
-        if (!c.set->measures(Facet::errors) || !c.point->references.front().kept) continue;
+        if (!c.set->measures(measured::errors) || !c.point->references.front().kept) continue;
         const PlannedPoint& p = *c.point;
         const double limit = c.set->time_limit.value_or(HUGE_VAL);
         all[p.reference_key] = [&p, limit](const store::Listener& part) { compare::run_reference(p.references, p.scene, 1, part, limit); };

@@ -1,0 +1,81 @@
+#include "bench/store/keys.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace jvari::bench::store {
+
+namespace {
+Kind<double> number_that(const char* says, const char* unit, bool (*holds)(double)) {
+    const std::string expected = says + (*unit ? " [" + std::string(unit) + "]" : "");
+    return {expected, [expected, holds](const Entry& e) {
+                const auto x = e.number();
+                if (!x || !std::isfinite(*x) || !holds(*x)) e.refuse(expected);
+                return *x;
+            }};
+}
+
+Kind<int> whole_that(std::string says, int least, int most) {
+    return {says, [says, least, most](const Entry& e) {
+                const auto n = e.whole();
+                if (!n || *n < least || *n > most) e.refuse(says);
+                return static_cast<int>(*n);
+            }};
+}
+}  // namespace
+
+Kind<std::string> text() {
+    return {"a text", [](const Entry& e) { return e.text(); }};
+}
+
+Kind<std::string> name_of_file() {
+    const char* says = "lower-case letters, digits, _ and -, for it names a file";
+    return {says, [says](const Entry& e) {
+                std::string name = e.text();
+                if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") != std::string::npos) e.refuse(says);
+                return name;
+            }};
+}
+
+Kind<double> number(const char* unit) {
+    return number_that("a number", unit, [](double) { return true; });
+}
+
+Kind<double> positive(const char* unit) {
+    return number_that("a number > 0", unit, [](double x) { return x > 0; });
+}
+
+Kind<double> not_negative(const char* unit) {
+    return number_that("a number >= 0", unit, [](double x) { return x >= 0; });
+}
+
+Kind<int> whole(int least, int most) {
+    return whole_that("a whole number from " + std::to_string(least) + " to " + std::to_string(most), least, most);
+}
+
+Kind<int> count() {
+    return whole_that("a whole number > 0", 1, 9'999'999);
+}
+
+Kind<bool> yes_or_no() {
+    return {"true or false", [](const Entry& e) { return e.truth(); }};
+}
+
+Kind<std::array<double, 2>> from_to(Kind<double> one) {
+    return {"[from, to], each " + one.says, [read = one.read](const Entry& e) {
+                if (!e.is_array()) e.refuse("two numbers, [from, to]");
+                const auto both = e.items();
+                if (both.size() != 2) e.refuse("two numbers, [from, to]");
+                const std::array<double, 2> r{read(both[0]), read(both[1])};
+                if (!(r[0] < r[1])) e.refuse("[from, to] with from < to");
+                return r;
+            }};
+}
+
+Kind<std::string> word(const char* what, const std::vector<std::string>& known) {
+    std::vector<std::pair<std::string, std::string>> words;
+    for (const std::string& w : known) words.emplace_back(w, w);
+    return one_of(what, std::move(words));
+}
+
+}  // namespace jvari::bench::store

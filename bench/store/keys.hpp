@@ -1,0 +1,163 @@
+// What the tables of a suite file may say. Each key is declared once, by its kind of value, what holds where it is absent, and its meaning:
+// from there it is read, refused with file and line, listed by `jvari list keys`, and documented.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/store/entry.hpp"
+#include "bench/store/usage.hpp"
+#include "scenes/wording.hpp"
+
+namespace jvari::bench::store {
+
+struct KeyWords {
+    std::string name, value, absent, meaning;  // absent: "" where there is nothing then
+    bool needed = false;
+    std::vector<KeyWords> below = {};  // of a table
+};
+
+template <class T>
+struct Kind {          // of value
+    std::string says;  // what a refusal expects and a list names
+    std::function<T(const Entry&)> read;
+    std::vector<KeyWords> below = {};
+};
+Kind<std::string> text();
+Kind<std::string> name_of_file();            // lower-case letters, digits, _ and -
+Kind<double> number(const char* unit = "");  // finite, as all numbers here
+Kind<double> positive(const char* unit = "");
+Kind<double> not_negative(const char* unit = "");
+Kind<int> whole(int least, int most);
+Kind<int> count();  // 1 ... 9999999
+Kind<bool> yes_or_no();
+Kind<std::array<double, 2>> from_to(Kind<double>);
+
+template <class T>
+Kind<std::vector<T>> several(Kind<T> one) {
+    return {one.says + " or several",
+            [read = one.read](const Entry& e) {
+                std::vector<T> all;
+                for (const Entry& item : e.items()) all.push_back(read(item));
+                return all;
+            },
+            one.below};
+}
+
+template <class T>
+Kind<T> one_of(const char* what, std::vector<std::pair<std::string, T>> words) {
+    std::vector<std::string> known;
+    std::string says;
+    for (const auto& [word, value] : words) {
+        known.push_back(word);
+        says += (says.empty() ? "" : ", ") + word;
+    }
+    return {says, [what, words, known](const Entry& e) {
+                const std::string found = e.text();
+                for (const auto& [word, value] : words)
+                    if (word == found) return value;
+                e.fail(unknown(what, found, known));
+            }};
+}
+Kind<std::string> word(const char* what, const std::vector<std::string>& known);
+
+// Whatever a table holds under keys of the writer's own, each read by `one`.
+template <class T>
+Kind<std::vector<T>> by_name(std::string says, std::function<T(const std::string& name, const Entry&)> one) {
+    return {std::move(says), [one](const Entry& e) {
+                std::vector<T> all;
+                for (const auto& [name, value] : e.members()) all.push_back(one(name, value));
+                return all;
+            }};
+}
+
+template <class Part>
+struct Key {
+    KeyWords words;
+    std::function<void(Part&, const Entry&)> read;
+};
+
+namespace detail {
+template <class T>
+std::string default_text(const T& x) {
+    if constexpr (std::same_as<T, bool>) return x ? "true" : "false";
+    else if constexpr (std::is_arithmetic_v<T>) return number_text(x);
+    else return "";
+}
+template <class Part, class Member, class T>
+Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning, std::string absent, bool needed) {
+    return {{name, kind.says, std::move(absent), meaning, needed, kind.below},
+            [member, read = kind.read](Part& part, const Entry& e) { part.*member = read(e); }};
+}
+}  // namespace detail
+
+template <class Part, class Member, class T>
+Key<Part> needed(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning) {
+    return detail::key(name, member, kind, meaning, "", true);
+}
+template <class Part, class Member, class T>
+Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning) {  // absent: as a Part begins
+    return detail::key(name, member, kind, meaning, detail::default_text(Part{}.*member), false);
+}
+template <class Part, class Member, class T>
+Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning, const char* absent) {
+    return detail::key(name, member, kind, meaning, absent, false);
+}
+template <class Part, class Whole>
+Key<Whole> inside(Part Whole::*member, const Key<Part>& k) {  // a key of a part that has no table of its own
+    return {k.words, [member, read = k.read](Whole& whole, const Entry& e) { read(whole.*member, e); }};
+}
+
+template <class Part>
+std::vector<KeyWords> words_of(const std::vector<Key<Part>>& keys) {
+    std::vector<KeyWords> all;
+    for (const Key<Part>& k : keys) all.push_back(k.words);
+    return all;
+}
+
+template <class Part>
+void read_keys(const Entry& e, const std::vector<Key<Part>>& keys, Part& part) {
+    std::vector<std::string> names;
+    for (const Key<Part>& k : keys) names.push_back(k.words.name);
+    e.only(names);
+    for (const Key<Part>& k : keys)
+        if (k.words.needed) k.read(part, e.need(k.words.name));
+        else if (const auto v = e.at(k.words.name)) k.read(part, *v);
+}
+
+// A table with these keys; `check` is what no key can tell alone.
+template <class Part>
+Kind<Part> table(std::vector<Key<Part>> keys, void (*check)(Part&, const Entry&) = nullptr) {
+    std::vector<KeyWords> words = words_of(keys);
+    return {"a table",
+            [keys = std::move(keys), check](const Entry& e) {
+                Part part;
+                read_keys(e, keys, part);
+                if (check) check(part, e);
+                return part;
+            },
+            std::move(words)};
+}
+
+// [[name]] tables. No two may have one name.
+template <class Part>
+Kind<std::vector<Part>> tables(const std::string& name, Kind<Part> one) {
+    return {"[[" + name + "]] tables",
+            [name, read = one.read](const Entry& e) {
+                std::vector<Part> all;
+                for (const Entry& item : e.tables("[[" + name + "]] tables")) {
+                    all.push_back(read(item));
+                    if constexpr (requires(Part p) { p.name; })
+                        for (std::size_t k = 0; k + 1 < all.size(); ++k)
+                            if (all[k].name == all.back().name) item.need("name").refuse("a name of its own");
+                }
+                return all;
+            },
+            one.below};
+}
+
+}  // namespace jvari::bench::store

@@ -1,0 +1,27 @@
+#include "bench/suite/facet.hpp"
+
+#include "bench/suite/dispersion_facet.hpp"
+#include "bench/suite/ensemble_facet.hpp"
+#include "bench/suite/figure_rows.hpp"
+#include "bench/suite/sound_facet.hpp"
+
+namespace jvari::bench::suite {
+
+std::span<const Facet> facets() {
+    static constexpr Facet all[] = {
+        {measured::errors, "against the reference"},
+        {measured::cost, "by the clock; with errors alone: no speed without an error"},
+        {measured::spectrogram, "of the tap"},
+        {"sound", "of cell and reference, to be heard", sound_rows, write_sound_rows},
+        {"dispersion", "pitch and decay of each mode", dispersion_rows},
+        {measured::ensemble, "is the cell statistically its reference?", ensemble_rows},
+        {"trace", "every row of a tap in windows", trace_rows, nullptr, trace_key},
+        {"extent", "smallest and largest value of a tap in parts of the run", extent_rows, nullptr, extent_key},
+        {"profile", "displacement along the string at instants", profile_rows, nullptr, profile_key},
+        {"envelope", "upper envelope of a tap's spectrum over the run (Hann)", envelope_rows, nullptr, envelope_key},
+        {"centroid", "of a tap's power spectrum, frame by frame", centroid_rows, nullptr, centroid_key},
+    };
+    return all;
+}
+
+}  // namespace jvari::bench::suite
