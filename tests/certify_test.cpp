@@ -81,9 +81,19 @@ TEST(CertificateFile, HasAKeyOfAllThatItDependsOnAndAHashOfTheSceneWhateverItsDu
     EXPECT_TRUE(differs(tighter, settings));
     EXPECT_NE(bench::trust::timeless_hash(tighter), bench::trust::timeless_hash(scene));
     EXPECT_EQ(bench::trust::timeless_hash(short_scene("free_string", 6e-3)), kept.scene_hash);
+    bench::store::Machine other = bench::store::machine();
+    EXPECT_EQ(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(other)).key, kept.key);
+    other.commit = other.version = "another";  // a word of the documentation, say
+    EXPECT_EQ(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(other)).key, kept.key);
+    for (std::string bench::store::Machine::*what : {&bench::store::Machine::run_sources, &bench::store::Machine::compiler,
+                                                     &bench::store::Machine::flags, &bench::store::Machine::vectors}) {
+        bench::store::Machine changed = bench::store::machine();
+        changed.*what += "x";
+        EXPECT_NE(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(changed)).key, kept.key);
+    }
 }
 
-TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherVersionIsNotBelieved) {
+TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherFormatIsNotBelieved) {
     const Scratch scratch;
     const fs::path path = scratch / "a.json";
     const std::string text = bench::trust::json_of(made(short_scene("free_string", 5e-3), {10, 44100, 0, {}, {}}));
@@ -109,8 +119,12 @@ TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherVersionIsNotBelieved) {
         return bench::store::sealed(j.dump());
     };
     EXPECT_FALSE(refused(with_checksum("scene", "another"))) << why;
-    EXPECT_TRUE(refused(with_checksum("program", "jvari 0.0.0")));
-    EXPECT_NE(why.find("version"), std::string::npos) << why;
+    EXPECT_TRUE(refused(with_checksum("format", 2)));
+    EXPECT_NE(why.find("format"), std::string::npos) << why;
+    EXPECT_FALSE(refused(with_checksum("program", "jvari 0.0.0"))) << why;
+    EXPECT_FALSE(of_this_program(*bench::trust::read_certificate(path, why)));
+    EXPECT_FALSE(refused(text));
+    EXPECT_TRUE(of_this_program(*bench::trust::read_certificate(path, why)));
     EXPECT_TRUE(refused(with_checksum("entries", Json::array())));
     EXPECT_TRUE(refused(with_checksum("noise_floor", Json::object())));
     EXPECT_TRUE(refused(with_checksum("taps", {"nut", "elsewhere"})));
@@ -137,6 +151,12 @@ struct Verb {  // jvari certify of a small scene, its file in a folder of its ow
         Json j = Json::parse(content(file));
         j.erase("checksum");
         j["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] = 0.125;
+        write(file, bench::store::sealed(j.dump()));
+    }
+    void alter(const char* key, const char* value) {
+        Json j = Json::parse(content(file));
+        j.erase("checksum");
+        j[key] = value;
         write(file, bench::store::sealed(j.dump()));
     }
     bool altered() const { return Json::parse(content(file))["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] == 0.125; }
@@ -171,9 +191,13 @@ TEST(CertifyCommand, MakesABrokenOrForeignFileAgainAndSaysSo) {
     EXPECT_EQ(Json::parse(content(verb.file)), first["certificate"]);
     for (const char* other : {"--tap-rate 22050", "--set string.0.tension=34", "--oversampled-rate 705600"}) {
         EXPECT_EQ(verb.run(other)["cached"], false) << other;
-        EXPECT_NE(verb.last.err.find("another scene, version or setting"), std::string::npos) << verb.last.err;
+        EXPECT_NE(verb.last.err.find("another scene or setting"), std::string::npos) << verb.last.err;
         EXPECT_EQ(verb.run(other)["cached"], true) << other;
     }
+    verb.alter("program", "jvari 0.0.0");
+    verb.alter("key", "0");
+    EXPECT_EQ(verb.run("--oversampled-rate 705600")["cached"], false);
+    EXPECT_NE(verb.last.err.find("another program"), std::string::npos) << verb.last.err;
     fs::remove(verb.file);
     EXPECT_EQ(verb.run("--oversampled-rate 705600")["cached"], false);
     fs::remove(bench::trust::cost_path(verb.file));

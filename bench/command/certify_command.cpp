@@ -175,7 +175,11 @@ int certify_command(const CertifyRequest& r) {
                     kept.certificate.entries.size()));
             cached = !r.again && found->key == kept.key;
             if (cached) kept = std::move(*found);
-            else if (found->key != kept.key) console.note(path.string() + " is of another scene, version or setting; it is made again");
+            else if (found->key != kept.key)
+                console.note(fmt::format("{} {}; it is made again", path.string(),
+                                         trust::of_this_program(*found)
+                                             ? "is of another scene or setting"
+                                             : "was made by another program (sources, compiler, flags, vector instructions)"));
         } else {
             console.note(path.string() + " cannot be used (" + why + "); it is made again");
         }

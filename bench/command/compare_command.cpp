@@ -78,8 +78,9 @@ std::string certificate_text(const compare::Comparison& c) {
     if (!t.any()) return "no certificate: " + t.missing;
     std::string by = t.against;
     if (!t.doubled.empty()) by += (by.empty() ? "doubling its " : " and by doubling its ") + t.doubled;
-    return fmt::format("{} is certain to the figures of the first line, by {}{}", c.reference_name, by,
-                       t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + ")") +
+    return fmt::format(
+               "{} is certain to the figures of the first line, by {}{}", c.reference_name, by,
+               t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + (t.of_this_program ? ")" : ", of another program)")) +
            (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
            (t.missing.empty() ? "" : "; for the rest: " + t.missing) + (c.reference_note.empty() ? "" : "\n" + c.reference_note);
 }

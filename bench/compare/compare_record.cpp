@@ -173,7 +173,7 @@ Json certificate_json(const Comparison& c) {
     if (!t.missing.empty()) j["missing"] = t.missing;  // the figures are what doubling tells
     if (!t.doubled.empty()) j["doubled"] = t.doubled;
     if (!t.file.empty()) j["file"] = std::filesystem::path(t.file).filename().string();
-    if (!t.key.empty()) j["key"] = t.key;
+    if (!t.key.empty()) j["key"] = t.key, j["of_this_program"] = t.of_this_program;
     j["figures"] = figures;
     return j;
 }

@@ -8,7 +8,6 @@
 
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/machine.hpp"
 #include "bench/store/outcome_name.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/store/whole.hpp"
@@ -108,10 +107,10 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
     return e;
 }
 
-std::string key_of(const std::string& hash, const Certificate& plan) {
+std::string key_of(const std::string& hash, const std::string& program, const Certificate& plan) {
     Json runs = Json::array();
     for (const auto& e : plan.entries) runs.push_back({e.reference, options_json(e.options), e.sample_rate, e.doubled});
-    return store::hash_of(Json{format, hash, store::machine().version, plan.modes, plan.tap_rate, plan.duration, runs}.dump());
+    return store::hash_of(Json{format, hash, program, plan.modes, plan.tap_rate, plan.duration, runs}.dump());
 }
 }  // namespace
 
@@ -121,12 +120,17 @@ std::string timeless_hash(const Scene& scene) {
     return scene_hash(timeless);
 }
 
-KeptCertificate planned_certificate(const Scene& scene, const CertifySettings& settings) {
+KeptCertificate planned_certificate(const Scene& scene, const CertifySettings& settings, const std::string& program) {
     KeptCertificate k;
     k.certificate = certificate_plan(scene, settings);
     k.scene_hash = timeless_hash(scene);
-    k.key = key_of(k.scene_hash, k.certificate);
+    k.program = program;
+    k.key = key_of(k.scene_hash, k.program, k.certificate);
     return k;
+}
+
+bool of_this_program(const KeptCertificate& kept) {
+    return kept.program == store::run_identity();
 }
 
 std::string json_of(const KeptCertificate& kept) {
@@ -137,7 +141,7 @@ std::string json_of(const KeptCertificate& kept) {
     const Json j{{"scene", c.scene},
                  {"scene_hash", kept.scene_hash},
                  {"key", kept.key},
-                 {"program", "jvari " + store::machine().version},
+                 {"program", Json::parse(kept.program)},
                  {"format", format},
                  {"modes", c.modes},
                  {"tap_rate_hz", c.tap_rate},
@@ -168,9 +172,9 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
     }
     try {
         const Json j = Json::parse(store::unsealed(store::read_whole(path)));
-        if (j.at("program") != "jvari " + store::machine().version || j.at("format") != format)
-            throw std::runtime_error("it is of another version of the program, " + j.at("program").get<std::string>());
+        if (j.at("format") != format) throw std::runtime_error("it is of another format, " + j.at("format").dump());
         KeptCertificate kept;
+        kept.program = j.at("program").dump();
         kept.key = j.at("key");
         kept.scene_hash = j.at("scene_hash");
         Certificate& c = kept.certificate;

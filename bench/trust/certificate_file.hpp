@@ -6,24 +6,28 @@
 #include <optional>
 #include <string>
 
+#include "bench/store/machine.hpp"
 #include "reference/certificate.hpp"
 
 namespace jvari::bench::trust {
 
 struct KeptCertificate {
-    std::string key;         // of the scene, the program's version, the settings and what was to be run
+    std::string key;         // of the scene, the settings, what was to be run, and the program
     std::string scene_hash;  // of the scene whatever its duration
     Certificate certificate;
+    std::string program = store::run_identity();  // that made it
 };
 
 std::string timeless_hash(const Scene&);  // scene_hash of the scene as if it lasted 1 s
-KeptCertificate planned_certificate(const Scene&,
-                                    const CertifySettings&);  // key, hash, and the entries without their outcome; throws Refusal
+// Key, hash, program, and the entries without their outcome; throws Refusal.
+KeptCertificate planned_certificate(const Scene&, const CertifySettings&, const std::string& program = store::run_identity());
+bool of_this_program(const KeptCertificate&);  // the same sources, compiler, flags and vector instructions
 
 std::string json_of(const KeptCertificate&);       // with a checksum over all the rest
 std::string cost_json_of(const KeptCertificate&);  // wall seconds of each entry, and what they were measured with
 
-// Nothing, and `why`, where there is no such file, it is not whole, or it is of another version of the program.
+// Nothing, and `why`, where there is no such file, it is not whole, or it is of another format. One that another program made is read: its
+// figures are those of the references as they were then.
 std::optional<KeptCertificate> read_certificate(const std::filesystem::path&, std::string& why);
 
 std::filesystem::path cost_path(const std::filesystem::path& certificate);  // a.json: a.cost.json

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "bench/store/records.hpp"
 #include "scenes/installed.hpp"
@@ -67,6 +68,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
     const Certificate& c = kept.certificate;
     Trust t;
     t.key = kept.key;
+    t.of_this_program = of_this_program(kept);
     const auto mine = std::find_if(c.entries.begin(), c.entries.end(), [&](const auto& e) {
         return e.reference == reference && e.options == options && e.doubled.empty() && e.reason.empty();
     });
@@ -153,7 +155,7 @@ Trust trust_of(const Scene& scene, const std::string& reference, const Settings&
                     for (const double v : tap) n += !std::isnan(v);
                 return n;
             };
-            if (figures(t) > figures(best) || best.file.empty()) best = t;
+            if (best.file.empty() || std::pair(figures(t), t.of_this_program) > std::pair(figures(best), best.of_this_program)) best = t;
         }
     }
     return best;

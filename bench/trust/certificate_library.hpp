@@ -27,6 +27,7 @@ struct Trust {
     std::string against;                          // "sundials rtol=1e-12"
     std::string doubled;                          // "modes and points"; "": nothing, and left_out is empty
     std::string file, key;                        // of the certificate; "" where there is no file
+    bool of_this_program = true;                  // false: of other sources, compiler, flags or vector instructions
     std::string missing;                          // why there is none
     double in_model(std::size_t tap, std::size_t window) const;
     double of_scene(std::size_t tap, std::size_t window) const;
@@ -38,7 +39,7 @@ struct Trust {
 std::vector<std::filesystem::path> certificate_folders();
 
 // The best figures that any certificate of this scene (whatever its duration) at these modes and this tap rate has for `reference`, over
-// `until` s.
+// `until` s. One that this program made comes before one with as many figures that another did.
 Trust trust_of(const Scene&, const std::string& reference, const Settings&, double until);
 Trust trust_of(const KeptCertificate&, const std::string& reference, const Certificate::Options&, double until);
 
