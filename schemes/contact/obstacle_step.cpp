@@ -9,33 +9,14 @@ namespace jvari {
 ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
                            std::span<const double> theta, double span)
     : contacts_(static_cast<int>(laws.size())),
-      thread_(thread.has_value()),
+      thread_(thread, contacts_, theta, span),
+      gram_(laws, thread_.between_contacts(theta)),
       laws_(laws.begin(), laws.end()),
       heights_(heights.begin(), heights.end()),
       span_(span),
       theta_(theta.begin(), theta.end()) {
-    const int n = contacts_, stride = points();
-    coupling_.assign(n, 0.0);
-    if (n > 0) theta_bb_ = theta[0];
-    if (thread) {
-        stiffness_ = thread->stiffness;
-        damping_ = thread->damping;
-        rest_ = thread->height;
-        s_ = 0.5 * stiffness_ + damping_ / span;
-        theta_cc_ = theta[n * stride + n];
-        inverse_ = 1 / (1 + s_ * theta_cc_);
-        for (int a = 0; a < n; ++a) coupling_[a] = theta[a * stride + n];
-    }
-    gram_ = ContactGram(laws_, between_contacts());
-    for (auto* v : {&eta_, &b_, &r_}) v->assign(n, 0.0);
-}
-
-std::vector<double> ObstacleStep::between_contacts() const {
-    const int n = contacts_, stride = points();
-    std::vector<double> theta;
-    for (int a = 0; a < n; ++a)
-        for (int c = 0; c < n; ++c) theta.push_back(theta_[a * stride + c] - coupling_[a] * s_ * inverse_ * coupling_[c]);
-    return theta;
+    if (contacts_ > 0) theta_bb_ = theta[0];
+    for (auto* v : {&eta_, &b_, &r_}) v->assign(contacts_, 0.0);
 }
 
 void ObstacleStep::lose(std::span<const double> beta) {
@@ -43,7 +24,7 @@ void ObstacleStep::lose(std::span<const double> beta) {
     const int n = contacts_;
     Lossy z;
     z.beta.assign(beta.begin(), beta.end());
-    z.theta = between_contacts();
+    z.theta = thread_.between_contacts(theta_);
     z.damped = z.matrix = z.theta;
     z.across.resize(z.theta.size());
     z.drag.resize(n);
@@ -150,12 +131,11 @@ bool ObstacleStep::solve(const double* older, const double* free, double* force)
 
 bool ObstacleStep::solve_points(const double* older, const double* free, double* force) noexcept {
     const int n = contacts_;
-    double thread = 0;  // with no contact force
-    if (thread_) thread = -(s_ * free[n] + stiffness_ * (older[n] - rest_)) * inverse_;
+    double thread = thread_.alone(older, free);
     bool touching = false;
     for (int a = 0; a < n; ++a) {
         eta_[a] = heights_[a] - older[a];
-        b_[a] = -free[a] - coupling_[a] * thread;
+        b_[a] = -free[a] - thread_.coupling(a) * thread;
         touching = touching || eta_[a] > 0 || eta_[a] + b_[a] > 0;
     }
     bool converged = true;
@@ -169,7 +149,7 @@ bool ObstacleStep::solve_points(const double* older, const double* free, double*
             gram_.set(lossy_->theta);
         }
         for (int a = 0; a < n; ++a) {
-            thread -= s_ * inverse_ * coupling_[a] * force[a];
+            thread -= thread_.answer(a, force[a]);
             tally_.smallest_force = std::min(tally_.smallest_force, force[a]);
             tally_.deepest = std::max(tally_.deepest, eta_[a] - r_[a]);
         }
@@ -180,39 +160,37 @@ bool ObstacleStep::solve_points(const double* older, const double* free, double*
     } else {
         for (int a = 0; a < n; ++a) force[a] = 0;
     }
-    if (thread_) force[n] = thread;
+    if (thread_.law()) force[n] = thread;
     return converged;
 }
 
 double ObstacleStep::loss(double r_c) const {
     if (several_) r_c = several_->thread_moved;
     if (series_) return series_->damping * moved_ * moved_ / span_;
-    return damping_ * (r_c / span_) * (r_c / span_) + (several_ ? several_->lost / span_ : 0) + (lossy_ ? lossy_->lost / span_ : 0);
+    return thread_.lost(r_c) + (several_ ? several_->lost / span_ : 0) + (lossy_ ? lossy_->lost / span_ : 0);
 }
 
 double ObstacleStep::potential(const double* reading, int level) const {
-    if (series_) return series_->points.energy(contacts_ ? reading[0] : 0, thread_ ? reading[contacts_] : 0, Y_[level]);
+    if (series_) return series_->points.energy(contacts_ ? reading[0] : 0, thread_.law() ? reading[contacts_] : 0, Y_[level]);
     double sum = several_ ? several_->stored(several_->P[level]) : 0;
     const auto at = [&](int a) { return reading[a] + (several_ ? several_->yield(a, several_->P[level]) : 0); };
     for (int a = 0; a < contacts_; ++a) sum += laws_[a].potential(heights_[a] - at(a));
-    if (thread_) sum += 0.5 * stiffness_ * (at(contacts_) - rest_) * (at(contacts_) - rest_);
-    return sum;
+    return thread_.law() ? sum + thread_.stored(at(contacts_)) : sum;
 }
 
 void ObstacleStep::put_in_series(const MissingMatrix& C, int levels) {
     const int n = points();
     levels_ = levels;
     if (contacts_ <= 1) {
-        const SeriesPoints points(contacts_ ? &laws_[0] : nullptr, contacts_ ? heights_[0] : 0, stiffness_, damping_, rest_,
-                                  MissingCompliance(C));
-        series_ = SeriesStep(points, theta_bb_, contacts_ && thread_ ? coupling_[0] : 0, theta_cc_, span_);
+        const Thread thread = thread_.law().value_or(Thread{});
+        const SeriesPoints points(contacts_ ? &laws_[0] : nullptr, contacts_ ? heights_[0] : 0, thread.stiffness, thread.damping,
+                                  thread.height, MissingCompliance(C));
+        series_ = SeriesStep(points, theta_bb_, contacts_ ? thread_.coupling(0) : 0, thread_.theta_cc(), span_);
         return;
     }
     std::vector<double> theta = theta_;
     for (std::size_t i = 0; i < theta.size(); ++i) theta[i] += C.C[i];
-    std::optional<Thread> thread;
-    if (thread_) thread = Thread{0, 0, stiffness_, damping_, rest_};
-    *this = ObstacleStep(std::vector(laws_), std::vector(heights_), thread, theta, span_);
+    *this = ObstacleStep(std::vector(laws_), std::vector(heights_), std::optional(thread_.law()), theta, span_);
     levels_ = levels;
     several_ = Several{};
     several_->C = C.C;
@@ -220,7 +198,7 @@ void ObstacleStep::put_in_series(const MissingMatrix& C, int levels) {
 }
 
 void ObstacleStep::begin(const double* reading) {
-    if (series_ && thread_) Y_[0] = Y_[1] = begun_ = series_->start(reading[contacts_]);
+    if (series_ && thread_.law()) Y_[0] = Y_[1] = begun_ = series_->start(reading[contacts_]);
     if (several_)
         for (auto& P : several_->P) std::fill(P.begin(), P.end(), 0.0);
 }
@@ -238,9 +216,9 @@ void ObstacleStep::forces(const double* reading, int level, double* force) const
     if (several_) {
         std::copy(several_->P[level].begin(), several_->P[level].end(), force);
     } else if (series_) {
-        const SeriesPoints::Forces now = series_->points.forces(n ? reading[0] : 0, thread_ ? reading[n] : 0, Y_[level]);
+        const SeriesPoints::Forces now = series_->points.forces(n ? reading[0] : 0, thread_.law() ? reading[n] : 0, Y_[level]);
         if (n) force[0] = now.b;
-        if (thread_) force[n] = now.c;
+        if (thread_.law()) force[n] = now.c;
     }
 }
 
@@ -253,7 +231,7 @@ bool ObstacleStep::solve_several(const double* older, const double* free, double
         z.free[a] = free[a] - yield;
     }
     const bool converged = solve_points(z.older.data(), z.free.data(), force);
-    if (thread_) {
+    if (thread_.law()) {
         z.thread_moved = z.free[n - 1];
         for (int a = 0; a < n; ++a) z.thread_moved += theta_[(n - 1) * n + a] * force[a];
     }
@@ -268,8 +246,9 @@ bool ObstacleStep::solve_several(const double* older, const double* free, double
 bool ObstacleStep::solve_in_series(const double* older, const double* free, double* force) noexcept {
     const SeriesStep& s = *series_;
     const int c = contacts_;
-    const double y_b = c ? older[0] : 0, u_b = c ? free[0] : 0, y_c = thread_ ? older[c] : 0, u_c = thread_ ? free[c] : 0, Y = Y_[0];
-    const double v = thread_ ? s.pull(s.points.stretch(y_c, Y), u_c, Y) : 0;
+    const double y_b = c ? older[0] : 0, u_b = c ? free[0] : 0, y_c = thread_.law() ? older[c] : 0, u_c = thread_.law() ? free[c] : 0,
+                 Y = Y_[0];
+    const double v = thread_.law() ? s.pull(s.points.stretch(y_c, Y), u_c, Y) : 0;
     ContactSolution x;
     if (c) {
         const double zeta = s.points.approach(y_b, y_c, Y), b = s.approach(u_b, u_c, v, Y);
@@ -285,7 +264,7 @@ bool ObstacleStep::solve_in_series(const double* older, const double* free, doub
             tally_.residual = std::max(tally_.residual, x.residual);
         }
     }
-    if (thread_) {
+    if (thread_.law()) {
         force[c] = v - s.beta * x.force;
         moved_ = s.moved(force[c], Y);
     }

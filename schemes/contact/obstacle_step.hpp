@@ -5,8 +5,8 @@
 //                           thread:   F_c = -k_c (older_c + r_c/2 - h_c) - r_c (damping)/span
 //
 // span is the time between the older and the newer level: dt in two-point schemes (van Walstijn et al. 2016, eqs 44-48), 2 dt in
-// three-point ones, where the thread so sees the mean of the two outer levels and stays stable at any stiffness. The thread is linear and
-// eliminated: it leaves the contacts with Theta_bb' - Theta_bc s Theta_cb'/(1 + s Theta_cc), s = k_c/2 + damping/span.
+// three-point ones, where the thread so sees the mean of the two outer levels and stays stable at any stiffness. The thread is eliminated
+// (eliminated_thread.hpp).
 //
 // Where contacts lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), each pulls by D_a r_a more, D_a = beta_a V_a'(eta_a)/span:
 // known before the step, and never negative. Then r = (I + Theta D)^-1 (free + Theta F) is the same equation with other compliances, solved
@@ -24,6 +24,7 @@
 
 #include "scenes/scene.hpp"
 #include "schemes/contact/contact_gram.hpp"
+#include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/contact/series_step.hpp"
 #include "schemes/scheme.hpp"
 
@@ -40,7 +41,7 @@ public:
 
     int contacts() const { return contacts_; }
     int coupled() const { return gram_.coupled(); }
-    int points() const { return contacts_ + (thread_ ? 1 : 0); }
+    int points() const { return contacts_ + (thread_.law() ? 1 : 0); }
 
     // older and free [m] in, force on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
     bool solve(const double* older, const double* free, double* force) noexcept;
@@ -69,14 +70,13 @@ public:
 
 private:
     int contacts_ = 0;
-    bool thread_ = false;
+    ThreadAmongContacts thread_;
     ContactGram gram_;
     std::vector<ContactLaw> laws_;
-    std::vector<double> heights_, coupling_, eta_, b_, r_;  // coupling_: Theta_bc
-    double stiffness_ = 0, damping_ = 0, rest_ = 0, span_ = 1, s_ = 0, theta_cc_ = 0, inverse_ = 1;
+    std::vector<double> heights_, eta_, b_, r_;
+    double span_ = 1;
     Tally tally_;
 
-    std::vector<double> between_contacts() const;  // compliances with the thread eliminated, contacts x contacts
     bool solve_points(const double* older, const double* free, double* force) noexcept;
     struct Lossy {
         std::vector<double> beta, drag;            // [s/m], D [N/m]

@@ -17,17 +17,13 @@ constexpr double no_psi = 1e-150;                        // [sqrt(J)] its square
 
 QuadratisedPoints::QuadratisedPoints(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
                                      std::span<const double> theta, double span, Quadratisation variant)
-    : heights_(heights.begin(), heights.end()), thread_(thread), span_(span), variant_(variant) {
-    const int n = static_cast<int>(laws.size()), stride = n + (thread ? 1 : 0);
+    : heights_(heights.begin(), heights.end()),
+      thread_(thread, static_cast<int>(laws.size()), theta, span),
+      span_(span),
+      variant_(variant),
+      theta_(thread_.between_contacts(theta)) {
+    const int n = static_cast<int>(laws.size());
     for (const ContactLaw& law : laws) laws_.push_back(QuadratisedLaw::make(law, variant, c));
-    coupling_.assign(n, 0.0);
-    if (thread) {
-        s_ = 0.5 * thread->stiffness + thread->damping / span;
-        inverse_ = 1 / (1 + s_ * theta[n * stride + n]);
-        for (int a = 0; a < n; ++a) coupling_[a] = theta[a * stride + n];
-    }
-    for (int a = 0; a < n; ++a)
-        for (int b = 0; b < n; ++b) theta_.push_back(theta[a * stride + b] - coupling_[a] * s_ * inverse_ * coupling_[b]);
     damped_ = matrix_ = theta_;
     for (auto* v : {&beta_, &psi_, &next_, &eta_, &free_, &f_, &r_, &drag_, &gamma_, &scale_, &df_, &work_}) v->assign(n, 0.0);
     set_.assign(n, 0);
@@ -199,12 +195,11 @@ bool QuadratisedPoints::release() noexcept {
 
 bool QuadratisedPoints::solve(const double* older, const double* free, double* force) noexcept {
     const int n = contacts();
-    double thread = 0;  // with no contact force
-    if (thread_) thread = -(s_ * free[n] + thread_->stiffness * (older[n] - thread_->height)) * inverse_;
+    double thread = thread_.alone(older, free);
     bool acts = false, solved = true;
     for (int a = 0; a < n; ++a) {
         eta_[a] = heights_[a] - older[a];
-        free_[a] = free[a] + coupling_[a] * thread;
+        free_[a] = free[a] + thread_.coupling(a) * thread;
         f_[a] = drag_[a] = 0;
         next_[a] = psi_[a];
         acts = acts || eta_[a] > 0 || psi_[a] != 0;
@@ -222,23 +217,21 @@ bool QuadratisedPoints::solve(const double* older, const double* free, double* f
         force[a] = f_[a] - drag_[a] * r_[a];
         lost_ += drag_[a] * r_[a] * r_[a];
         psi_[a] = next_[a];
-        thread -= s_ * inverse_ * coupling_[a] * force[a];
+        thread -= thread_.answer(a, force[a]);
         seen_.note(force[a], psi_[a], eta_[a] - r_[a], laws_[a].psi(eta_[a] - r_[a]));
     }
-    if (thread_) force[n] = thread;
+    if (thread_.law()) force[n] = thread;
     return solved;
 }
 
 double QuadratisedPoints::potential(const double* reading) const {
     double sum = 0;
     for (const double psi : psi_) sum += 0.5 * psi * psi;
-    if (!thread_) return sum;
-    const double stretch = reading[contacts()] - thread_->height;
-    return sum + 0.5 * thread_->stiffness * stretch * stretch;
+    return thread_.law() ? sum + thread_.stored(reading[contacts()]) : sum;
 }
 
 double QuadratisedPoints::loss(double r_c) const {
-    return lost_ / span_ + (thread_ ? thread_->damping * (r_c / span_) * (r_c / span_) : 0);
+    return lost_ / span_ + thread_.lost(r_c);
 }
 
 std::vector<Fact> QuadratisedPoints::facts() const {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "scenes/scene.hpp"
+#include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/contact/quadratised_contact.hpp"
 
 namespace jvari {
@@ -32,7 +33,7 @@ public:
     void lose(std::span<const double> beta);  // Hunt-Crossley beta of each contact [s/m]
 
     int contacts() const { return static_cast<int>(laws_.size()); }
-    int points() const { return contacts() + (thread_ ? 1 : 0); }
+    int points() const { return contacts() + (thread_.law() ? 1 : 0); }
     int dofs() const { return contacts(); }  // psi
 
     void begin(const double* reading);  // at t = 0
@@ -52,9 +53,9 @@ private:
     double falls_short(int a) const noexcept;  // free + Theta f, less the r that f belongs to
 
     std::vector<QuadratisedLaw> laws_;
-    std::vector<double> heights_, beta_, coupling_;  // coupling_: Theta of each contact and the thread
-    std::optional<Thread> thread_;
-    double span_ = 1, s_ = 0, inverse_ = 1;
+    std::vector<double> heights_, beta_;
+    ThreadAmongContacts thread_;
+    double span_ = 1;
     Quadratisation variant_ = Quadratisation::released;
     std::vector<double> theta_, damped_;             // between contacts, the thread eliminated: without and with D
     std::vector<double> psi_, next_;                 // [sqrt(J)]

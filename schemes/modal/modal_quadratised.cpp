@@ -78,10 +78,7 @@ public:
         theta_bc_ = modal_dot(m_.g_b, e_c_);
         theta_be_ = modal_dot(m_.g_b, e_e_);
         theta_ce_ = modal_dot(m_.g_c, e_e_);
-        phi_c_ = m_.k_c / 2 + m_.r_c / m_.dt;
-        inverse_c_ = 1 / (1 + phi_c_ * theta_cc_);
-        beta_c_ = phi_c_ * theta_bc_ * inverse_c_;  // (47)
-        theta_ = modal_dot(m_.g_b, e_b_) - beta_c_ * theta_bc_;
+        thread_ = {m_.k_c, m_.k_c / 2 + m_.r_c / m_.dt, modal_dot(m_.g_b, e_b_), theta_bc_, theta_cc_};
         const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
         if (missing) {
             std::vector<double> own;
@@ -185,11 +182,11 @@ private:
         if (series_) return solve_in_series();
         F_e_ = 0.5 * (m_.pluck_at(step_) + m_.pluck_at(step_ + 1));
         const double u_b = u_b_ + theta_be_ * F_e_, u_c = u_c_ + theta_ce_ * F_e_;
-        const double v_c = (m_.k_c * (m_.h_c - y_c_) - phi_c_ * u_c) * inverse_c_;  // (47)
-        const QuadratisedStep s = solve_quadratised(q_, m_.h_b - y_b_, psi_, u_b + theta_bc_ * v_c, theta_);
+        const double v_c = thread_.alone(m_.h_c - y_c_, u_c);
+        const QuadratisedStep s = solve_quadratised(q_, m_.h_b - y_b_, psi_, u_b + theta_bc_ * v_c, thread_.theta);
         F_b_ = s.force;
         psi_ = s.psi;
-        F_c_ = v_c - beta_c_ * F_b_;  // (46)
+        F_c_ = v_c - thread_.beta * F_b_;
         s_c_ = u_c + theta_bc_ * F_b_ + theta_cc_ * F_c_;
         impulse_b_ += F_b_;
         impulse_c_ += F_c_;
@@ -256,8 +253,8 @@ private:
     std::optional<SeriesStep> series_;
     double Y_ = 0, change_ = 0;  // of the thread less its height [m]; of the pluck over the step [N]
     ModalArray y_, u_, A_, B_, a_, c_, J_, e_b_, e_c_, e_e_;
-    double xi_ = 0, theta_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
-    double phi_c_ = 0, inverse_c_ = 1, beta_c_ = 0;
+    double xi_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
+    EliminatedThread thread_;
     ModalPass pass_;
     ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
     long step_ = 0;

@@ -25,6 +25,7 @@
 #include <cmath>
 #include <utility>
 
+#include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal/series_kernel.hpp"
@@ -155,13 +156,7 @@ public:
     }
 
 private:
-    struct Coupling {  // F_c = v_c - beta_c F_b, v_c = [k (h_c - y_c) - phi r_c]/(1 + phi theta_cc)   (45)-(47)
-        double phi, k, inverse, beta_c, theta;
-    };
-    Coupling couple(double phi, double k) const {
-        const double inverse = 1 / (1 + phi * theta_.cc), beta_c = phi * theta_.bc * inverse;
-        return {phi, k, inverse, beta_c, theta_.bb - beta_c * theta_.bc};
-    }
+    EliminatedThread couple(double phi, double k) const { return {k, phi, theta_.bb, theta_.bc, theta_.cc}; }
     static ModalArray scaled(const ModalArray& g, const ModalArray& gain) {
         ModalArray e = g;
         for (std::size_t i = 0; i < std::min(e.size(), gain.size()); ++i) e[i] *= gain[i];
@@ -188,17 +183,17 @@ private:
     }
     void solve_points() {
         const bool at_start = now_.step == 0;
-        const Coupling& c = at_start ? first_ : steady_;
+        const EliminatedThread& c = at_start ? first_ : steady_;
         now_.F_e = (at_start ? 0.5 : 1) * m_.pluck_at(now_.step);
         const double rb = r_b_ + theta_.be * now_.F_e, rc = r_c_ + theta_.ce * now_.F_e;
-        const double v_c = (c.k * (m_.h_c - y_c_old_) - c.phi * rc) * c.inverse;
+        const double v_c = c.alone(m_.h_c - y_c_old_, rc);
         now_.F_b = 0;
         now_.F_c = v_c;
         increment_b_ = rb + theta_.bc * v_c;
         if (!m_.g_b.empty()) {
             now_.F_b = at_start ? contact_.first(m_.h_b - now_.y_b, increment_b_, c.theta)
                                 : contact_.next(m_.h_b - now_.y_b, m_.h_b - y_b_old_, increment_b_, c.theta);
-            now_.F_c -= c.beta_c * now_.F_b;
+            now_.F_c -= c.beta * now_.F_b;
             increment_b_ += c.theta * now_.F_b;
         }
         increment_c_ = rc + theta_.bc * now_.F_b + theta_.cc * now_.F_c;
@@ -294,7 +289,7 @@ private:
     ModalArray q_, d_, d0_, W_, e_b_, e_c_, e_e_;
     double compliance_ = 0;  // under a steady force at the bridge [m/N]
     SeriesRows::Compliances theta_;
-    Coupling steady_{}, first_{};
+    EliminatedThread steady_, first_;
     ModalPass pass_;
     ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
     SeriesAdvance rows_ = nullptr;  // in series, where no energy is asked for

@@ -17,6 +17,7 @@
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
+#include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/modal/effective_modes.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/modal_compliance.hpp"
@@ -112,13 +113,12 @@ public:
             m_.r_c = s.thread->damping;
             m_.h_c = s.thread->height;
             m_.theta_cc = two_point_dot(m_.g_c, m_.g_c, m_.size);
-            m_.phi_c = m_.k_c / 2 + m_.r_c / m_.dt;
-            m_.inverse_c = 1 / (1 + m_.phi_c * m_.theta_cc);
-            if (m_.g_b) {
-                m_.theta_bc = two_point_dot(m_.g_b, m_.g_c, m_.size);
-                m_.beta_c = m_.phi_c * m_.theta_bc * m_.inverse_c;  // (47)
-                m_.theta -= m_.beta_c * m_.theta_bc;                // theta of (48)
-            }
+            if (m_.g_b) m_.theta_bc = two_point_dot(m_.g_b, m_.g_c, m_.size);
+            const EliminatedThread thread(m_.k_c, m_.k_c / 2 + m_.r_c / m_.dt, m_.theta, m_.theta_bc, m_.theta_cc);
+            m_.phi_c = thread.phi;
+            m_.inverse_c = thread.inverse;
+            m_.beta_c = thread.beta;
+            m_.theta = thread.theta;
         }
         if (s.pluck) {
             m_.g_e = keep(unscaled(modes.footprint(s.pluck->position, s.pluck->width)));
