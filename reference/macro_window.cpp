@@ -53,6 +53,7 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     terms = kept > 0 ? kept : choice.terms;
     size = std::max(16, (terms + lanes - 1) / lanes * lanes);  // 16: a collocated path is of degree 9
     stride = 2 * size + lanes;
+    known_ = relaxes() ? terms : std::min(terms, size - 1);
     length = osc.rate * interval / per_row;
     reach = growth * length;
     for (int n = 0; n < terms; ++n) slower_.push_back(std::pow(reach, -n));
@@ -172,21 +173,22 @@ void MacroWindow::make_kernel() {
     by_thread_.assign(static_cast<std::size_t>(contacts + 1) * stride, 0.0);
     reply_.assign(2 * stride, 0.0);
     if (threaded()) {  // zeros before it: a convolution reads them
-        const auto g = reply_series(length, terms);
+        const auto g = reply_series(length, known_ + 1);
         std::copy(g.begin(), g.end(), reply_.data() + stride);
     }
-    std::vector<double> y(static_cast<std::size_t>(springs.points) * terms), F(terms);
+    const int count = known_ + 1;
+    std::vector<double> y(static_cast<std::size_t>(springs.points) * count), F(count);
     for (int b = 0; b < contacts; ++b) {
-        impulse_response(b, length, terms, reply_.data() + stride, y.data(), F.data());
+        impulse_response(b, length, count, reply_.data() + stride, y.data(), F.data());
         double scale = 1;
         for (int n = 0; n < terms; ++n, scale *= reach) {
             for (int a = 0; a < contacts; ++a) {
-                const double h = y[a * terms + n];
+                const double h = y[a * count + n];
                 kernel_[(static_cast<std::size_t>(a) * contacts + b) * (stride + size) + size + n] = h;
                 kernel_truncation_ = std::max(kernel_truncation_, std::abs(h) / scale * tail_);
             }
-            if (threaded()) answer_[b * stride + n] = F[n];
         }
+        if (threaded()) std::copy_n(F.begin(), known_, answer_.begin() + b * stride);
     }
     if (!threaded()) return;
     double power = length;
@@ -220,14 +222,14 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
     if (plucked) {
         double* f = force_.data() + s.points * stride;
         std::fill_n(f, stride, 0.0);
-        pluck_series(pluck_[0], since_pluck, seconds(), terms, f);
-        for (int n = 0; n < terms; ++n) f[n] /= inverse_factorial[n];
+        pluck_series(pluck_[0], since_pluck, seconds(), known_ + 1, f);
+        for (int n = 0; n <= known_; ++n) f[n] /= inverse_factorial[n];
         for (int a = 0; a < s.points; ++a) {
             double power = length;
             double* out = (a < contacts ? free_.data() : p_.data()) + a * stride;
-            for (int j = 0; j < terms; ++j, power *= length)
-                for (int n = j + 1; n < terms; ++n) out[n] += s.h(a, s.points)[j] * power * f[n - 1 - j];
-            for (int n = 0; series_ && n < terms; ++n) out[n] += series_->plucked(a == contacts) * f[n];
+            for (int j = 0; j < known_; ++j, power *= length)
+                for (int n = j + 1; n <= known_; ++n) out[n] += s.h(a, s.points)[j] * power * f[n - 1 - j];
+            for (int n = 0; series_ && n <= known_; ++n) out[n] += series_->plucked(a == contacts) * f[n];
         }
     }
     if (threaded()) {
@@ -235,19 +237,17 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
         p[0] -= s.height[contacts];
         std::fill_n(F, size, 0.0);
         const double k = s.k[contacts], r = s.r[contacts] / length;
-        int known = terms;
         if (relaxes()) {
             for (int n = terms - 1; n > 0; --n) p[n] = k * p[n - 1] + r * p[n];
             p[0] = -r * series_cc_ * thread;
         } else {
-            --known;  // the damper needs one derivative more
-            for (int n = 0; n < known; ++n) p[n] = k * p[n] + r * p[n + 1];
+            for (int n = 0; n < known_; ++n) p[n] = k * p[n] + r * p[n + 1];
         }
-        sweep_->combine(F, size, p, known, reply_.data() + stride, -1);
-        std::fill(F + known, F + size, 0.0);
+        sweep_->combine(F, size, p, known_, reply_.data() + stride, -1);
+        std::fill(F + known_, F + size, 0.0);
         for (int a = 0; a < contacts; ++a) {
             double* f = free_.data() + a * stride;
-            sweep_->combine(f, size, F, known, by_thread_.data() + a * stride + size - 1, -1);
+            sweep_->combine(f, size, F, known_, by_thread_.data() + a * stride + size - 1, -1);
             for (int n = 0; series_ && n < terms; ++n) f[n] += series_->share(false) * F[n];
         }
     }
@@ -277,10 +277,10 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
     if (threaded()) {  // its own motion, and its answer kappa_b * F_b to each contact
         double* m = moments_.data() + contacts * stride;
         std::fill_n(m, size, 0.0);
-        sweep_->combine(m, size, force_.data() + contacts * stride, terms - 1, e + 1, 1);
+        sweep_->combine(m, size, force_.data() + contacts * stride, known_, e + 1, 1);
         for (int b = 0; b < contacts; ++b)
             if (M[b * stride] != 0)
-                sweep_->combine(m, size, answer_.data() + b * stride, terms - 1, M + b * stride + 1, 1);  // kappa^(n) with M_(n+1)
+                sweep_->combine(m, size, answer_.data() + b * stride, known_, M + b * stride + 1, 1);  // kappa^(n) with M_(n+1)
         thread_impulse_ = m[0] * seconds();
         if (relaxes()) {
             const double* F = force_.data() + contacts * stride;

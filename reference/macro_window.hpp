@@ -94,6 +94,7 @@ private:
     void move(int forces, const double* flow, const double* y, const double* u, double* y_out, double* u_out) noexcept;
 
     const SweepFunctions* sweep_;
+    int known_;  // derivatives of the thread's force: its damper needs one more of its point's motion
     std::optional<InSeries> series_;
     double series_cc_ = 0;      // C_cc [m/N]
     std::vector<Pluck> pluck_;  // none or one

@@ -55,7 +55,7 @@ struct FactName {
     FACT(windows, "", "windows between two looks at the modes")                                                                        \
     FACT(window_terms, "", "derivatives that a window keeps")                                                                          \
     FACT(contact_steps, "", "steps of contact by collocation")                                                                         \
-    FACT(detection_tolerance, "m", "penetration that may pass unseen")                                                                 \
+    FACT(detection_tolerance, "m", "penetration that may pass unseen in the motion computed")                                           \
     FACT(integrator_steps, "", "steps of the integrator")                                                                              \
     FACT(slope_evaluations, "", "evaluations of the equations' right side")                                                            \
     FACT(linear_solves, "", "linear systems solved")                                                                                   \
