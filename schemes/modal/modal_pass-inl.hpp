@@ -52,7 +52,7 @@ HWY_INLINE void pass(ModalPass& m) {
     double *HWY_RESTRICT x = m.x, *HWY_RESTRICT v = m.v;
     V x_b[2], v_b[2], x_c[2], v_c[2];
     for (int k = 0; k < 2; ++k) x_b[k] = v_b[k] = x_c[k] = v_c[k] = hn::Zero(d);
-    const auto update = [&](int j, int k) HWY_ATTR {
+    const auto update = [&](int j, int k) HWY_ATTR __attribute__((always_inline)) {  // else the sums go through memory
         V force = hn::Zero(d), next;
         if constexpr (pluck) force = hn::Mul(hn::Load(d, m.e_e + j), F_e);
         if constexpr (thread) force = hn::MulAdd(hn::Load(d, m.e_c + j), F_c, force);

@@ -28,6 +28,9 @@ ModalPassFunction choose_three_point(bool barrier, bool thread, bool pluck) {
 ModalPassFunction choose_ahead(bool barrier, bool thread, bool pluck) {
     return choose<AheadForm>(barrier, thread, pluck);
 }
+double dot_of_pass(const double* w, const double* x, int size) {
+    return dot(w, x, size);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari
@@ -38,6 +41,7 @@ namespace jvari {
 HWY_EXPORT(choose_two_point);
 HWY_EXPORT(choose_three_point);
 HWY_EXPORT(choose_ahead);
+HWY_EXPORT(dot_of_pass);
 
 ModalPassFunction two_point_pass(bool barrier, bool thread, bool pluck) {
     return HWY_DYNAMIC_DISPATCH(choose_two_point)(barrier, thread, pluck);
@@ -47,6 +51,9 @@ ModalPassFunction three_point_pass(bool barrier, bool thread, bool pluck) {
 }
 ModalPassFunction three_point_pass_ahead(bool barrier, bool thread, bool pluck) {
     return HWY_DYNAMIC_DISPATCH(choose_ahead)(barrier, thread, pluck);
+}
+double pass_dot(const double* w, const double* x, int size) {
+    return HWY_DYNAMIC_DISPATCH(dot_of_pass)(w, x, size);
 }
 }  // namespace jvari
 #endif

@@ -25,4 +25,7 @@ ModalPassFunction three_point_pass(bool barrier, bool thread, bool pluck);
 // The same update; v_z = g_z.(x' + v' - p v' - r x'), what is read a step further without forces. No force waits for the pass then.
 ModalPassFunction three_point_pass_ahead(bool barrier, bool thread, bool pluck);
 
+// sum w x, x of whole vectors: what a tap reads.
+double pass_dot(const double* w, const double* x, int size);
+
 }  // namespace jvari

@@ -13,6 +13,7 @@
 #include "schemes/contact/series_step.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/modal_compliance.hpp"
+#include "schemes/modal/modal_energies.hpp"
 #include "schemes/modal/modal_three_point.hpp"
 #include "schemes/modal/modal_two_point_points.hpp"
 
@@ -192,10 +193,13 @@ private:
         impulse_c_ += F_c_;
     }
 
-    void step() {
+    void push() {
         pass_.F_b = F_b_;
         pass_.F_c = F_c_;
         pass_.F_e = F_e_;
+    }
+    void step() {
+        push();
         (F_e_ != 0 ? plucked_ : unplucked_)(pass_);
         y_b_ = pass_.x_b;
         u_b_ = pass_.v_b;
@@ -204,24 +208,16 @@ private:
         ++step_;
     }
 
-    double increment(int i) const {
-        return u_[i] + (e_b_.empty() ? 0 : e_b_[i] * F_b_) + (e_c_.empty() ? 0 : e_c_[i] * F_c_) + (e_e_.empty() ? 0 : e_e_[i] * F_e_);
-    }
     void ledger() {  // (51), (52) over one step
-        double loss = 0, work = 0;
-        for (int i = 0; i < m_.size; ++i) {
-            const double s = increment(i);
-            loss += B_[i] * s * s;
-            if (F_e_ != 0) work += m_.g_e[i] * s;
-        }
+        push();
+        const auto [loss, work] = two_point_spending(pass_, B_.data(), F_e_ != 0 ? m_.g_e.data() : nullptr);
         dissipated_ += loss / xi_ + (series_ ? series_->damping : m_.r_c / m_.dt) * s_c_ * s_c_;
         supplied_ += F_e_ * work - (F_b_ * C_.be + F_c_ * C_.ce) * change_;
     }
     double momentum(int i) const { return 0.5 * J_[i] * u_[i] + A_[i] * y_[i]; }  // q of (31)
 
     double stored() const {  // (49) with psi
-        double sum = 0;
-        for (int i = 0; i < m_.size; ++i) sum += momentum(i) * momentum(i) + A_[i] * y_[i] * y_[i];
+        const double sum = two_point_stored(pass_, J_.data(), A_.data());
         if (series_) {
             const SeriesPoints& p = series_->points;
             const double D = p.thread ? p.stretch(at_c(), Y_) : 0;

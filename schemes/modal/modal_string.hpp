@@ -65,17 +65,15 @@ ModalArray rest_increments(const ModalString&);
 double modal_dot(const ModalArray&, const ModalArray&);
 double modal_dot_by_eights(const ModalArray&, const ModalArray&);  // eight partial sums: of padded arrays, and faster
 
-using ModalDot = double (*)(const ModalArray&, const ModalArray&);
-
 // A row of taps: y the modal displacements, velocity(weights) what weights read of their velocities, the means of the contact forces.
-template <ModalDot dot = modal_dot, class Velocity>
+template <class Velocity>
 void write_taps(const Block& out, int row, const std::vector<ModalTap>& taps, const ModalArray& y, Velocity velocity, double bridge,
                 double thread) noexcept {
     for (int k = 0; k < out.taps; ++k) {
         double& cell = out.tap[k * out.stride + row];
         switch (taps[k].quantity) {
             case Quantity::displacement:
-            case Quantity::nut_force: cell = dot(taps[k].weights, y); break;
+            case Quantity::nut_force: cell = pass_dot(taps[k].weights.data(), y.data(), static_cast<int>(y.size())); break;
             case Quantity::velocity: cell = velocity(taps[k].weights); break;
             case Quantity::bridge_force: cell = bridge; break;
             case Quantity::thread_force: cell = thread; break;

@@ -27,6 +27,7 @@
 
 #include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal/modal_energies.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal/series_kernel.hpp"
 
@@ -108,6 +109,7 @@ public:
             contact_.probed = out.energy != nullptr;
             if (!contact_.probed && readable_) return advance_unprobed(out);
         }
+        if (out.energy) probe();
         for (int row = 0; row < out.rows; ++row) {
             write(out, row);
             const double weight = now_.step == 0 ? 1 : 0.5;  // the forces of the first step have their half weight already
@@ -119,6 +121,7 @@ public:
             for (int k = 0; k < m_.steps_per_row; ++k) {
                 step();
                 solve();
+                if (out.energy) probe();
                 if (out.stopped(k, steps_between_questions)) return {};
                 if (k + 1 == m_.steps_per_row) break;
                 now_.impulse_b += now_.F_b;
@@ -199,10 +202,17 @@ private:
         increment_c_ = rc + theta_.bc * now_.F_b + theta_.cc * now_.F_c;
     }
 
-    void step() {
+    void push() {
         pass_.F_b = now_.F_b;
         pass_.F_c = now_.F_c;
         pass_.F_e = now_.F_e;
+    }
+    void probe() {  // the step in hand, for all that the energy columns ask of it
+        push();
+        energies_ = three_point_energies(pass_, W_.data(), m_.den.data(), now_.F_e != 0 ? m_.g_e.data() : nullptr);
+    }
+    void step() {
+        push();
         if constexpr (ActsInSeries<Contact>) step_ahead();
         else step_and_settle();
         ++now_.step;
@@ -228,12 +238,7 @@ private:
 
     // Work and losses of the centred step n >= 1: F_e (y_e^{n+1} - y_e^{n-1})/2, W loss (d^{n+1} + d^n)^2/(4 dt^2), thread.
     void ledger(double weight) {
-        double loss = 0, work = 0;
-        for (int i = 0; i < m_.size; ++i) {
-            const double r = next_increment(i) + d_[i];
-            loss += W_[i] * m_.loss[i] * r * r;
-            if (now_.F_e != 0) work += m_.g_e[i] * r;
-        }
+        const auto [loss, work] = energies_.spending;
         const double r_c = increment_c_;
         if constexpr (ActsInSeries<Contact>) dissipated_ += weight * loss / (4 * m_.dt * m_.dt);  // the thread's: at the row
         else dissipated_ += weight * (loss / (4 * m_.dt * m_.dt) + m_.r_c * r_c * r_c / (4 * m_.dt));
@@ -244,14 +249,7 @@ private:
         const double a = m_.h_c - yc, b = m_.h_c - yc_other;
         return modal_energy(after) + 0.25 * m_.k_c * (a * a + b * b) + contact;
     }
-    double modal_energy(bool after) const {
-        double sum = 0;
-        for (int i = 0; i < m_.size; ++i) {
-            const double d = after ? next_increment(i) : d_[i], s = after ? 2 * q_[i] + d : 2 * q_[i] - d;
-            sum += W_[i] * (m_.den[i] * d * d + m_.num[i] * s * s);
-        }
-        return sum / (8 * m_.dt * m_.dt);
-    }
+    double modal_energy(bool after) const { return (after ? energies_.after : energies_.before) / (8 * m_.dt * m_.dt); }
 
     double stored() const {
         if constexpr (ActsInSeries<Contact>)
@@ -276,8 +274,7 @@ private:
                 for (int i = 0; i < m_.size; ++i) sum += weights[i] * (next_increment(i) + d_[i]);
             return sum / (2 * m_.dt);
         };
-        write_taps<ActsInSeries<Contact> ? series_dot : modal_dot>(out, row, m_.taps, q_, velocity, now_.impulse_b / per_row,
-                                                                   now_.impulse_c / per_row);
+        write_taps(out, row, m_.taps, q_, velocity, now_.impulse_b / per_row, now_.impulse_c / per_row);
         if constexpr (ActsInSeries<Contact>)
             for (int k = 0; k < out.taps; ++k)
                 if (!m_.taps[k].weights.empty()) out.tap[k * out.stride + row] += contact_.on_tap(k);
@@ -291,6 +288,7 @@ private:
     SeriesRows::Compliances theta_;
     EliminatedThread steady_, first_;
     ModalPass pass_;
+    ThreePointEnergies energies_;
     ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
     SeriesAdvance rows_ = nullptr;  // in series, where no energy is asked for
     bool readable_ = true;          // and all taps can be read without increments

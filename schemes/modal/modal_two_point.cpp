@@ -60,7 +60,7 @@ public:
         m_.size = (m_.modes + two_point_padding - 1) / two_point_padding * two_point_padding;
 
         const double xi = m_.dt * m_.dt / (2 * modes.mass);
-        std::vector<double> A, B, c, loss, inverse_J, scale;  // scale = sqrt(J/xi)
+        std::vector<double> A, B, c, loss, all_J, inverse_J, scale;  // scale = sqrt(J/xi)
         for (int i = 0; i < m_.modes; ++i) {
             const auto [Ai, Bi] = (i < kept ? law : trapezoidal)(modes.omega0[i], modes.sigma[i], m_.dt);
             const double J = 1 + Ai + Bi;
@@ -68,13 +68,13 @@ public:
             B.push_back(Bi);
             c.push_back(4 * Ai / J);
             loss.push_back(2 * Bi / J);
+            all_J.push_back(J);
             inverse_J.push_back(1 / J);
             scale.push_back(std::sqrt(J / xi));
         }
-        m_.A = keep(A);
         m_.c = keep(c);
         m_.loss = keep(loss);
-        m_.inverse_J = keep(inverse_J);
+        m_.J = keep(all_J);
 
         y_ = AlignedVector(m_.size);
         u_ = AlignedVector(m_.size);

@@ -159,11 +159,17 @@ double pluck_now(const TwoPoint& m) {
 // with others stores in C is left out, and its work counted to match.
 template <ContactKind kind, bool thread, Compliance compliance>
 double stored(const TwoPoint& m) {
-    double H = 0;
-    for (int i = 0; i < m.modes; ++i) {
-        const double q = 0.5 * m.u[i] / m.inverse_J[i] + m.A[i] * m.y[i];
-        H += (q * q + m.A[i] * m.y[i] * m.y[i]) * m.inverse_J[i];
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    const V half = hn::Set(d, 0.5), quarter = hn::Set(d, 0.25);
+    V by_q = hn::Zero(d), by_y = hn::Zero(d);
+    for (int j = 0; j < m.size; j += N) {
+        const V y = hn::Load(d, m.y + j), stiff = hn::Mul(quarter, hn::Mul(hn::Load(d, m.c + j), y));  // A y/J
+        const V q = hn::MulAdd(half, hn::Load(d, m.u + j), stiff);                                     // q/J
+        by_q = hn::MulAdd(hn::Mul(hn::Load(d, m.J + j), q), q, by_q);
+        by_y = hn::MulAdd(stiff, y, by_y);
     }
+    double H = hn::GetLane(hn::SumOfLanes(d, hn::Add(by_q, by_y)));
     if constexpr (compliance == Compliance::own) {
         if constexpr (kind != ContactKind::none) H += m.barrier.potential(m.h_b - m.y_b);
         if constexpr (thread) H += 0.5 * m.k_c * (m.h_c - m.y_c) * (m.h_c - m.y_c);

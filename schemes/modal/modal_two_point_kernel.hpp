@@ -40,7 +40,7 @@ struct TwoPoint {
     double *y = nullptr, *u = nullptr;
     const double *c = nullptr, *loss = nullptr;
     const double *g_b = nullptr, *g_c = nullptr, *g_e = nullptr;  // barrier, thread, pluck; nullptr where the scene has none
-    const double *inverse_J = nullptr, *A = nullptr;              // energy only
+    const double* J = nullptr;                                    // energy only
 
     ContactLaw barrier;
     double h_b = 0;

@@ -76,9 +76,6 @@ SeriesAdvance choose_series(bool barrier, bool thread) {
                                                   {advance<true, false>, advance<true, true>}};
     return table[barrier][thread];
 }
-double plain_series_dot(const double* w, const double* x, int size) {
-    return dot(w, x, size);
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari
@@ -87,13 +84,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace jvari {
 HWY_EXPORT(choose_series);
-HWY_EXPORT(plain_series_dot);
 
 SeriesAdvance series_advance(bool barrier, bool thread) {
     return HWY_DYNAMIC_DISPATCH(choose_series)(barrier, thread);
-}
-double series_dot(const ModalArray& w, const ModalArray& x) {
-    return HWY_DYNAMIC_DISPATCH(plain_series_dot)(w.data(), x.data(), static_cast<int>(w.size()));
 }
 }  // namespace jvari
 #endif

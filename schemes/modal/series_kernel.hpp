@@ -28,6 +28,4 @@ struct SeriesRows {
 using SeriesAdvance = Status (*)(SeriesRows&, const Block&);
 SeriesAdvance series_advance(bool barrier, bool thread);
 
-double series_dot(const ModalArray&, const ModalArray&);  // as these rows have it
-
 }  // namespace jvari
