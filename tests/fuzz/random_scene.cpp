@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "scenes/modes.hpp"
@@ -119,17 +120,31 @@ String string_of(Dice& d) {
     return s;
 }
 
-void listen(Dice& d, Scene& scene) {
-    for (int i = 0; i < static_cast<int>(scene.strings.size()); ++i) {
-        const String& s = scene.strings[static_cast<std::size_t>(i)];
-        const std::string of = std::to_string(i);
-        scene.taps.push_back({"nut" + of, Quantity::nut_force, i, 0});
-        scene.taps.push_back({"y" + of, Quantity::displacement, i, d.between(0, 1) * s.length});
-        if (d.chance(0.4)) scene.taps.push_back({"v" + of, Quantity::velocity, i, d.between(0, 1) * s.length});
-        if (!s.barriers.empty()) scene.taps.push_back({"bridge" + of, Quantity::bridge_force, i, 0});
-        if (s.thread) scene.taps.push_back({"thread" + of, Quantity::thread_force, i, 0});
-        if ((!s.barriers.empty() || s.thread) && d.chance(0.3)) scene.taps.push_back({"driving" + of, Quantity::driving_force, i, 0});
+void listen(Dice& d, Scene& scene, int i) {
+    const String& s = scene.strings[static_cast<std::size_t>(i)];
+    const std::string of = std::to_string(i);
+    scene.taps.push_back({"nut" + of, Quantity::nut_force, i, 0});
+    scene.taps.push_back({"y" + of, Quantity::displacement, i, d.between(0, 1) * s.length});
+    if (d.chance(0.4)) scene.taps.push_back({"v" + of, Quantity::velocity, i, d.between(0, 1) * s.length});
+    if (!s.barriers.empty()) scene.taps.push_back({"bridge" + of, Quantity::bridge_force, i, 0});
+    if (s.thread) scene.taps.push_back({"thread" + of, Quantity::thread_force, i, 0});
+    if ((!s.barriers.empty() || s.thread) && d.chance(0.3)) scene.taps.push_back({"driving" + of, Quantity::driving_force, i, 0});
+}
+
+// One string alone often gets a companion on the body.
+void put_on_a_body(Dice& d, Scene& scene) {
+    Body body;
+    for (int n = 1 + d.upto(4); n > 0; --n) {
+        const double mass = d.scale(1e-3, 1), omega = 2 * std::numbers::pi * d.scale(60, 3e3), Q = d.scale(5, 500);
+        body.modes.push_back({mass, mass * omega * omega, d.chance(0.2) ? 0 : mass * omega / Q});
     }
+    scene.body = body;
+    if (scene.strings.size() == 1 && d.chance(0.6)) {
+        scene.strings.push_back(string_of(d));
+        listen(d, scene, 1);
+    }
+    for (String& s : scene.strings) s.polarisation.reset();  // nothing represents both
+    if (d.chance(0.5)) scene.taps.push_back({"support", Quantity::velocity, 0, 0});
 }
 
 RandomCase drawn(Dice& d) {
@@ -137,12 +152,13 @@ RandomCase drawn(Dice& d) {
     d.extreme = c.extreme = d.chance(0.1);
     c.scene.name = "random";
     for (int n = d.chance(0.1) ? 2 : 1; n > 0; --n) c.scene.strings.push_back(string_of(d));
-    listen(d, c.scene);
+    for (std::size_t i = 0; i < c.scene.strings.size(); ++i) listen(d, c.scene, static_cast<int>(i));
     c.settings.tap_rate = d.one_of({44100.0, 44100.0, 48000.0, 22050.0});
     c.settings.sample_rate = c.settings.tap_rate * d.one_of({1, 1, 2, 3, 4});
     c.settings.modes = 1 + d.upto(40);
     c.scene.duration = d.between(20, d.chance(0.1) ? 900 : 220) / c.settings.tap_rate;
     if (d.chance(0.2) && modes_below(c.scene.strings.front(), 20e3) <= 100) c.settings.modes = 0;  // the default
+    if (d.chance(0.06)) put_on_a_body(d, c.scene);                                                 // last: what others draw stays
     return c;
 }
 }  // namespace
