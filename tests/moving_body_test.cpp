@@ -1,6 +1,7 @@
 // Strings on a body that moves: energy of the whole instrument, sympathy, the limit of a body too heavy to move, the reference.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <map>
@@ -254,6 +255,34 @@ TEST(MovingBody, OverBridgesTheTwoPointSchemeConvergesAsThatOfOneString) {
         const double on_body = error_at(d, scene, times, 40, truth.trace, 1), of_one = error_at(d, one, times, 40, alone.trace, 0);
         EXPECT_LT(on_body, 1.2 * of_one) << times;
         EXPECT_GT(on_body, 0.8 * of_one) << times;
+    }
+}
+
+// Few modes, so that the reference ends: all four strings strike their bridges within the 10 ms.
+TEST(MovingBody, TheDroneConvergesToItsReferenceAtTheOrderOfTheSingleString) {
+    Scene drone = read_scene("tanpura_drone");
+    drone.duration = 0.01;
+    drone.body = Body{"", "", 0, {resonance(110, 0.3, 15), resonance(190, 0.15, 20), resonance(320, 0.1, 25), resonance(540, 0.08, 30)}};
+    drone.taps = {{"nut", Quantity::nut_force, {}, 0}};
+    for (String& s : drone.strings) {
+        s.pluck.reset();
+        s.initial = ModeInitial{1, 1.9e-3};
+    }
+    Scene one = drone;
+    one.strings = {drone.strings[1]};
+    one.body.reset();
+    constexpr int modes = 10;
+    const Trace on_body = run(sundials, drone, {0, rate, modes, {}}).trace, still = run(exact_contact, one, {0, rate, modes, {}}).trace;
+    for (const char* name : {"modal_two_point", "modal_spatial_newton"}) {
+        const auto all = that_move_a_body();
+        const Descriptor& d = **std::ranges::find_if(all, [&](const Descriptor* x) { return std::string(x->name) == name; });
+        const auto order = [&](const Scene& scene, const Trace& truth) {
+            const double coarse = error_at(d, scene, 16, modes, truth, 0), fine = error_at(d, scene, 64, modes, truth, 0);
+            EXPECT_LT(fine, 1e-3) << name;
+            return 0.5 * std::log2(coarse / fine);
+        };
+        EXPECT_NEAR(order(drone, on_body), order(one, still), 0.1) << name;
+        EXPECT_GT(order(drone, on_body), 1.8) << name;
     }
 }
 
