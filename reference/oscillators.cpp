@@ -1,20 +1,13 @@
-// Plain vector arithmetic in a fixed order of summation (eight partial sums), so that every instruction set gives the same bits.
 #include "reference/oscillators.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define JVARI_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define JVARI_CLONES
-#endif
+#include "reference/partial_sums.hpp"
 
 namespace jvari {
 
 namespace {
-typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
-
 double largest_eigenvalue(const Modes& m) {  // of s^2 + 2 sigma s + omega0^2
     double rate = 0;
     for (int i = 0; i < m.count(); ++i) {
@@ -59,9 +52,7 @@ void series(const Oscillators& osc, const double* y, const double* u, const doub
                 d1 = next;
             }
         }
-        const double* s = reinterpret_cast<const double*>(sum);
-        for (int n = 0; n <= terms; ++n, s += lanes)
-            (n < terms ? p[o * stride + n] : bound[o]) = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+        for (int n = 0; n <= terms; ++n) (n < terms ? p[o * stride + n] : bound[o]) = total(sum[n]);
     }
 }
 
@@ -93,7 +84,7 @@ JVARI_CLONES
 double dot(const Oscillators& osc, const double* x, const double* y) {
     Lanes sum = {};
     for (int i = 0; i < osc.padded; i += lanes) sum += *reinterpret_cast<const Lanes*>(x + i) * *reinterpret_cast<const Lanes*>(y + i);
-    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+    return total(sum);
 }
 
 double series_tail(double z, int terms) {  // n z^n/n! = z^n/(n-1)!, ratio of successive terms z/n

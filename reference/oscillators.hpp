@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "reference/partial_sums.hpp"
 #include "scenes/modes.hpp"
 
 namespace jvari {
@@ -27,7 +28,6 @@ struct Oscillators {
 
 // p[o*stride + n] = n-th derivative of sum_i weights[o*padded + i] y_i at the present instant, n < terms, no force acting;
 // bound[o] = sum_i |weights| (|y_i| + |u_i|), so that |p_n| <= n bound for n >= 1. scratch: outputs*(terms + 1)*lanes doubles.
-constexpr int lanes = 8;
 void series(const Oscillators&, const double* y, const double* u, const double* weights, int outputs, int terms, double* p, int stride,
             double* bound, double* scratch);
 

@@ -3,25 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/partial_sums.hpp"
 #include "scenes/excitation.hpp"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define JVARI_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define JVARI_CLONES
-#endif
 
 namespace jvari {
 
 namespace {
-constexpr int lanes = 8;  // partial sums in a fixed order: every instruction set gives the same bits
-typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
-
-double total(const Lanes& lane) {  // by reference: a vector argument would depend on the instruction set
-    const double* s = reinterpret_cast<const double*>(&lane);
-    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-}
-
 JVARI_CLONES
 double dot(const double* g, const double* x, int n) {
     Lanes sum = {};

@@ -133,13 +133,9 @@ int compare_command(const CompareCall& r) {
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = code_of(c);
-    console.print_json(store::indented({{"scene", c.scene.name},
-                                        {"reference", c.reference_name},
-                                        {"status", exit_code::status(code)},
-                                        {"manifest", Json::parse(manifest)},
-                                        {"cells", Json::parse(store::rows_json(compare::with_bounds(cells)))},
-                                        {"cheapest", Json::parse(store::rows_json(cheapest))},
-                                        {"files", files}}));
+    console.print_json(
+        store::indented(with_results({{"scene", c.scene.name}, {"reference", c.reference_name}, {"status", exit_code::status(code)}},
+                                     manifest, cells, cheapest, files)));
     return code;
 }
 

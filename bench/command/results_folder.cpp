@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/compare/bound.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 
@@ -48,6 +48,16 @@ void must_be_ours(const fs::path& folder, const std::string& what, const store::
     for (std::size_t k = 0; k < std::min<std::size_t>(foreign.size(), 5); ++k) names += (k > 0 ? ", " : "") + foreign[k];
     listener.note(fmt::format("{} holds what is not of a {}: {}{}", folder.string(), what.substr(0, what.find(' ')), names,
                               foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
+}
+
+nlohmann::ordered_json with_results(nlohmann::ordered_json own, const std::string& manifest, const store::Table& cells,
+                                    const store::Table& cheapest, const nlohmann::ordered_json& files) {
+    using Json = nlohmann::ordered_json;
+    own["manifest"] = Json::parse(manifest);
+    own["cells"] = Json::parse(store::rows_json(compare::with_bounds(cells)));
+    own["cheapest"] = Json::parse(store::rows_json(cheapest));
+    own["files"] = files;
+    return own;
 }
 
 }  // namespace jvari::bench::command

@@ -2,14 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bench/store/listener.hpp"
+#include "bench/store/records.hpp"
 
 namespace jvari::bench::command {
 
 // Before anything is run. Throws UsageError where the folder holds the results of something else than `what` ("comparison of tanpura_c3",
 // "suite smoke"); notes files that no such folder has, which stay where they are. A folder that is not there is empty.
 void must_be_ours(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
+
+// What `compare` and `suite` say of their results as JSON, behind what is their own: manifest, cells, cheapest, files.
+nlohmann::ordered_json with_results(nlohmann::ordered_json own, const std::string& manifest, const store::Table& cells,
+                                    const store::Table& cheapest, const nlohmann::ordered_json& files);
 
 }  // namespace jvari::bench::command

@@ -182,16 +182,13 @@ int suite_command(const SuiteRequest& r) {
     if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);
     if (!missing.empty()) console.note(missing_text(missing));
     const int code = missing.empty() ? code_of(run.records) : exit_code::run_failed;
-    console.print_json(store::indented({{"suite", suite.name},
-                                        {"status", exit_code::status(code)},
-                                        {"ran", run.ran},
-                                        {"timed", run.timed},
-                                        {"read_back", run.read_back},
-                                        {"missing", missing},
-                                        {"manifest", Json::parse(manifest)},
-                                        {"cells", Json::parse(store::rows_json(compare::with_bounds(cells)))},
-                                        {"cheapest", Json::parse(store::rows_json(cheapest))},
-                                        {"files", files}}));
+    console.print_json(store::indented(with_results({{"suite", suite.name},
+                                                     {"status", exit_code::status(code)},
+                                                     {"ran", run.ran},
+                                                     {"timed", run.timed},
+                                                     {"read_back", run.read_back},
+                                                     {"missing", missing}},
+                                                    manifest, cells, cheapest, files)));
     return code;
 }
 

@@ -15,7 +15,7 @@ Kind<double> number_that(const char* says, const char* unit, bool (*holds)(doubl
             }};
 }
 
-Kind<int> whole_that(std::string says, int least, int most) {
+Kind<int> whole_that(const std::string& says, int least, int most) {
     return {says, [says, least, most](const Entry& e) {
                 const auto n = e.whole();
                 if (!n || *n < least || *n > most) e.refuse(says);
@@ -61,7 +61,7 @@ Kind<bool> yes_or_no() {
     return {"true or false", [](const Entry& e) { return e.truth(); }};
 }
 
-Kind<std::array<double, 2>> from_to(Kind<double> one) {
+Kind<std::array<double, 2>> from_to(const Kind<double>& one) {
     return {"[from, to], each " + one.says, [read = one.read](const Entry& e) {
                 if (!e.is_array()) e.refuse("two numbers, [from, to]");
                 const auto both = e.items();
@@ -74,6 +74,7 @@ Kind<std::array<double, 2>> from_to(Kind<double> one) {
 
 Kind<std::string> word(const char* what, const std::vector<std::string>& known) {
     std::vector<std::pair<std::string, std::string>> words;
+    words.reserve(known.size());
     for (const std::string& w : known) words.emplace_back(w, w);
     return one_of(what, std::move(words));
 }

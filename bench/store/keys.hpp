@@ -35,7 +35,7 @@ Kind<double> not_negative(const char* unit = "");
 Kind<int> whole(int least, int most);
 Kind<int> count();  // 1 ... 9999999
 Kind<bool> yes_or_no();
-Kind<std::array<double, 2>> from_to(Kind<double>);
+Kind<std::array<double, 2>> from_to(const Kind<double>&);
 
 template <class T>
 Kind<std::vector<T>> several(Kind<T> one) {
