@@ -44,23 +44,27 @@ double bridge_error(Scheme& scheme, const Scene& scene) {
     return difference / largest;
 }
 
+void time_rows(benchmark::State& state, Scheme& scheme) {
+    constexpr int rows = 64;
+    double tap[rows * 3];
+    const FlushDenormals flush;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(scheme.advance({rows, 3, rows, tap, nullptr}));
+        benchmark::ClobberMemory();
+        if (state.iterations() % 690 == 689) scheme.reset();  // stay within the first second
+    }
+    state.SetItemsProcessed(state.iterations() * rows);
+    state.counters["ns_per_step"] = benchmark::Counter(static_cast<double>(state.iterations()) * rows * 1e-9,
+                                                       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 template <std::unique_ptr<Scheme> (*make)(const Scene&, const Settings&)>
 void step(benchmark::State& state) {
     const Scene scene = three_taps();
     const auto scheme = make(scene, settings());
     const double error = bridge_error(*scheme, scene);
     scheme->reset();
-    constexpr int rows = 64;
-    double tap[rows * 3];
-    const FlushDenormals flush;
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(scheme->advance({rows, 3, rows, tap, nullptr}));
-        benchmark::ClobberMemory();
-        if (state.iterations() % 690 == 689) scheme->reset();  // stay within the first second
-    }
-    state.SetItemsProcessed(state.iterations() * rows);
-    state.counters["ns_per_step"] = benchmark::Counter(static_cast<double>(state.iterations()) * rows * 1e-9,
-                                                       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    time_rows(state, *scheme);
     state.counters["error"] = error;
 }
 // The same with what is missing of the string's compliance in series, and the explicit form that it makes possible with the modes that are
@@ -72,17 +76,7 @@ void matched(benchmark::State& state, const std::string& name, int modes, bool o
     if (option) s.options = {{"compliance", "matched"}};
     const auto& all = schemes();
     const auto scheme = make_scheme(*std::find_if(all.begin(), all.end(), [&](const Descriptor& d) { return d.name == name; }), scene, s);
-    constexpr int rows = 64;
-    double tap[rows * 3];
-    const FlushDenormals flush;
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(scheme->advance({rows, 3, rows, tap, nullptr}));
-        benchmark::ClobberMemory();
-        if (state.iterations() % 690 == 689) scheme->reset();
-    }
-    state.SetItemsProcessed(state.iterations() * rows);
-    state.counters["ns_per_step"] = benchmark::Counter(static_cast<double>(state.iterations()) * rows * 1e-9,
-                                                       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    time_rows(state, *scheme);
 }
 BENCHMARK(step<fused>)->Name("two_point/fused");
 BENCHMARK_CAPTURE(matched, two_point, "modal_two_point", 133, true);
