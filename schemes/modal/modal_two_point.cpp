@@ -199,9 +199,8 @@ public:
 private:
     static bool together(const Lane& a, const Lane& b) {  // in one kernel: neither profiles nor other rates
         const auto *one = dynamic_cast<const ModalTwoPoint*>(a.scheme), *other = dynamic_cast<const ModalTwoPoint*>(b.scheme);
-        return one && other && one->kernel_.together == other->kernel_.together && one->m_.steps_per_row == other->m_.steps_per_row &&
-               one->m_.status.outcome == Outcome::ok && other->m_.status.outcome == Outcome::ok && a.out.rows == b.out.rows &&
-               !a.out.energy == !b.out.energy;
+        return one && other && one->kernel_.together && one->kernel_.together == other->kernel_.together && !a.out.energy &&
+               !b.out.energy && one->m_.steps_per_row == other->m_.steps_per_row && a.out.rows == b.out.rows;
     }
     static void advance_some(std::span<Lane> lanes) {
         std::array<TwoPoint*, two_point_together> strings;
@@ -209,10 +208,9 @@ private:
         for (std::size_t i = 0; i < lanes.size(); ++i) {
             strings[i] = &static_cast<ModalTwoPoint*>(lanes[i].scheme)->m_;
             blocks[i] = lanes[i].out;
+            lanes[i].status = {};
         }
-        const int rows = static_cast<ModalTwoPoint*>(lanes[0].scheme)->kernel_.together({strings.data(), lanes.size()}, blocks.data());
-        for (std::size_t i = 0; i < lanes.size(); ++i)  // beyond a failure each by itself
-            lanes[i].status = lanes[i].scheme->advance(from_row(lanes[i].out, rows));
+        static_cast<ModalTwoPoint*>(lanes[0].scheme)->kernel_.together({strings.data(), lanes.size()}, blocks.data());
     }
 
     // Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y = tanh(s dt/2) on the discrete mode

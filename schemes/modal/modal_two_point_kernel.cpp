@@ -43,18 +43,6 @@ struct SeriesState {
     }
 };
 
-template <ContactKind kind>
-HWY_INLINE void note(TwoPoint& m, const ContactSolution& x, double eta) {
-    m.least_force = x.force < m.least_force ? x.force : m.least_force;
-    m.depth = eta > m.depth ? eta : m.depth;
-    m.impulse_b += x.force;
-    if constexpr (kind == ContactKind::power) {
-        m.iterations += x.iterations;
-        m.iterations_most = x.iterations > m.iterations_most ? x.iterations : m.iterations_most;
-        if (!x.converged && m.status.outcome == Outcome::ok) m.status = {Outcome::not_converged, m.step};
-    }
-}
-
 template <ContactKind kind, bool thread, bool pluck, bool probe>
 HWY_INLINE void step_own(TwoPoint& m) {
     constexpr bool barrier = kind != ContactKind::none;
@@ -78,7 +66,7 @@ HWY_INLINE void step_own(TwoPoint& m) {
         m.impulse_c += F_c;
     }
     if constexpr (probe) ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, u_c + m.theta_bc * F_b + m.theta_cc * F_c);  // s_c by (44)
-    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e));
+    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e, NothingBetween()));
     ++m.step;
 }
 
@@ -116,7 +104,7 @@ HWY_INLINE void step_matched(TwoPoint& m) {
         ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, moved);
         if constexpr (pluck) m.supplied -= (F_b * s.C_be + F_c * s.C_ce) * change;
     }
-    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e));
+    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e, NothingBetween()));
     ++m.step;
 }
 
@@ -231,62 +219,33 @@ Status advance(TwoPoint& m, const Block& out) {
     return m.status;
 }
 
-template <ContactKind kind, bool thread, bool probe, Compliance compliance>
-HWY_INLINE void steps_of_each(std::span<TwoPoint* const> strings, long count) {
-    for (long i = 0; i < count; ++i)
-        for (TwoPoint* m : strings) steps<kind, thread, probe, compliance>(*m, 1);
-}
-
 template <bool thread>
-HWY_INLINE void steps_in_lanes(std::span<TwoPoint* const> strings, TwoPointLanes<thread>& lanes, long count) {
-    for (long i = 0; i < count; ++i) {
-        bool plucked[two_point_together], any = false;
-        for (std::size_t s = 0; s < strings.size(); ++s) {
-            const long into = strings[s]->step - strings[s]->pluck_first;
-            plucked[s] = into >= 0 && into < strings[s]->pluck_steps;
-            lanes.F_e.of[s] = plucked[s] ? strings[s]->pluck[into] : 0;
-            any = any || plucked[s];
-        }
-        if (any) lanes.template step<true>(plucked);
-        else lanes.template step<false>(plucked);
-    }
-}
-
-// Rows of all strings, `step` by which they go on; the rows made.
-template <ContactKind kind, bool thread, Compliance compliance, class Step>
-HWY_INLINE int rows_together(std::span<TwoPoint* const> strings, const Block* out, Step step) {
+void advance_together(std::span<TwoPoint* const> strings, const Block* out) {
+    const auto string = [strings](std::size_t i) { return i < strings.size() ? strings[i] : nullptr; };
+    const bool three = strings.size() > 2;
+    TwoPointPair<thread> first(string(0), three ? string(1) : nullptr), second(string(three ? 2 : 1), string(3));
+    first.solve();
     for (int row = 0; row < out->rows; ++row) {
-        for (std::size_t s = 0; s < strings.size(); ++s) write<kind, thread, compliance>(*strings[s], out[s], row);
+        for (std::size_t i = 0; i < strings.size(); ++i) write<ContactKind::linear, thread, Compliance::own>(*strings[i], out[i], row);
         for (long left = strings.front()->steps_per_row; left > 0; left -= steps_between_questions) {
-            step(left < steps_between_questions ? left : steps_between_questions);
-            if (left > steps_between_questions && out->stopped()) return out->rows;
+            for (long n = std::min(left, steps_between_questions); n > 0; --n) {
+                first.step(second);
+                second.step(first);
+            }
+            if (left > steps_between_questions && out->stopped()) return;
         }
-        for (const TwoPoint* m : strings)
-            if (m->status.outcome != Outcome::ok) return row + 1;
     }
-    return out->rows;
+    first.leave();
+    second.leave();
 }
 
 template <ContactKind kind, bool thread, Compliance compliance>
-int advance_together(std::span<TwoPoint* const> strings, const Block* out) {
-    const auto rows = [&](auto step) { return rows_together<kind, thread, compliance>(strings, out, step); };
-    if (out->energy) return rows([&](long n) { steps_of_each<kind, thread, true, compliance>(strings, n); });
-    if constexpr (kind == ContactKind::linear && compliance == Compliance::own) {
-        TwoPointLanes<thread> lanes(strings);
-        const int made = rows([&](long n) {
-            lanes.take_impulses();
-            steps_in_lanes<thread>(strings, lanes, n);
-            lanes.give_impulses();
-        });
-        lanes.leave();
-        return made;
-    } else {
-        return rows([&](long n) { steps_of_each<kind, thread, false, compliance>(strings, n); });
-    }
-}
+constexpr TwoPointTogether together = nullptr;
+template <bool thread>
+constexpr TwoPointTogether together<ContactKind::linear, thread, Compliance::own> = advance_together<thread>;
 
 template <ContactKind kind, bool thread, Compliance compliance>
-constexpr TwoPointKernel kernel = {advance<kind, thread, compliance>, advance_together<kind, thread, compliance>};
+constexpr TwoPointKernel kernel = {advance<kind, thread, compliance>, together<kind, thread, compliance>};
 
 template <Compliance compliance>
 TwoPointKernel choose_for(ContactKind kind, bool thread) {

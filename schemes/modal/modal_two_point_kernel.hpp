@@ -75,11 +75,10 @@ using TwoPointAdvance = Status (*)(TwoPoint&, const Block&);
 enum class ContactKind { none, linear, power };
 enum class Compliance { own, matched };  // the modes' own, or with C in series
 
-// The same for two to four strings at once, step by step, each into its own block: the same bits, and while one string waits for its
-// contact another is under way. Of as many as fit in the first-level cache. Rows and steps per row are those of the first. Ends after the
-// row in which a string fails, and gives the rows made.
+// The same for two to four strings at once, each into its own block, its energy not probed: the same bits in less time. Rows and steps per
+// row are those of the first. Of as many as fit in the first-level cache. nullptr: not for these parts.
 constexpr int two_point_together = 4;
-using TwoPointTogether = int (*)(std::span<TwoPoint* const>, const Block*);
+using TwoPointTogether = void (*)(std::span<TwoPoint* const>, const Block*);
 
 struct TwoPointKernel {
     TwoPointAdvance one = nullptr;

@@ -1,6 +1,9 @@
-// The contact equations of up to four strings solved at once, a string per lane: linear contact, the modes' own compliance (van Walstijn et
-// al. 2016, eqs 44-48). One string waits for its root and its divisions between two passes; four share the wait, and no branch depends on
-// whether a string touches. The operations of a lane are those of step_own and solve_linear_contact, in their order: the same bits.
+// Two to four strings advanced together, in two pairs: linear contact, the modes' own compliance (van Walstijn et al. 2016, eqs 44-48).
+//
+// The contact equations of a pair are a chain of some 140 cycles (a root and two divisions in a row), as long as one pass over 133 modes.
+// A processor looks ahead, but not past a chain that fills its scheduler. So the chain of one pair is cut into six stages, which stand
+// between the thirds of the other pair's two passes. A lane holds a string, no branch depends on whether it touches, and the operations of
+// a lane are those of step_own and solve_linear_contact in their order: the same bits.
 #if defined(JVARI_MODAL_TWO_POINT_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_TWO_POINT_LANES
 #undef JVARI_MODAL_TWO_POINT_LANES
@@ -17,129 +20,157 @@ namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using L = hn::CappedTag<double, two_point_together>;  // four strings, or two at a time
-using W = hn::Vec<L>;
-
-struct alignas(64) PerString {
-    double of[two_point_together] = {};  // zero where there is no string: no barrier, no force
-    W at(int k) const { return hn::Load(L(), of + k); }
-    void set(int k, W w) { hn::Store(w, L(), of + k); }
-};
-
-// Force of solve_linear_contact, every case worked out and one chosen.
-HWY_INLINE W linear_force(W k, W eta, W b, W theta) {
-    const L d;
-    const W zero = hn::Zero(d), one = hn::Set(d, 1), half = hn::Set(d, 0.5), two = hn::Set(d, 2), four = hn::Set(d, 4);
-    const W phi = half * theta * k, stiff = one + phi, free = eta + b;
-    const auto in = hn::Gt(eta, zero);
-    const auto touches = hn::Or(in, hn::Gt(free, zero));
-    const auto stays = hn::And(in, hn::Gt(eta * (one - phi) + b, zero));
-    const W staying = k * (eta + half * b) / stiff;
-    const W gap = hn::Neg(eta), p = hn::IfThenElse(in, b, gap - free);  // leaves by r, else enters to x: both by a quadratic
-    const W root = hn::Sqrt(p * p + hn::IfThenElse(in, four * phi * eta * eta, four * stiff * free * gap));
-    const auto above = hn::Gt(p, zero);
-    const W product = hn::IfThenElse(in, two * phi * eta * eta, two * free * gap);
-    const W x = hn::IfThenElse(above, product, half * (root - p)) / hn::IfThenElse(above, p + root, hn::IfThenElse(in, one, stiff));
-    const W load = half * k * hn::IfThenElse(in, eta, x);
-    const W moving = hn::IfThenElse(in, load * eta, load) / hn::IfThenElse(in, x, gap + x);
-    return hn::IfThenElseZero(touches, hn::IfThenElse(stays, staying, hn::IfThenElse(in, moving, moving * x)));
-}
-
 template <bool thread>
-class TwoPointLanes {
+class TwoPointPair {
 public:
-    explicit TwoPointLanes(std::span<TwoPoint* const> strings) : strings_(strings) {
-        for (std::size_t i = 0; i < strings.size(); ++i) {
-            const TwoPoint& m = *strings[i];
+    TwoPointPair(TwoPoint* first, TwoPoint* second) : strings_{first, second} {  // second: or nullptr
+        for (int i = 0; i < 2 && strings_[i]; ++i) {
+            const TwoPoint& m = *strings_[i];
             k_.of[i] = m.barrier.k;
             for (const auto& [constant, lanes] : constants_) (this->*lanes).of[i] = m.*constant;
             for (const auto& [state, lanes] : states_) (this->*lanes).of[i] = m.*state;
         }
+        next_pluck();
     }
     void leave() const {  // the strings as they are now
-        for (std::size_t i = 0; i < strings_.size(); ++i)
+        for (int i = 0; i < 2 && strings_[i]; ++i)
             for (const auto& [state, lanes] : states_) strings_[i]->*state = (this->*lanes).of[i];
     }
-
-    void take_impulses() {  // what a row has so far
-        for (std::size_t i = 0; i < strings_.size(); ++i) {
-            impulse_b_.of[i] = strings_[i]->impulse_b;
-            impulse_c_.of[i] = strings_[i]->impulse_c;
-        }
-    }
-    void give_impulses() const {
-        for (std::size_t i = 0; i < strings_.size(); ++i) {
-            strings_[i]->impulse_b = impulse_b_.of[i];
-            strings_[i]->impulse_c = impulse_c_.of[i];
-        }
+    void solve() {
+        stage<0>();
+        stage<1>();
+        stage<2>();
+        stage<3>();
+        stage<4>();
+        stage<5>();
     }
 
-    // One step of each string; plucked[i]: its force acts, in F_e.
-    template <bool plucks>
-    HWY_INLINE void step(const bool* plucked) {
-        for (int i = 0; i < two_point_together; i += static_cast<int>(hn::Lanes(L()))) forces<plucks>(i);
-        Dots next[two_point_together];
-        for (Dots& of : next) of = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
-        for (std::size_t i = 0; i < strings_.size(); ++i) {
-            TwoPoint& m = *strings_[i];
-            if (plucks && plucked[i]) next[i] = pass<true, thread, true>(m, F_b_.of[i], F_c_.of[i], F_e.of[i]);
-            else next[i] = pass<true, thread, false>(m, F_b_.of[i], F_c_.of[i], 0);
-            ++m.step;
-        }
-        const auto sum = [&next](V Dots::*dot, PerString& to)
-                             HWY_ATTR { sums(next[0].*dot, next[1].*dot, next[2].*dot, next[3].*dot, to.of); };
-        sum(&Dots::y_b, y_b_);
-        sum(&Dots::u_b, u_b_);
+    // One step by the forces solved, while `other` solves for its own.
+    HWY_INLINE void step(TwoPointPair& other) {
+        Dots next[2] = {{hn::Zero(D()), hn::Zero(D()), hn::Zero(D()), hn::Zero(D())},
+                        {hn::Zero(D()), hn::Zero(D()), hn::Zero(D()), hn::Zero(D())}};
+        next[0] = pass_of<0>(other);
+        if (strings_[1]) next[1] = pass_of<1>(other);
+        else other.template rest<3>();
+        alignas(64) double sum[2][4];
+        sums(next[0].y_b, next[1].y_b, next[0].u_b, next[1].u_b, sum[0]);
+        hn::Store(hn::Load(L(), sum[0]), L(), y_b_.of);
+        hn::Store(hn::Load(L(), sum[0] + 2), L(), u_b_.of);
         if constexpr (thread) {
-            sum(&Dots::y_c, y_c_);
-            sum(&Dots::u_c, u_c_);
+            sums(next[0].y_c, next[1].y_c, next[0].u_c, next[1].u_c, sum[1]);
+            hn::Store(hn::Load(L(), sum[1]), L(), y_c_.of);
+            hn::Store(hn::Load(L(), sum[1] + 2), L(), u_c_.of);
         }
+        next_pluck();
     }
-    PerString F_e;  // [N]
 
 private:
-    template <bool plucks>
-    HWY_INLINE void forces(int i) {
-        const L d;
-        W u_b = u_b_.at(i), u_c = u_c_.at(i), v = hn::Zero(d);
-        if constexpr (plucks) {
-            const W F = F_e.at(i);
-            const auto acts = hn::Ne(F, hn::Zero(d));
-            u_b = hn::IfThenElse(acts, u_b + theta_be_.at(i) * F, u_b);
-            if constexpr (thread) u_c = hn::IfThenElse(acts, u_c + theta_ce_.at(i) * F, u_c);
+    using L = hn::CappedTag<double, 2>;
+    using W = hn::Vec<L>;
+    struct alignas(16) Lanes {
+        double of[2] = {};  // zero where there is no string: no barrier, no force
+        HWY_INLINE W all() const { return hn::Load(L(), of); }
+        HWY_INLINE void set(W w) { hn::Store(w, L(), of); }
+    };
+
+    template <int first>
+    struct Stages {  // of the other pair, between the thirds of a pass
+        TwoPointPair& other;
+        template <int part>
+        HWY_INLINE void at() const {
+            other.template stage<first + part>();
         }
-        if constexpr (thread) v = (k_c_.at(i) * (h_c_.at(i) - y_c_.at(i)) - phi_c_.at(i) * u_c) * inverse_c_.at(i);  // (47)
-        const W eta = h_b_.at(i) - y_b_.at(i);
-        W b = hn::Neg(u_b);
-        if constexpr (thread) b = b - theta_bc_.at(i) * v;  // (48)
-        const W F_b = linear_force(k_.at(i), eta, b, theta_.at(i));
-        least_.set(i, hn::Min(F_b, least_.at(i)));
-        depth_.set(i, hn::Max(eta, depth_.at(i)));
-        impulse_b_.set(i, impulse_b_.at(i) + F_b);
-        F_b_.set(i, F_b);
-        if constexpr (thread) {
-            const W F_c = v - beta_c_.at(i) * F_b;  // (46)
-            impulse_c_.set(i, impulse_c_.at(i) + F_c);
-            F_c_.set(i, F_c);
+    };
+    template <int i>
+    HWY_INLINE Dots pass_of(TwoPointPair& other) {
+        TwoPoint& m = *strings_[i];
+        const double F_b = F_b_.of[i], F_c = F_c_.of[i];
+        note<ContactKind::linear>(m, {.force = F_b}, m.h_b - y_b_.of[i]);
+        if constexpr (thread) m.impulse_c += F_c;
+        ++m.step;
+        const Stages<parts_of_pass * i> stages{other};
+        return plucked_[i] ? pass<true, thread, true>(m, F_b, F_c, F_e_.of[i], stages) : pass<true, thread, false>(m, F_b, F_c, 0, stages);
+    }
+    HWY_INLINE void next_pluck() {
+        for (int i = 0; i < 2 && strings_[i]; ++i) {
+            const TwoPoint& m = *strings_[i];
+            const long into = m.step - m.pluck_first;
+            plucked_[i] = into >= 0 && into < m.pluck_steps;
+            F_e_.of[i] = plucked_[i] ? m.pluck[into] : 0;
         }
     }
 
-    std::span<TwoPoint* const> strings_;
-    PerString k_, theta_, theta_bc_, theta_be_, theta_ce_, h_b_, k_c_, h_c_, phi_c_, inverse_c_, beta_c_;
-    PerString y_b_, y_c_, u_b_, u_c_, impulse_b_, impulse_c_, least_, depth_, F_b_, F_c_;
+    template <int first>
+    HWY_INLINE void rest() {
+        if constexpr (first < 6) {
+            stage<first>();
+            rest<first + 1>();
+        }
+    }
+
+    // step_own to its forces: every case of solve_linear_contact is worked out and one chosen.
+    template <int n>
+    HWY_INLINE void stage() {
+        const L d;
+        const W zero = hn::Zero(d), one = hn::Set(d, 1), half = hn::Set(d, 0.5), two = hn::Set(d, 2), four = hn::Set(d, 4), k = k_.all();
+        if constexpr (n == 0) {
+            W u_b = u_b_.all() + theta_be_.all() * F_e_.all();
+            if constexpr (thread) {
+                const W u_c = u_c_.all() + theta_ce_.all() * F_e_.all();
+                v_ = (k_c_.all() * (h_c_.all() - y_c_.all()) - phi_c_.all() * u_c) * inverse_c_.all();  // (47)
+            }
+            eta_ = h_b_.all() - y_b_.all();
+            b_ = hn::Neg(u_b);
+            if constexpr (thread) b_ = b_ - theta_bc_.all() * v_;  // (48)
+        }
+        if constexpr (n == 1) {
+            const W phi = half * theta_.all() * k, free = eta_ + b_;
+            stiff_ = one + phi;
+            in_ = hn::Gt(eta_, zero);
+            touches_ = hn::Or(in_, hn::Gt(free, zero));
+            stays_ = hn::And(in_, hn::Gt(eta_ * (one - phi) + b_, zero));
+            gap_ = hn::Neg(eta_);
+            p_ = hn::IfThenElse(in_, b_, gap_ - free);  // leaves by r, else enters to x: both by a quadratic
+            square_ = p_ * p_ + hn::IfThenElse(in_, four * phi * eta_ * eta_, four * stiff_ * free * gap_);
+            product_ = hn::IfThenElse(in_, two * phi * eta_ * eta_, two * free * gap_);
+        }
+        if constexpr (n == 2) {
+            root_ = hn::Sqrt(square_);
+            staying_ = k * (eta_ + half * b_) / stiff_;
+        }
+        if constexpr (n == 3) {
+            const auto above = hn::Gt(p_, zero);
+            x_ = hn::IfThenElse(above, product_, half * (root_ - p_)) / hn::IfThenElse(above, p_ + root_, hn::IfThenElse(in_, one, stiff_));
+        }
+        if constexpr (n == 4) {
+            const W load = half * k * hn::IfThenElse(in_, eta_, x_);
+            moving_ = hn::IfThenElse(in_, load * eta_, load) / hn::IfThenElse(in_, x_, gap_ + x_);
+        }
+        if constexpr (n == 5) {
+            const W F_b = hn::IfThenElseZero(touches_, hn::IfThenElse(stays_, staying_, hn::IfThenElse(in_, moving_, moving_ * x_)));
+            F_b_.set(F_b);
+            if constexpr (thread) F_c_.set(v_ - beta_c_.all() * F_b);  // (46)
+        }
+    }
+    W v_, eta_, b_, stiff_, gap_, p_, square_, product_, root_, staying_, x_, moving_;
+    hn::Mask<L> in_, touches_, stays_;
+
+    TwoPoint* strings_[2];
+    bool plucked_[2] = {};
+    Lanes k_, theta_, theta_bc_, theta_be_, theta_ce_, h_b_, k_c_, h_c_, phi_c_, inverse_c_, beta_c_;
+    Lanes y_b_, y_c_, u_b_, u_c_, F_e_, F_b_, F_c_;
 
     struct Member {
         double TwoPoint::*of_string;
-        PerString TwoPointLanes::*lanes;
+        Lanes TwoPointPair::*lanes;
     };
     using M = TwoPoint;
-    using S = TwoPointLanes;
+    using S = TwoPointPair;
     static constexpr Member constants_[] = {{&M::theta, &S::theta_},       {&M::theta_bc, &S::theta_bc_}, {&M::theta_be, &S::theta_be_},
                                             {&M::theta_ce, &S::theta_ce_}, {&M::h_b, &S::h_b_},           {&M::k_c, &S::k_c_},
                                             {&M::h_c, &S::h_c_},           {&M::phi_c, &S::phi_c_},       {&M::inverse_c, &S::inverse_c_},
                                             {&M::beta_c, &S::beta_c_}};
-    static constexpr Member states_[] = {{&M::y_b, &S::y_b_}, {&M::y_c, &S::y_c_},           {&M::u_b, &S::u_b_},
-                                         {&M::u_c, &S::u_c_}, {&M::least_force, &S::least_}, {&M::depth, &S::depth_}};
+    static constexpr Member states_[] = {{&M::y_b, &S::y_b_}, {&M::y_c, &S::y_c_}, {&M::u_b, &S::u_b_}, {&M::u_c, &S::u_c_}};
 };
 
 }  // namespace HWY_NAMESPACE

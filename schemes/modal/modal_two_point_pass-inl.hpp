@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "schemes/modal/modal_two_point_kernel.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -62,9 +64,28 @@ HWY_INLINE void take(TwoPoint& m, const Dots& next) {
     m.u_c = sum[3];
 }
 
-// One pass: the update and the next dots. Two accumulators per dot hide the latency of adding.
-template <bool barrier, bool thread, bool pluck>
-HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e) {
+// A contact solved, into what a string tells of its run.
+template <ContactKind kind>
+HWY_INLINE void note(TwoPoint& m, const ContactSolution& x, double eta) {
+    m.least_force = x.force < m.least_force ? x.force : m.least_force;
+    m.depth = eta > m.depth ? eta : m.depth;
+    m.impulse_b += x.force;
+    if constexpr (kind == ContactKind::power) {
+        m.iterations += x.iterations;
+        m.iterations_most = x.iterations > m.iterations_most ? x.iterations : m.iterations_most;
+        if (!x.converged && m.status.outcome == Outcome::ok) m.status = {Outcome::not_converged, m.step};
+    }
+}
+
+struct NothingBetween {
+    template <int part>
+    HWY_INLINE void at() const {}
+};
+constexpr int parts_of_pass = 3;
+
+// One pass: the update and the next dots. Two accumulators per dot hide the latency of adding. `between` is asked before each third.
+template <bool barrier, bool thread, bool pluck, class Between>
+HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Between between) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
@@ -100,10 +121,21 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e) {
         }
     };
     int i = 0;
-    for (; i + N < m.modes; i += 2 * N) {
-        at(i, 0);
-        at(i + N, 1);
+    const auto until = [&](int end) HWY_ATTR __attribute__((always_inline)) {
+        for (; i + N < end; i += 2 * N) {
+            at(i, 0);
+            at(i + N, 1);
+        }
+    };
+    if constexpr (!std::is_same_v<Between, NothingBetween>) {
+        const int third = m.modes / parts_of_pass;
+        between.template at<0>();
+        until(third);
+        between.template at<1>();
+        until(2 * third);
+        between.template at<2>();
     }
+    until(m.modes);
     if (i < m.modes) at(i, 0);
     const auto both = [](const V(&v)[2]) { return hn::Add(v[0], v[1]); };
     return {both(yb), both(ub), both(yc), both(uc)};
