@@ -151,6 +151,9 @@ public:
             }
         }
         m_.taps = taps_.data();
+        const auto from_modes =
+            std::find_if(taps_.begin(), taps_.end(), [](const TwoPointTap& t) { return t.from == TwoPointTap::From::modes; });
+        if (from_modes != taps_.end()) m_.read = from_modes->on_y;
         if (matched) put_in_series(descriptor, scene, modes, A);
         const ContactKind kind = !m_.g_b ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
         kernel_ = two_point_kernel(kind, m_.g_c != nullptr, matched ? Compliance::matched : Compliance::own);
@@ -167,6 +170,7 @@ public:
         m_.y_c = m_.g_c ? two_point_dot(m_.g_c, m_.y, m_.size) : 0;
         m_.u_c = m_.g_c ? two_point_dot(m_.g_c, m_.u, m_.size) : 0;
         m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.least_force = m_.depth = m_.iterations = m_.iterations_most = 0;
+        m_.read_at = -1;
         m_.status = {};
     }
     Status advance(const Block& out) noexcept override { return kernel_.one(m_, out); }

@@ -66,7 +66,7 @@ HWY_INLINE void step_own(TwoPoint& m) {
         m.impulse_c += F_c;
     }
     if constexpr (probe) ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, u_c + m.theta_bc * F_b + m.theta_cc * F_c);  // s_c by (44)
-    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e, NothingBetween()));
+    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e));
     ++m.step;
 }
 
@@ -104,7 +104,7 @@ HWY_INLINE void step_matched(TwoPoint& m) {
         ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, moved);
         if constexpr (pluck) m.supplied -= (F_b * s.C_be + F_c * s.C_ce) * change;
     }
-    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e, NothingBetween()));
+    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e));
     ++m.step;
 }
 
@@ -184,7 +184,7 @@ HWY_INLINE void forces_now(const TwoPoint& m, double (&force)[3]) {
 HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
     const double steps = m.steps_per_row;
     switch (tap.from) {
-        case TwoPointTap::From::modes: return dot(tap.on_y, m.y, m.size);
+        case TwoPointTap::From::modes: return tap.on_y == m.read && m.read_at == m.step ? m.heard : dot(tap.on_y, m.y, m.size);
         case TwoPointTap::From::modes_and_increment: return dot(tap.on_y, m.y, m.size) + dot(tap.on_u, m.u, m.size);
         case TwoPointTap::From::bridge: return m.impulse_b / steps;
         case TwoPointTap::From::thread: return m.impulse_c / steps;
@@ -219,11 +219,12 @@ Status advance(TwoPoint& m, const Block& out) {
     return m.status;
 }
 
-template <bool thread>
-void advance_together(std::span<TwoPoint* const> strings, const Block* out) {
+template <bool thread, bool read>
+void advance_pairs(std::span<TwoPoint* const> strings, const Block* out) {
+    using Pair = TwoPointPair<thread, read>;
     const auto string = [strings](std::size_t i) { return i < strings.size() ? strings[i] : nullptr; };
     const bool three = strings.size() > 2;
-    TwoPointPair<thread> first(string(0), three ? string(1) : nullptr), second(string(three ? 2 : 1), string(3));
+    Pair first(string(0), three ? string(1) : nullptr), second(string(three ? 2 : 1), string(3));
     first.solve();
     for (int row = 0; row < out->rows; ++row) {
         for (std::size_t i = 0; i < strings.size(); ++i) write<ContactKind::linear, thread, Compliance::own>(*strings[i], out[i], row);
@@ -237,6 +238,15 @@ void advance_together(std::span<TwoPoint* const> strings, const Block* out) {
     }
     first.leave();
     second.leave();
+}
+
+// A tap is read in the passes where each ends a row and each string has one.
+template <bool thread>
+void advance_together(std::span<TwoPoint* const> strings, const Block* out) {
+    bool read = strings.front()->steps_per_row == 1;
+    for (const TwoPoint* m : strings) read = read && m->read;
+    if (read) advance_pairs<thread, true>(strings, out);
+    else advance_pairs<thread, false>(strings, out);
 }
 
 template <ContactKind kind, bool thread, Compliance compliance>

@@ -55,6 +55,7 @@ struct TwoPoint {
     TwoPointSeries series;
 
     const TwoPointTap* taps = nullptr;
+    const double* read = nullptr;  // on_y of the first tap from the modes, which a pass can read on its way
     int steps_per_row = 1;
 
     // what changes from step to step
@@ -64,6 +65,8 @@ struct TwoPoint {
     double supplied = 0, dissipated = 0;         // since the last row [J]
     double least_force = 0, depth = 0;           // over the run
     double iterations = 0, iterations_most = 0;  // of the contact solver
+    long read_at = -1;                           // the step at which a pass read `heard`
+    double heard = 0;
     Status status;
 };
 

@@ -20,7 +20,7 @@ namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <bool thread>
+template <bool thread, bool read>
 class TwoPointPair {
 public:
     TwoPointPair(TwoPoint* first, TwoPoint* second) : strings_{first, second} {  // second: or nullptr
@@ -47,8 +47,8 @@ public:
 
     // One step by the forces solved, while `other` solves for its own.
     HWY_INLINE void step(TwoPointPair& other) {
-        Dots next[2] = {{hn::Zero(D()), hn::Zero(D()), hn::Zero(D()), hn::Zero(D())},
-                        {hn::Zero(D()), hn::Zero(D()), hn::Zero(D()), hn::Zero(D())}};
+        Dots next[2];
+        next[1] = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
         next[0] = pass_of<0>(other);
         if (strings_[1]) next[1] = pass_of<1>(other);
         else other.template rest<3>();
@@ -61,6 +61,11 @@ public:
             hn::Store(hn::Load(L(), sum[1]), L(), y_c_.of);
             hn::Store(hn::Load(L(), sum[1] + 2), L(), u_c_.of);
         }
+        if constexpr (read)
+            for (int i = 0; i < 2 && strings_[i]; ++i) {
+                strings_[i]->heard = hn::GetLane(hn::SumOfLanes(D(), next[i].read));
+                strings_[i]->read_at = strings_[i]->step;
+            }
         next_pluck();
     }
 
@@ -89,14 +94,16 @@ private:
         if constexpr (thread) m.impulse_c += F_c;
         ++m.step;
         const Stages<parts_of_pass * i> stages{other};
-        return plucked_[i] ? pass<true, thread, true>(m, F_b, F_c, F_e_.of[i], stages) : pass<true, thread, false>(m, F_b, F_c, 0, stages);
+        if (plucked_[i]) return pass<true, thread, true, read>(m, F_b, F_c, F_e_.of[i], stages);
+        return pass<true, thread, false, read>(m, F_b, F_c, 0, stages);
     }
     HWY_INLINE void next_pluck() {
         for (int i = 0; i < 2 && strings_[i]; ++i) {
             const TwoPoint& m = *strings_[i];
             const long into = m.step - m.pluck_first;
             plucked_[i] = into >= 0 && into < m.pluck_steps;
-            F_e_.of[i] = plucked_[i] ? m.pluck[into] : 0;
+            if (plucked_[i]) F_e_.of[i] = m.pluck[into];
+            else if (F_e_.of[i] != 0) F_e_.of[i] = 0;  // to store one lane makes the load of both wait
         }
     }
 

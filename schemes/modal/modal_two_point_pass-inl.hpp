@@ -50,9 +50,9 @@ HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
 #endif
 }
 
-// The dots of the next step, before the sum over lanes; zero where the part is absent.
+// The dots of the next step, before the sum over lanes; zero where the part is absent. `read`: of the tap that is read with them.
 struct Dots {
-    V y_b, u_b, y_c, u_c;
+    V y_b, u_b, y_c, u_c, read;
 };
 
 HWY_INLINE void take(TwoPoint& m, const Dots& next) {
@@ -84,16 +84,16 @@ struct NothingBetween {
 constexpr int parts_of_pass = 3;
 
 // One pass: the update and the next dots. Two accumulators per dot hide the latency of adding. `between` is asked before each third.
-template <bool barrier, bool thread, bool pluck, class Between>
-HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Between between) {
+template <bool barrier, bool thread, bool pluck, bool read = false, class Between = NothingBetween>
+HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Between between = {}) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
     double *HWY_RESTRICT y = m.y, *HWY_RESTRICT u = m.u;
     const double *HWY_RESTRICT c = m.c, *HWY_RESTRICT loss = m.loss;
-    const double *HWY_RESTRICT gb = m.g_b, *HWY_RESTRICT gc = m.g_c, *HWY_RESTRICT ge = m.g_e;
-    V yb[2], yc[2], ub[2], uc[2];
-    for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
+    const double *HWY_RESTRICT gb = m.g_b, *HWY_RESTRICT gc = m.g_c, *HWY_RESTRICT ge = m.g_e, *HWY_RESTRICT w = m.read;
+    V yb[2], yc[2], ub[2], uc[2], heard[2];
+    for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = heard[k] = hn::Zero(d);
     const auto at = [&](int j, int k) HWY_ATTR __attribute__((always_inline)) {
         const V y0 = hn::Load(d, y + j), u0 = hn::Load(d, u + j);
         V forced = hn::Zero(d), g_b{}, g_c{};
@@ -119,6 +119,7 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Betw
             yc[k] = hn::MulAdd(g_c, y1, yc[k]);
             uc[k] = hn::MulAdd(g_c, u1, uc[k]);
         }
+        if constexpr (read) heard[k] = hn::MulAdd(hn::Load(d, w + j), y1, heard[k]);
     };
     int i = 0;
     const auto until = [&](int end) HWY_ATTR __attribute__((always_inline)) {
@@ -138,7 +139,7 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Betw
     until(m.modes);
     if (i < m.modes) at(i, 0);
     const auto both = [](const V(&v)[2]) { return hn::Add(v[0], v[1]); };
-    return {both(yb), both(ub), both(yc), both(uc)};
+    return {both(yb), both(ub), both(yc), both(uc), both(heard)};
 }
 
 }  // namespace HWY_NAMESPACE
