@@ -72,14 +72,12 @@ public:
             inverse_J.push_back(1 / J);
             scale.push_back(std::sqrt(J / xi));
         }
-        m_.c = keep(c);
-        m_.loss = keep(loss);
+        stream_ = AlignedVector(static_cast<std::size_t>(m_.size) * two_point_columns);
+        m_.stream = stream_.data();
+        put(TwoPointColumn::c, keep(c));
+        put(TwoPointColumn::loss, keep(loss));
         m_.J = keep(all_J);
 
-        y_ = AlignedVector(m_.size);
-        u_ = AlignedVector(m_.size);
-        m_.y = y_.data();
-        m_.u = u_.data();
         std::vector<double> y0 = modes.initial(s), u0 = y0;
         for (int i = 0; i < m_.modes; ++i) {
             y0[i] *= scale[i];
@@ -102,18 +100,20 @@ public:
             for (int i = 0; i < m_.modes; ++i) truth += g[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
             for (int i = 0; i < m_.modes; ++i) own += 0.5 * xi * g[i] * g[i] / A[i];  // (42) with s = 0
             compliance_ = own / truth;
-            m_.g_b = keep(unscaled(g));
+            g_b_ = keep(unscaled(g));
+            put(TwoPointColumn::g_b, g_b_);
             m_.barrier = {b.stiffness.k, b.exponent};
             m_.h_b = b.height;
-            m_.theta = two_point_dot(m_.g_b, m_.g_b, m_.size);
+            m_.theta = two_point_dot(g_b_, g_b_, m_.size);
         }
         if (s.thread) {
-            m_.g_c = keep(unscaled(modes.footprint(s.thread->position, s.thread->width)));
+            g_c_ = keep(unscaled(modes.footprint(s.thread->position, s.thread->width)));
+            put(TwoPointColumn::g_c, g_c_);
             m_.k_c = s.thread->stiffness;
             m_.r_c = s.thread->damping;
             m_.h_c = s.thread->height;
-            m_.theta_cc = two_point_dot(m_.g_c, m_.g_c, m_.size);
-            if (m_.g_b) m_.theta_bc = two_point_dot(m_.g_b, m_.g_c, m_.size);
+            m_.theta_cc = two_point_dot(g_c_, g_c_, m_.size);
+            if (g_b_) m_.theta_bc = two_point_dot(g_b_, g_c_, m_.size);
             const EliminatedThread thread(m_.k_c, m_.k_c / 2 + m_.r_c / m_.dt, m_.theta, m_.theta_bc, m_.theta_cc);
             m_.phi_c = thread.phi;
             m_.inverse_c = thread.inverse;
@@ -122,8 +122,8 @@ public:
         }
         if (s.pluck) {
             m_.g_e = keep(unscaled(modes.footprint(s.pluck->position, s.pluck->width)));
-            if (m_.g_b) m_.theta_be = two_point_dot(m_.g_b, m_.g_e, m_.size);
-            if (m_.g_c) m_.theta_ce = two_point_dot(m_.g_c, m_.g_e, m_.size);
+            if (g_b_) m_.theta_be = two_point_dot(g_b_, m_.g_e, m_.size);
+            if (g_c_) m_.theta_ce = two_point_dot(g_c_, m_.g_e, m_.size);
             const PluckSteps steps = pluck_steps(*s.pluck, m_.dt);
             m_.pluck_first = steps.first;
             m_.pluck_steps = steps.count;
@@ -153,22 +153,22 @@ public:
         m_.taps = taps_.data();
         const auto from_modes =
             std::find_if(taps_.begin(), taps_.end(), [](const TwoPointTap& t) { return t.from == TwoPointTap::From::modes; });
-        if (from_modes != taps_.end()) m_.read = from_modes->on_y;
+        if (from_modes != taps_.end()) put(TwoPointColumn::read, m_.read = from_modes->on_y);
         if (matched) put_in_series(descriptor, scene, modes, A);
-        const ContactKind kind = !m_.g_b ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
-        kernel_ = two_point_kernel(kind, m_.g_c != nullptr, matched ? Compliance::matched : Compliance::own);
+        const ContactKind kind = !g_b_ ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
+        kernel_ = two_point_kernel(kind, g_c_ != nullptr, matched ? Compliance::matched : Compliance::own);
         ModalTwoPoint::reset();
     }
 
     void reset() noexcept override {
-        std::copy_n(y0_, m_.size, m_.y);
-        std::copy_n(u0_, m_.size, m_.u);
+        put(TwoPointColumn::y, y0_);
+        put(TwoPointColumn::u, u0_);
         m_.step = 0;
         m_.series.Y_c = Y_c0_;
-        m_.y_b = m_.g_b ? two_point_dot(m_.g_b, m_.y, m_.size) : 0;
-        m_.u_b = m_.g_b ? two_point_dot(m_.g_b, m_.u, m_.size) : 0;
-        m_.y_c = m_.g_c ? two_point_dot(m_.g_c, m_.y, m_.size) : 0;
-        m_.u_c = m_.g_c ? two_point_dot(m_.g_c, m_.u, m_.size) : 0;
+        m_.y_b = g_b_ ? two_point_dot(g_b_, y0_, m_.size) : 0;
+        m_.u_b = g_b_ ? two_point_dot(g_b_, u0_, m_.size) : 0;
+        m_.y_c = g_c_ ? two_point_dot(g_c_, y0_, m_.size) : 0;
+        m_.u_c = g_c_ ? two_point_dot(g_c_, u0_, m_.size) : 0;
         m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.least_force = m_.depth = m_.iterations = m_.iterations_most = 0;
         m_.read_at = -1;
         m_.status = {};
@@ -187,13 +187,13 @@ public:
     std::vector<FreeMode> free_modes() const override { return free_; }
     std::vector<Fact> facts() const override {
         std::vector<Fact> f = {{facts::start_phase_offset, offset_}};
-        if (m_.g_b) {
+        if (g_b_) {
             f.push_back({facts::smallest_contact_force, m_.least_force});
             const SeriesLaw& law = m_.series.step.points.law;
             f.push_back({facts::deepest_penetration, law.S > 0 ? law.depth(m_.depth) : m_.depth});
             f.push_back(law.S > 0 ? Fact{facts::series_compliance, law.S} : Fact{facts::static_compliance, compliance_});
         }
-        if (m_.g_b && m_.barrier.alpha != 1) {
+        if (g_b_ && m_.barrier.alpha != 1) {
             f.push_back({facts::contact_iterations_mean, m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0});
             f.push_back({facts::contact_iterations_most, m_.iterations_most});
         }
@@ -233,20 +233,24 @@ private:
         return kept_.back().data();
     }
 
+    void put(TwoPointColumn column, const double* values) {
+        for (int i = 0; i < m_.size; ++i) m_.stream[two_point_at(column, i)] = values[i];
+    }
+
     // docs/compliance-matching.md: the constants of the points' step, from C over barrier, thread and pluck.
     void put_in_series(const Descriptor& descriptor, const Scene& scene, const ModeBasis& modes, const std::vector<double>& A) {
         std::vector<double> own;
         for (const double Ai : A) own.push_back(m_.dt * m_.dt / (4 * modes.mass * Ai));  // (42) with s = 0
         const MissingCompliance C = modal_compliance(descriptor, scene, modes, own);
         for (std::size_t k = 0; k < taps_.size(); ++k) taps_[k].on_force = C.taps[k];
-        const SeriesPoints points(m_.g_b ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C);
+        const SeriesPoints points(g_b_ ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C);
         TwoPointSeries& z = m_.series;
-        z.step = SeriesStep(points, m_.g_b ? two_point_dot(m_.g_b, m_.g_b, m_.size) : 0, m_.theta_bc, m_.theta_cc, m_.dt);
+        z.step = SeriesStep(points, g_b_ ? two_point_dot(g_b_, g_b_, m_.size) : 0, m_.theta_bc, m_.theta_cc, m_.dt);
         z.C_be = C.be;
         z.C_ce = C.ce;
         m_.r_c = z.step.damping * m_.dt;
-        if (m_.g_c) Y_c0_ = z.step.start(two_point_dot(m_.g_c, y0_, m_.size));
-        if (m_.g_b) {
+        if (g_c_) Y_c0_ = z.step.start(two_point_dot(g_c_, y0_, m_.size));
+        if (g_b_) {
             m_.theta = z.step.theta;
             if (m_.barrier.alpha == 1) m_.barrier = linear_in_series(m_.barrier.k, points.law.S);
         }
@@ -264,7 +268,8 @@ private:
     double offset_ = 0;
     double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
     std::vector<FreeMode> free_;
-    AlignedVector y_, u_;
+    AlignedVector stream_;
+    const double *g_b_ = nullptr, *g_c_ = nullptr;  // barrier and thread; nullptr where the scene has none
     std::vector<AlignedVector> kept_;
     const double *y0_ = nullptr, *u0_ = nullptr;
     std::vector<double> pluck_;

@@ -20,11 +20,11 @@ HWY_INLINE void ledger(TwoPoint& m, double F_b, double F_c, double F_e, double s
     const int N = static_cast<int>(hn::Lanes(d));
     V lost = hn::Zero(d), given = hn::Zero(d);
     for (int j = 0; j < m.size; j += N) {
-        V s = hn::Load(d, m.u + j);
+        V s = hn::Load(d, column(m, Column::u, j));
         if constexpr (pluck) s = hn::MulAdd(hn::Load(d, m.g_e + j), hn::Set(d, F_e), s);
-        if constexpr (thread) s = hn::MulAdd(hn::Load(d, m.g_c + j), hn::Set(d, F_c), s);
-        if constexpr (barrier) s = hn::MulAdd(hn::Load(d, m.g_b + j), hn::Set(d, F_b), s);
-        lost = hn::MulAdd(hn::Load(d, m.loss + j), hn::Mul(s, s), lost);
+        if constexpr (thread) s = hn::MulAdd(hn::Load(d, column(m, Column::g_c, j)), hn::Set(d, F_c), s);
+        if constexpr (barrier) s = hn::MulAdd(hn::Load(d, column(m, Column::g_b, j)), hn::Set(d, F_b), s);
+        lost = hn::MulAdd(hn::Load(d, column(m, Column::loss, j)), hn::Mul(s, s), lost);
         if constexpr (pluck) given = hn::MulAdd(hn::Load(d, m.g_e + j), s, given);
     }
     m.dissipated += 0.5 * hn::GetLane(hn::SumOfLanes(d, lost));  // B/J = loss/2
@@ -152,8 +152,9 @@ double stored(const TwoPoint& m) {
     const V half = hn::Set(d, 0.5), quarter = hn::Set(d, 0.25);
     V by_q = hn::Zero(d), by_y = hn::Zero(d);
     for (int j = 0; j < m.size; j += N) {
-        const V y = hn::Load(d, m.y + j), stiff = hn::Mul(quarter, hn::Mul(hn::Load(d, m.c + j), y));  // A y/J
-        const V q = hn::MulAdd(half, hn::Load(d, m.u + j), stiff);                                     // q/J
+        const V y = hn::Load(d, column(m, Column::y, j)),
+                stiff = hn::Mul(quarter, hn::Mul(hn::Load(d, column(m, Column::c, j)), y));  // A y/J
+        const V q = hn::MulAdd(half, hn::Load(d, column(m, Column::u, j)), stiff);           // q/J
         by_q = hn::MulAdd(hn::Mul(hn::Load(d, m.J + j), q), q, by_q);
         by_y = hn::MulAdd(stiff, y, by_y);
     }
@@ -184,8 +185,8 @@ HWY_INLINE void forces_now(const TwoPoint& m, double (&force)[3]) {
 HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
     const double steps = m.steps_per_row;
     switch (tap.from) {
-        case TwoPointTap::From::modes: return tap.on_y == m.read && m.read_at == m.step ? m.heard : dot(tap.on_y, m.y, m.size);
-        case TwoPointTap::From::modes_and_increment: return dot(tap.on_y, m.y, m.size) + dot(tap.on_u, m.u, m.size);
+        case TwoPointTap::From::modes: return tap.on_y == m.read && m.read_at == m.step ? m.heard : dot(tap.on_y, m, Column::y);
+        case TwoPointTap::From::modes_and_increment: return dot(tap.on_y, m, Column::y) + dot(tap.on_u, m, Column::u);
         case TwoPointTap::From::bridge: return m.impulse_b / steps;
         case TwoPointTap::From::thread: return m.impulse_c / steps;
         case TwoPointTap::From::driving: return -(m.impulse_b + m.impulse_c) / steps;

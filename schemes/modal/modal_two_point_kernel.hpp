@@ -34,13 +34,19 @@ struct TwoPointSeries {
     double Y_c = 0;                 // of the thread, less h_c [m]; changes from step to step
 };
 
+// The pass goes once through memory: a line of eight modes of each column, then the next eight. Lines of absent parts are never touched.
+enum class TwoPointColumn { y, u, c, loss, g_b, g_c, read };
+constexpr int two_point_line = 8, two_point_columns = 7;
+constexpr std::ptrdiff_t two_point_at(TwoPointColumn column, std::ptrdiff_t mode) {
+    return (mode / two_point_line * two_point_columns + static_cast<int>(column)) * two_point_line + mode % two_point_line;
+}
+
 struct TwoPoint {
     int modes = 0;
-    int size = 0;  // modes padded with zeros to a multiple of two_point_padding
-    double *y = nullptr, *u = nullptr;
-    const double *c = nullptr, *loss = nullptr;
-    const double *g_b = nullptr, *g_c = nullptr, *g_e = nullptr;  // barrier, thread, pluck; nullptr where the scene has none
-    const double* J = nullptr;                                    // energy only
+    int size = 0;                 // modes padded with zeros to a multiple of two_point_padding
+    double* stream = nullptr;     // what a pass reads and writes, in its order: two_point_at
+    const double* g_e = nullptr;  // pluck; nullptr where the scene has none
+    const double* J = nullptr;    // energy only
 
     ContactLaw barrier;
     double h_b = 0;
@@ -55,7 +61,7 @@ struct TwoPoint {
     TwoPointSeries series;
 
     const TwoPointTap* taps = nullptr;
-    const double* read = nullptr;  // on_y of the first tap from the modes, which a pass can read on its way
+    const double* read = nullptr;  // on_y of the first tap from the modes, which a pass can read on its way: TwoPointColumn::read
     int steps_per_row = 1;
 
     // what changes from step to step

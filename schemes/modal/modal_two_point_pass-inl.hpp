@@ -32,6 +32,24 @@ HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x
     return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
 }
 
+using Column = TwoPointColumn;
+
+HWY_INLINE double* column(const TwoPoint& m, Column of, std::ptrdiff_t mode) {
+    return m.stream + two_point_at(of, mode);
+}
+
+// dot() with a column of the modes.
+HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPoint& m, Column x) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    V even = hn::Zero(d), odd = hn::Zero(d);
+    for (int i = 0; i < m.size; i += 2 * N) {
+        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, column(m, x, i)), even);
+        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, column(m, x, i + N)), odd);
+    }
+    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
+}
+
 // Sums over the lanes of four vectors at once: half the shuffles of four sums, each by halves of halves.
 HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
     const D d;
@@ -89,28 +107,31 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Betw
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
-    double *HWY_RESTRICT y = m.y, *HWY_RESTRICT u = m.u;
-    const double *HWY_RESTRICT c = m.c, *HWY_RESTRICT loss = m.loss;
-    const double *HWY_RESTRICT gb = m.g_b, *HWY_RESTRICT gc = m.g_c, *HWY_RESTRICT ge = m.g_e, *HWY_RESTRICT w = m.read;
+    double* HWY_RESTRICT stream = m.stream;
+    const double* HWY_RESTRICT ge = m.g_e;
     V yb[2], yc[2], ub[2], uc[2], heard[2];
     for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = heard[k] = hn::Zero(d);
     const auto at = [&](int j, int k) HWY_ATTR __attribute__((always_inline)) {
-        const V y0 = hn::Load(d, y + j), u0 = hn::Load(d, u + j);
+        double* HWY_RESTRICT line = stream + (N == two_point_line ? j * two_point_columns : two_point_at(Column::y, j));
+        const auto of = [&](Column q) HWY_ATTR __attribute__((always_inline)) {
+            return line + static_cast<int>(q) * two_point_line;
+        };
+        const V y0 = hn::Load(d, of(Column::y)), u0 = hn::Load(d, of(Column::u));
         V forced = hn::Zero(d), g_b{}, g_c{};
         if constexpr (pluck) forced = hn::Mul(hn::Load(d, ge + j), fe);
         if constexpr (thread) {
-            g_c = hn::Load(d, gc + j);
+            g_c = hn::Load(d, of(Column::g_c));
             forced = hn::MulAdd(g_c, fc, forced);
         }
         if constexpr (barrier) {
-            g_b = hn::Load(d, gb + j);
+            g_b = hn::Load(d, of(Column::g_b));
             forced = hn::MulAdd(g_b, fb, forced);
         }
         const V s = hn::Add(u0, forced);  // (41)
         const V y1 = hn::Add(y0, s);      // (40)
-        const V u1 = hn::NegMulAdd(hn::Load(d, c + j), y1, hn::NegMulAdd(hn::Load(d, loss + j), s, hn::Add(s, forced)));
-        hn::Store(u1, d, u + j);
-        hn::Store(y1, d, y + j);
+        const V u1 = hn::NegMulAdd(hn::Load(d, of(Column::c)), y1, hn::NegMulAdd(hn::Load(d, of(Column::loss)), s, hn::Add(s, forced)));
+        hn::Store(u1, d, of(Column::u));
+        hn::Store(y1, d, of(Column::y));
         if constexpr (barrier) {
             yb[k] = hn::MulAdd(g_b, y1, yb[k]);
             ub[k] = hn::MulAdd(g_b, u1, ub[k]);
@@ -119,7 +140,7 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Betw
             yc[k] = hn::MulAdd(g_c, y1, yc[k]);
             uc[k] = hn::MulAdd(g_c, u1, uc[k]);
         }
-        if constexpr (read) heard[k] = hn::MulAdd(hn::Load(d, w + j), y1, heard[k]);
+        if constexpr (read) heard[k] = hn::MulAdd(hn::Load(d, of(Column::read)), y1, heard[k]);
     };
     int i = 0;
     const auto until = [&](int end) HWY_ATTR __attribute__((always_inline)) {
