@@ -28,16 +28,21 @@ public:
             const TwoPoint& m = *strings_[i];
             k_.of[i] = m.barrier.k;
             for (const auto& [constant, lanes] : constants_) (this->*lanes).of[i] = m.*constant;
-            for (const auto& [state, lanes] : states_) (this->*lanes).of[i] = m.*state;
+            at_b_.put(i, m.y_b, m.u_b);
+            at_c_.put(i, m.y_c, m.u_c);
         }
         next_pluck();
     }
     void leave() const {  // the strings as they are now
-        for (int i = 0; i < 2 && strings_[i]; ++i)
-            for (const auto& [state, lanes] : states_) strings_[i]->*state = (this->*lanes).of[i];
+        for (int i = 0; i < 2 && strings_[i]; ++i) {
+            TwoPoint& m = *strings_[i];
+            m.y_b = at_b_.of[i];
+            m.u_b = at_b_.of[2 + i];
+            m.y_c = at_c_.of[i];
+            m.u_c = at_c_.of[2 + i];
+        }
     }
     void solve() {
-        stage<0>();
         stage<1>();
         stage<2>();
         stage<3>();
@@ -52,15 +57,8 @@ public:
         next[0] = pass_of<0>(other);
         if (strings_[1]) next[1] = pass_of<1>(other);
         else other.template rest<3>();
-        alignas(64) double sum[2][4];
-        sums(next[0].y_b, next[1].y_b, next[0].u_b, next[1].u_b, sum[0]);
-        hn::Store(hn::Load(L(), sum[0]), L(), y_b_.of);
-        hn::Store(hn::Load(L(), sum[0] + 2), L(), u_b_.of);
-        if constexpr (thread) {
-            sums(next[0].y_c, next[1].y_c, next[0].u_c, next[1].u_c, sum[1]);
-            hn::Store(hn::Load(L(), sum[1]), L(), y_c_.of);
-            hn::Store(hn::Load(L(), sum[1] + 2), L(), u_c_.of);
-        }
+        sums(next[0].y_b, next[1].y_b, next[0].u_b, next[1].u_b, at_b_.of);
+        if constexpr (thread) sums(next[0].y_c, next[1].y_c, next[0].u_c, next[1].u_c, at_c_.of);
         if constexpr (read)
             for (int i = 0; i < 2 && strings_[i]; ++i) {
                 strings_[i]->heard = hn::GetLane(hn::SumOfLanes(D(), next[i].read));
@@ -78,6 +76,16 @@ private:
         HWY_INLINE void set(W w) { hn::Store(w, L(), of); }
     };
 
+    struct alignas(64) Dotted {  // by a point
+        double of[4] = {};       // y and u of both strings
+        void put(int i, double y, double u) {
+            of[i] = y;
+            of[2 + i] = u;
+        }
+        HWY_INLINE W y() const { return hn::Load(L(), of); }
+        HWY_INLINE W u() const { return hn::Load(L(), of + 2); }
+    };
+
     template <int first>
     struct Stages {  // of the other pair, between the thirds of a pass
         TwoPointPair& other;
@@ -90,7 +98,7 @@ private:
     HWY_INLINE Dots pass_of(TwoPointPair& other) {
         TwoPoint& m = *strings_[i];
         const double F_b = F_b_.of[i], F_c = F_c_.of[i];
-        note<ContactKind::linear>(m, {.force = F_b}, m.h_b - y_b_.of[i]);
+        note<ContactKind::linear>(m, {.force = F_b}, m.h_b - at_b_.of[i]);
         if constexpr (thread) m.impulse_c += F_c;
         ++m.step;
         const Stages<parts_of_pass * i> stages{other};
@@ -120,17 +128,17 @@ private:
     HWY_INLINE void stage() {
         const L d;
         const W zero = hn::Zero(d), one = hn::Set(d, 1), half = hn::Set(d, 0.5), two = hn::Set(d, 2), four = hn::Set(d, 4), k = k_.all();
-        if constexpr (n == 0) {
-            W u_b = u_b_.all() + theta_be_.all() * F_e_.all();
+        if constexpr (n == 1) {
+            W u_b = at_b_.u() + theta_be_.all() * F_e_.all();
             if constexpr (thread) {
-                const W u_c = u_c_.all() + theta_ce_.all() * F_e_.all();
-                v_ = (k_c_.all() * (h_c_.all() - y_c_.all()) - phi_c_.all() * u_c) * inverse_c_.all();  // (47)
+                const W u_c = at_c_.u() + theta_ce_.all() * F_e_.all();
+                v_ = (k_c_.all() * (h_c_.all() - at_c_.y()) - phi_c_.all() * u_c) * inverse_c_.all();  // (47)
             }
-            eta_ = h_b_.all() - y_b_.all();
+            eta_ = h_b_.all() - at_b_.y();
             b_ = hn::Neg(u_b);
             if constexpr (thread) b_ = b_ - theta_bc_.all() * v_;  // (48)
         }
-        if constexpr (n == 1) {
+        if constexpr (n == 2) {
             const W phi = half * theta_.all() * k, free = eta_ + b_;
             stiff_ = one + phi;
             in_ = hn::Gt(eta_, zero);
@@ -165,7 +173,8 @@ private:
     TwoPoint* strings_[2];
     bool plucked_[2] = {};
     Lanes k_, theta_, theta_bc_, theta_be_, theta_ce_, h_b_, k_c_, h_c_, phi_c_, inverse_c_, beta_c_;
-    Lanes y_b_, y_c_, u_b_, u_c_, F_e_, F_b_, F_c_;
+    Lanes F_e_, F_b_, F_c_;
+    Dotted at_b_, at_c_;
 
     struct Member {
         double TwoPoint::*of_string;
@@ -177,7 +186,6 @@ private:
                                             {&M::theta_ce, &S::theta_ce_}, {&M::h_b, &S::h_b_},           {&M::k_c, &S::k_c_},
                                             {&M::h_c, &S::h_c_},           {&M::phi_c, &S::phi_c_},       {&M::inverse_c, &S::inverse_c_},
                                             {&M::beta_c, &S::beta_c_}};
-    static constexpr Member states_[] = {{&M::y_b, &S::y_b_}, {&M::y_c, &S::y_c_}, {&M::u_b, &S::u_b_}, {&M::u_c, &S::u_c_}};
 };
 
 }  // namespace HWY_NAMESPACE
