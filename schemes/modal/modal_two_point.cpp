@@ -177,7 +177,7 @@ public:
     void advance_all(std::span<Lane> all) noexcept override {
         while (!all.empty()) {
             std::size_t n = 1;
-            while (n < std::min<std::size_t>(all.size(), two_point_together) && together(all[0], all[n])) ++n;
+            while (n < std::min<std::size_t>(all.size(), two_point_together) && together(all.first(n + 1))) ++n;
             if (n == 1) all[0].status = all[0].scheme->advance(all[0].out);
             else advance_some(all.first(n));
             all = all.subspan(n);
@@ -201,10 +201,17 @@ public:
     }
 
 private:
-    static bool together(const Lane& a, const Lane& b) {  // in one kernel: neither profiles nor other rates
-        const auto *one = dynamic_cast<const ModalTwoPoint*>(a.scheme), *other = dynamic_cast<const ModalTwoPoint*>(b.scheme);
-        return one && other && one->kernel_.together && one->kernel_.together == other->kernel_.together && !a.out.energy &&
-               !b.out.energy && one->m_.steps_per_row == other->m_.steps_per_row && a.out.rows == b.out.rows;
+    static bool together(std::span<const Lane> lanes) {  // in one kernel: neither profiles nor other rates, and all in the nearest cache
+        const auto* first = dynamic_cast<const ModalTwoPoint*>(lanes.front().scheme);
+        std::size_t bytes = 0;
+        for (const Lane& lane : lanes) {
+            const auto* one = dynamic_cast<const ModalTwoPoint*>(lane.scheme);
+            if (!one || !one->kernel_.together || one->kernel_.together != first->kernel_.together || lane.out.energy ||
+                one->m_.steps_per_row != first->m_.steps_per_row || lane.out.rows != lanes.front().out.rows)
+                return false;
+            bytes += one->stream_.size() * sizeof(double);
+        }
+        return bytes <= first_level_cache();
     }
     static void advance_some(std::span<Lane> lanes) {
         std::array<TwoPoint*, two_point_together> strings;

@@ -2,6 +2,8 @@
 // Presence of contact, thread and pluck is a template argument: an absent part costs nothing. So is what stands in series with the points.
 #include "schemes/modal/modal_two_point_kernel.hpp"
 
+#include <unistd.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schemes/modal/modal_two_point_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
@@ -287,6 +289,10 @@ HWY_EXPORT(plain_dot);
 
 TwoPointKernel two_point_kernel(ContactKind kind, bool thread, Compliance compliance) {
     return HWY_DYNAMIC_DISPATCH(choose)(kind, thread, compliance);
+}
+std::size_t first_level_cache() {
+    static const long bytes = sysconf(_SC_LEVEL1_DCACHE_SIZE);
+    return bytes > 0 ? bytes : 32768;
 }
 double two_point_dot(const double* w, const double* x, int size) {
     return HWY_DYNAMIC_DISPATCH(plain_dot)(w, x, size);

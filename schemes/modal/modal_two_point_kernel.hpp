@@ -84,10 +84,11 @@ using TwoPointAdvance = Status (*)(TwoPoint&, const Block&);
 enum class ContactKind { none, linear, power };
 enum class Compliance { own, matched };  // the modes' own, or with C in series
 
-// The same for two to four strings at once, each into its own block, its energy not probed: the same bits in less time. Rows and steps per
-// row are those of the first. Of as many as fit in the first-level cache. nullptr: not for these parts.
+// The same for two to four strings at once, each into its own block, its energy not probed: the same bits in less time, where all fit in
+// the first-level cache. Rows and steps per row are those of the first. nullptr: not for these parts.
 constexpr int two_point_together = 4;
 using TwoPointTogether = void (*)(std::span<TwoPoint* const>, const Block*);
+std::size_t first_level_cache();  // of this machine [bytes]
 
 struct TwoPointKernel {
     TwoPointAdvance one = nullptr;

@@ -59,11 +59,14 @@ public:
         else other.template rest<3>();
         sums(next[0].y_b, next[1].y_b, next[0].u_b, next[1].u_b, at_b_.of);
         if constexpr (thread) sums(next[0].y_c, next[1].y_c, next[0].u_c, next[1].u_c, at_c_.of);
-        if constexpr (read)
+        if constexpr (read) {
+            alignas(64) double heard[4];
+            sums(next[0].read, next[1].read, hn::Zero(D()), hn::Zero(D()), heard);  // the bits of SumOfLanes
             for (int i = 0; i < 2 && strings_[i]; ++i) {
-                strings_[i]->heard = hn::GetLane(hn::SumOfLanes(D(), next[i].read));
+                strings_[i]->heard = heard[i];
                 strings_[i]->read_at = strings_[i]->step;
             }
+        }
         next_pluck();
     }
 
