@@ -27,12 +27,28 @@ double start(int k) {
     return 2 * (turns - std::floor(turns)) - 1;
 }
 
+// Strings that no body moves do not act on each other: runs of one string are one scene of many, which a scheme may advance together.
 Runs runs_of(const Descriptor& d, const Scene& scene, const Settings& settings, int tap, int first) {
-    Runs runs;
+    std::vector<Scene> starts;
     for (int k = first; k < first + ensemble_runs; ++k) {
-        const jvari::Run r = run(d, moved(scene, 1 + ensemble_spread * start(k)), settings);
+        starts.push_back(moved(scene, 1 + ensemble_spread * start(k)));
+        starts.back().taps = {scene.taps[tap]};
+    }
+    if (scene.strings.size() == 1 && !needed_by(scene).has(Feature::moving_body)) {
+        Scene all = starts.front();
+        for (int k = 1; k < ensemble_runs; ++k) {
+            all.strings.push_back(starts[k].strings.front());
+            all.taps.push_back(all.taps.front());
+            all.taps.back().string = k;
+        }
+        all.taps.front().string = 0;
+        starts = {all};
+    }
+    Runs runs;
+    for (const Scene& s : starts) {
+        const jvari::Run r = run(d, s, settings);
         if (r.status.outcome != Outcome::ok) return {};
-        runs.push_back(traits_of(r.trace.column(tap), settings.tap_rate));
+        for (int k = 0; k < r.trace.taps(); ++k) runs.push_back(traits_of(r.trace.column(k), settings.tap_rate));
     }
     return runs;
 }
