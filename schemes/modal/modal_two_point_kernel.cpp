@@ -254,8 +254,10 @@ void advance_together(std::span<TwoPoint* const> strings, const Block* out) {
 
 template <ContactKind kind, bool thread, Compliance compliance>
 constexpr TwoPointTogether together = nullptr;
+#if HWY_TARGET != HWY_SCALAR  // a pair is a vector of two
 template <bool thread>
 constexpr TwoPointTogether together<ContactKind::linear, thread, Compliance::own> = advance_together<thread>;
+#endif
 
 template <ContactKind kind, bool thread, Compliance compliance>
 constexpr TwoPointKernel kernel = {advance<kind, thread, compliance>, together<kind, thread, compliance>};
