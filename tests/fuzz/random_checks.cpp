@@ -83,6 +83,7 @@ bool same_bits(const Trace& a, const Trace& b) {
 }
 
 struct PastItsLimit {};
+struct FewerWereMeasured {};  // modes than the truth would take: there is none to hold a certificate against
 
 // An explicit integrator takes steps as short as the fastest decay asks, however slow the motion: under a contact loss of 100 s/m that is
 // minutes for a row. Its caller ends it by a limit, and that is no finding. No other run has one but that of its scene.
@@ -240,7 +241,11 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
     const auto larger = [&](int modes, int points) {
         Settings s{0, c.settings.tap_rate, modes * certificate.modes, {}};
         if (profile) s.options = {{nodes_option.name, std::to_string(points * std::stoi(nodes_option.fallback))}};
-        return run(*best, c.scene, s, options);
+        try {
+            return run(*best, c.scene, s, options);
+        } catch (const BadScene&) {
+            throw FewerWereMeasured{};
+        }
     };
     const Run r = larger(1, 1), half = larger(scene_multiple / 2, 2), truth = larger(scene_multiple, 4);
     for (const Run* each : {&r, &half, &truth})
@@ -262,6 +267,8 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
 } catch (const PastItsLimit&) {
     ++tally.ended;
 } catch (const Refusal&) {
+    ++tally.refused;
+} catch (const FewerWereMeasured&) {
     ++tally.refused;
 } catch (const std::exception& e) {
     finding("certificate about the scene", std::string("throws what is no refusal: ") + e.what());
