@@ -115,6 +115,7 @@ Key<Whole> inside(Part Whole::*member, const Key<Part>& k) {  // a key of a part
 template <class Part>
 std::vector<KeyWords> words_of(const std::vector<Key<Part>>& keys) {
     std::vector<KeyWords> all;
+    all.reserve(keys.size());
     for (const Key<Part>& k : keys) all.push_back(k.words);
     return all;
 }
@@ -122,6 +123,7 @@ std::vector<KeyWords> words_of(const std::vector<Key<Part>>& keys) {
 template <class Part>
 void read_keys(const Entry& e, const std::vector<Key<Part>>& keys, Part& part) {
     std::vector<std::string> names;
+    names.reserve(keys.size());
     for (const Key<Part>& k : keys) names.push_back(k.words.name);
     e.only(names);
     for (const Key<Part>& k : keys)

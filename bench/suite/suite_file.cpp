@@ -115,7 +115,7 @@ std::vector<store::Key<Suite>> keys_of_suite() {
 fs::path library() {
     if (const char* set = std::getenv("JVARI_SUITES"); set && *set) return set;
     std::error_code error;
-    if (const fs::path own = installed("suites"); !own.empty()) return own;
+    if (fs::path own = installed("suites"); !own.empty()) return own;
     return fs::is_directory(JVARI_SOURCE_SUITES, error) ? JVARI_SOURCE_SUITES : JVARI_INSTALLED_SUITES;
 }
 }  // namespace
