@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "schemes/body/body_step.hpp"
-#include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
 

@@ -6,13 +6,12 @@
 
 #include <hwy/highway.h>
 
+#include "schemes/modal/vectors-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<double, 8>;
-using V = hn::Vec<D>;
 
 HWY_INLINE V load(const double* x, int j) {
     return hn::Load(D(), x + j);

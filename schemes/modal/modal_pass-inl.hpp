@@ -9,14 +9,12 @@
 #endif
 
 #include "schemes/modal/modal_pass.hpp"
+#include "schemes/modal/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<double, 8>;
-using V = hn::Vec<D>;
 
 struct TwoPointForm {
     static constexpr bool reads_x = true;
@@ -87,20 +85,6 @@ HWY_INLINE void pass(ModalPass& m) {
         if constexpr (Form::reads_x) m.x_c = sum(x_c);
         m.v_c = sum(v_c);
     }
-}
-
-// Sum of w x.
-HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x, int size) {
-    const D d;
-    const int N = static_cast<int>(hn::Lanes(d));
-    V even = hn::Zero(d), odd = hn::Zero(d);
-    int i = 0;
-    for (; i + 2 * N <= size; i += 2 * N) {
-        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
-        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, x + i + N), odd);
-    }
-    if (i < size) even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
-    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
 }
 
 }  // namespace HWY_NAMESPACE

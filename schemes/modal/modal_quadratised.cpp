@@ -11,11 +11,11 @@
 #include "schemes/contact/quadratised_contact.hpp"
 #include "schemes/contact/quadratised_points.hpp"
 #include "schemes/contact/series_step.hpp"
-#include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_energies.hpp"
 #include "schemes/modal/modal_three_point.hpp"
 #include "schemes/modal/modal_two_point_points.hpp"
+#include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "scenes/excitation.hpp"
-#include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
 

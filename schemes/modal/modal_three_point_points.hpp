@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "schemes/contact/compliance.hpp"
-#include "schemes/modal/modal_coefficients.hpp"
 #include "schemes/modal/modal_string.hpp"
+#include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
 

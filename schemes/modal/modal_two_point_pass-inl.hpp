@@ -12,25 +12,12 @@
 #include <type_traits>
 
 #include "schemes/modal/modal_two_point_kernel.hpp"
+#include "schemes/modal/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<double, 8>;
-using V = hn::Vec<D>;
-
-HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x, int size) {
-    const D d;
-    const int N = static_cast<int>(hn::Lanes(d));
-    V even = hn::Zero(d), odd = hn::Zero(d);
-    for (int i = 0; i < size; i += 2 * N) {
-        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
-        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, x + i + N), odd);
-    }
-    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
-}
 
 using Column = TwoPointColumn;
 

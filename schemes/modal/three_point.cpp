@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
 

@@ -8,7 +8,7 @@
 
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
-#include "schemes/modal/modal_coefficients.hpp"
+#include "schemes/modal_coefficients.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
