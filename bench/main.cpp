@@ -4,7 +4,7 @@
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/store/indented.hpp"
-#include "bench/store/interruption.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/scheme.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "bench/store/listener.hpp"
+#include "bench/store/system/listener.hpp"
 
 namespace jvari::python {
 

@@ -3,7 +3,7 @@
 // be missed, except dips that stay above -bound.
 #pragma once
 
-#include "reference/oscillators.hpp"
+#include "reference/exact/oscillators.hpp"
 
 namespace jvari {
 

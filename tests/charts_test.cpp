@@ -10,7 +10,7 @@
 #include <regex>
 #include <set>
 
-#include "bench/compare/pareto.hpp"
+#include "bench/compare/record/pareto.hpp"
 #include "bench/report/identity.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/page_text.hpp"

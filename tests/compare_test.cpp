@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "bench/compare/bound.hpp"
-#include "bench/compare/cheapest.hpp"
 #include "bench/compare/compare_plan.hpp"
-#include "bench/compare/compare_record.hpp"
-#include "bench/compare/convergence_table.hpp"
-#include "bench/compare/pareto.hpp"
+#include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/compare_record.hpp"
+#include "bench/compare/record/convergence_table.hpp"
+#include "bench/compare/record/pareto.hpp"
 #include "bench/compare/truth.hpp"
 #include "reference/agreement.hpp"
 #include "schemes/run.hpp"

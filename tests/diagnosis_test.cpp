@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/compare/cheapest.hpp"
+#include "bench/compare/record/cheapest.hpp"
 
 using namespace jvari::bench;
 

@@ -34,6 +34,8 @@ TEST(FigureFile, WhatIsWrongWithAFigureIsSaidWithFileLineAndKey) {
         {figure + "y = { column = \"low\", to = \"high\" }", "a.toml:9: figure.0.y: found a table, expected no column `to`"},
         {figure + "y = { column = \"low\", domain = [2, 1] }",
          "a.toml:9: figure.0.y.domain: found an array, expected [from, to] with from < to"},
+        {figure + y + "beside = \"2\"",
+         "a.toml:10: figure.0.beside: found \"2\", expected the name of a figure of this file, no spectrogram, with nothing beside it"},
         {figure + y + "where = { tap = [] }", "a.toml:10: figure.0.where.tap: found an array, expected at least one value"},
         {figure + y + "across = 0", "a.toml:10: figure.0.across: found 0, expected a whole number from 1 to 20"},
         {cells + "[[figure]]\nname = \"a/b\"\ntitle = \"\"", "a.toml:4: figure.0.name: found \"a/b\", expected lower-case letters"},
@@ -363,11 +365,17 @@ TEST(FigureCommand, ASuiteWritesItsPicturesAndSaysWhichItCouldNotDraw) {
     std::ofstream(scratch / "a.toml")
         << one_mode << "[[figure]]\nname = \"1\"\ntitle = \"t\"\nkind = \"lines\"\ntable = \"profile\"\n"
         << "x = \"position_m\"\ny = \"displacement_m\"\ncolour = [\"time_s\"]\n"
-        << "[[figure]]\nname = \"2\"\ntitle = \"t\"\nkind = \"lines\"\ntable = \"profile\"\nx = \"postion\"\ny = \"time_s\"\n";
+        << "[[figure]]\nname = \"2\"\ntitle = \"t\"\nkind = \"lines\"\ntable = \"profile\"\nx = \"postion\"\ny = \"time_s\"\n"
+        << "[[figure]]\nname = \"3\"\ntitle = \"left\"\nkind = \"lines\"\ntable = \"profile\"\nx = \"time_s\"\ny = \"displacement_m\"\n"
+        << "beside = \"4\"\n"
+        << "[[figure]]\nname = \"4\"\ntitle = \"right\"\nkind = \"lines\"\ntable = \"profile\"\nx = \"time_s\"\ny = \"displacement_m\"\n";
     const Outcome o = jvari(scratch, "suite " + scratch / "a.toml" + " --out " + scratch / "out");
     EXPECT_EQ(o.code, 0) << o.err;
     if (bench::report::find_vega().missing.empty()) {
         EXPECT_EQ(content(scratch.path / "out" / "figure-1.svg").rfind("<svg", 0), 0u);
+        for (const char* title : {">left<", ">right<"})
+            EXPECT_NE(content(scratch.path / "out" / "figure-3.svg").find(title), std::string::npos);
+        EXPECT_EQ(content(scratch.path / "out" / "figure-4.svg").find(">left<"), std::string::npos);
         EXPECT_NE(o.err.find("figure-2.svg: table profile: unknown column \"postion\""), std::string::npos) << o.err;
     } else {
         EXPECT_NE(o.err.find("npm ci"), std::string::npos) << o.err;

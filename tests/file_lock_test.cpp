@@ -1,5 +1,5 @@
 // One process at a time makes a file: whoever waits takes what the other made, and a holder that is gone holds nobody up.
-#include "bench/store/file_lock.hpp"
+#include "bench/store/system/file_lock.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

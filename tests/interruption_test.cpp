@@ -1,5 +1,5 @@
 // Ctrl-C, and what it leaves: whole files or none, an ended line, the way to go on, and a caller that sees the signal.
-#include "bench/store/interruption.hpp"
+#include "bench/store/system/interruption.hpp"
 
 #include <fcntl.h>
 #include <pty.h>

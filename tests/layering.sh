@@ -16,6 +16,7 @@ files() { find "$@" -name '*.hpp' -o -name '*.cpp' | sort; }
 forbid "scenes see nothing above them" '#include "(schemes|reference|analysis|bench)/' $(files scenes)
 forbid "schemes see scenes alone" '#include "(reference|analysis|bench)/' $(files schemes)
 forbid "references see schemes and scenes" '#include "(analysis|bench)/' $(files reference)
+forbid "the event-driven exact solution stands above the other references" '#include "reference/exact/' reference/*.hpp reference/*.cpp
 forbid "the seam sees no scheme" '#include "schemes/(body|contact|modal|spatial|grid|sitar)/' schemes/*.hpp schemes/scheme.cpp schemes/several_strings.cpp schemes/trace.cpp schemes/run.cpp
 forbid "contacts see the seam alone" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/contact)
 forbid "a moving body sees contacts and the seam" '#include "schemes/(modal|spatial|grid|sitar)/' $(files schemes/body)
@@ -30,6 +31,9 @@ for room in command report trim check suite map diff compare trust sound store; 
     forbid "bench/$room opens the namespace of its room" "^namespace jvari(::bench::[a-z]+)? \\{$" \
         $(grep -LE "^namespace jvari::bench::$room \\{$" $(files bench/$room))
 done
+forbid "locks, signals and programs see nothing else of the store" '#include "bench/store/[a-z_0-9]+\.' $(files bench/store/system)
+forbid "a comparison does not see how it is written down" '#include "bench/compare/record/' bench/compare/*.hpp bench/compare/*.cpp
+forbid "a section of the page is seen by the report alone" '#include "bench/report/sections/' $(ls bench/report/*.hpp bench/report/*.cpp | grep -v /report.cpp)
 forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
     $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/compare bench/diff bench/map bench/suite bench/check bench/report)
 forbid "the Python module sees the engine, not the command line" '#include "bench/command/' $(files python)
@@ -43,8 +47,8 @@ only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin
 }
 only "toml++" 'toml' 'scenes/document'
 only GSL 'gsl/' 'scenes/|schemes/|reference/|analysis/'
-only Eigen 'Eigen/' 'schemes/|reference/(touching_set|collocated_contact)|analysis/'
-only Highway 'hwy/' 'schemes/|reference/modal_sweep'
+only Eigen 'Eigen/' 'schemes/|reference/exact/(touching_set|collocated_contact)|analysis/'
+only Highway 'hwy/' 'schemes/|reference/exact/modal_sweep'
 only FFTW 'fftw' 'analysis/(spectrum|convolution)|schemes/spatial/sine_transform'
 only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'
 only CLI11 'CLI/' 'bench/command/'
@@ -58,5 +62,13 @@ only pybind11 'pybind11/' 'python/'
 forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp' ! -name '*-inl.hpp')  # -inl: part of a file of its own folder, compiled once for each set of instructions
 forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' $(find results -maxdepth 3 -name '*.json' -o -maxdepth 3 -name '*.toml')
+lines=$(cat $product | wc -l)
+for room in $(for file in $product; do dirname "$file"; done | sort -u); do
+    in_it=$(ls "$room"/*.hpp "$room"/*.cpp 2>/dev/null)
+    if [ "$(echo "$in_it" | wc -l)" -gt 30 ] || [ "$(($(cat $in_it | wc -l) * 4))" -gt "$lines" ]; then
+        echo "$room: more than 30 source files, or than a quarter of the lines" >&2
+        status=1
+    fi
+done
 forbid "-ffast-math is forbidden" 'ffast-math' CMakeLists.txt tests/CMakeLists.txt CMakePresets.json
 exit $status

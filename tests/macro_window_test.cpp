@@ -4,10 +4,10 @@
 #include <cmath>
 #include <complex>
 
-#include "reference/collocated_contact.hpp"
-#include "reference/crossing.hpp"
-#include "reference/macro_window.hpp"
-#include "reference/touching_set.hpp"
+#include "reference/exact/collocated_contact.hpp"
+#include "reference/exact/crossing.hpp"
+#include "reference/exact/macro_window.hpp"
+#include "reference/exact/touching_set.hpp"
 #include "tests/c3.hpp"
 
 namespace jvari {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/convergence_table.hpp"
+#include "bench/compare/record/convergence_table.hpp"
 #include "bench/compare/summary.hpp"
 #include "bench/suite/dispersion_facet.hpp"
 #include "schemes/registry.hpp"

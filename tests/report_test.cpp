@@ -10,7 +10,7 @@
 #include "bench/compare/spread.hpp"
 #include "bench/report/chart_data.hpp"
 #include "bench/report/identity.hpp"
-#include "bench/report/page_sections.hpp"
+#include "bench/report/sections/page_sections.hpp"
 #include "bench/store/sound.hpp"
 #include "command_line.hpp"
 

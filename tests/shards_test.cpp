@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
-#include "bench/compare/cheapest.hpp"
-#include "bench/compare/pareto.hpp"
-#include "bench/compare/scaling_table.hpp"
+#include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/pareto.hpp"
+#include "bench/compare/record/scaling_table.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"

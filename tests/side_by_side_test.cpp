@@ -1,5 +1,5 @@
 // Things side by side: each once, as many at a time as asked for, and failures as if they had gone one by one.
-#include "bench/store/side_by_side.hpp"
+#include "bench/store/system/side_by_side.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,11 +15,11 @@
 #include <array>
 #include <cmath>
 
-#include "reference/oscillators.hpp"
-#include "reference/pluck_series.hpp"
+#include "reference/exact/oscillators.hpp"
+#include "reference/exact/pluck_series.hpp"
+#include "reference/exact/springs.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
-#include "reference/springs.hpp"
 #include "tests/bernstein.hpp"
 #include "tests/stepwise_contact.hpp"
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <thread>
 
-#include "bench/compare/compare_record.hpp"
+#include "bench/compare/record/compare_record.hpp"
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/machine.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/check/promise.hpp"
-#include "bench/store/listener.hpp"
+#include "bench/store/system/listener.hpp"
 
 namespace jvari::bench::check {
 

@@ -12,15 +12,15 @@
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
 #include "bench/compare/bound.hpp"
-#include "bench/compare/cheapest.hpp"
-#include "bench/compare/compare_record.hpp"
-#include "bench/compare/convergence_table.hpp"
 #include "bench/compare/kept_cells.hpp"
+#include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/compare_record.hpp"
+#include "bench/compare/record/convergence_table.hpp"
 #include "bench/compare/spread.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
-#include "bench/store/interruption.hpp"
+#include "bench/store/system/interruption.hpp"
 
 namespace jvari::bench::command {
 

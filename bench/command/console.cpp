@@ -15,7 +15,7 @@
 #include <optional>
 #include <string_view>
 
-#include "bench/store/interruption.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::command {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bench/store/listener.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/listener.hpp"
 
 namespace jvari::bench::command {
 

@@ -11,7 +11,7 @@
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
-#include "bench/store/interruption.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/trim/trim_record.hpp"
 
 namespace jvari::bench::command {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/store/listener.hpp"
+#include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"

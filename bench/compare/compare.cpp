@@ -15,7 +15,7 @@
 #include "bench/compare/truth.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/side_by_side.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "reference/agreement.hpp"
 #include "schemes/run.hpp"

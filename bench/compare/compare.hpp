@@ -13,9 +13,9 @@
 #include "bench/compare/errors.hpp"
 #include "bench/compare/request.hpp"
 #include "bench/compare/summary.hpp"
-#include "bench/store/listener.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/sound.hpp"
+#include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/trust/certificate_library.hpp"
 

@@ -1,7 +1,7 @@
 // Strings that will not sound.
 #pragma once
 
-#include "bench/store/listener.hpp"
+#include "bench/store/system/listener.hpp"
 #include "scenes/scene.hpp"
 
 namespace jvari::bench::compare {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "bench/store/indented.hpp"
-#include "bench/store/program.hpp"
+#include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::diff {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/diff/difference.hpp"
-#include "bench/store/listener.hpp"
+#include "bench/store/system/listener.hpp"
 
 namespace jvari::bench::diff {
 

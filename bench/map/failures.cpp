@@ -6,7 +6,7 @@
 
 #include "bench/map/minimise.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/side_by_side.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::map {

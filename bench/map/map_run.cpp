@@ -15,7 +15,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/side_by_side.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "bench/store/whole.hpp"
 
 namespace jvari::bench::map {

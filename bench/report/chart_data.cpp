@@ -9,7 +9,7 @@
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/errors.hpp"
-#include "bench/compare/pareto.hpp"
+#include "bench/compare/record/pareto.hpp"
 #include "bench/report/identity.hpp"
 
 namespace jvari::bench::report {

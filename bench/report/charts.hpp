@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/compare/cheapest.hpp"
+#include "bench/compare/record/cheapest.hpp"
 #include "bench/report/chart_style.hpp"
 #include "bench/store/records.hpp"
 

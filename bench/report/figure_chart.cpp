@@ -195,6 +195,17 @@ std::string figure_spec(const suite::Figure& f, const store::Table& t) {
 }
 
 namespace {
+std::string in_one_picture(const std::string& left, const std::string& right) {
+    Json both{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"}, {"background", "white"}, {"padding", 12}, {"spacing", 28}};
+    for (const std::string& spec : {left, right}) {
+        Json one = Json::parse(spec);
+        for (const char* of_the_whole : {"$schema", "background", "padding", "config"}) one.erase(of_the_whole);
+        both["hconcat"].push_back(std::move(one));
+    }
+    both["config"] = config;
+    return both.dump();
+}
+
 template <class SpecOf>  // throws UsageError where a figure cannot be drawn
 std::vector<DrawnFigure> drawn(const std::vector<suite::Figure>& figures, const store::Listener& listener, SpecOf spec_of) {
     std::vector<DrawnFigure> drawn;
@@ -207,7 +218,9 @@ std::vector<DrawnFigure> drawn(const std::vector<suite::Figure>& figures, const 
         const std::string file = "figure-" + f.name + ".svg";
         std::string why;
         try {
-            if (const auto svg = svg_of(vega, spec_of(f), why)) drawn.push_back({file, *svg});
+            std::string spec = spec_of(f);
+            if (!f.beside.empty()) spec = in_one_picture(spec, spec_of(*std::ranges::find(figures, f.beside, &suite::Figure::name)));
+            if (const auto svg = svg_of(vega, spec, why)) drawn.push_back({file, *svg});
         } catch (const store::UsageError& e) {
             why = e.what();
         }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/store/listener.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/suite/figure_file.hpp"
 #include "bench/suite/suite_record.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bench/compare/bound.hpp"
-#include "bench/report/page_sections.hpp"
+#include "bench/report/sections/page_sections.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/fresh_file.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/store/listener.hpp"
+#include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::report {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/compare/cheapest.hpp"
+#include "bench/compare/record/cheapest.hpp"
 #include "bench/store/records.hpp"
 
 namespace jvari::bench::report {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/report/page_text.hpp"
-#include "bench/store/interruption.hpp"
-#include "bench/store/program.hpp"
+#include "bench/store/system/interruption.hpp"
+#include "bench/store/system/program.hpp"
 
 namespace jvari::bench::report {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/store/interruption.hpp"
+#include "bench/store/system/interruption.hpp"
 
 namespace jvari::bench::store {
 

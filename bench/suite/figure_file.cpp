@@ -1,5 +1,7 @@
 #include "bench/suite/figure_file.hpp"
 
+#include <algorithm>
+
 #include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
@@ -57,25 +59,27 @@ std::vector<store::Key<Figure>> figure_keys() {
                                                           {"points", FigureKind::points},
                                                           {"band", FigureKind::band},
                                                           {"spectrogram", FigureKind::spectrogram}});
-    return {needed("name", &Figure::name, store::name_of_file(), "the file is `figure-NAME.svg`"),
-            needed("title", &Figure::title, store::text(), "above it"),
-            key("paper", &Figure::paper, store::text(), "the paper's figure, under the title"),
-            key("statement", &Figure::statement, store::text(), "what the paper says of it, under the title"),
-            needed("kind", &Figure::kind, kinds, "points are lines with marks; a band lies between `y.column` and `y.to`"),
-            key("table", &Figure::table, store::word("table", tables_to_draw()),
-                "what is drawn; a spectrogram is drawn of the cells that measure one"),
-            key("x", &Figure::x, axis(), "of a spectrogram none"),
-            key("y", &Figure::y, axis(), "of a spectrogram none"),
-            key("colour", &Figure::colour, store::several(store::text()),
-                "columns whose fields, joined by a comma, name a line. Of a spectrogram they go across", "one line"),
-            key("panels", &Figure::panels, store::several(store::text()), "columns that name a panel. Of a spectrogram they go down",
-                "one panel"),
-            key("across", &Figure::across, store::whole(1, 20), "panels in a row"),
-            key("free", &Figure::free, store::yes_or_no(), "each panel has its own scales"),
-            key("width", &Figure::width, store::whole(1, 4000), "of a panel [px]"),
-            key("height", &Figure::height, store::whole(1, 4000), "of a panel [px]"),
-            key("where", &Figure::where, where, "rows with one of these values", "all"),
-            key("labels", &Figure::labels, labels, "what is written in place of a name")};
+    return {
+        needed("name", &Figure::name, store::name_of_file(), "the file is `figure-NAME.svg`"),
+        needed("title", &Figure::title, store::text(), "above it"),
+        key("paper", &Figure::paper, store::text(), "the paper's figure, under the title"),
+        key("statement", &Figure::statement, store::text(), "what the paper says of it, under the title"),
+        needed("kind", &Figure::kind, kinds, "points are lines with marks; a band lies between `y.column` and `y.to`"),
+        key("table", &Figure::table, store::word("table", tables_to_draw()),
+            "what is drawn; a spectrogram is drawn of the cells that measure one"),
+        key("x", &Figure::x, axis(), "of a spectrogram none"),
+        key("y", &Figure::y, axis(), "of a spectrogram none"),
+        key("colour", &Figure::colour, store::several(store::text()),
+            "columns whose fields, joined by a comma, name a line. Of a spectrogram they go across", "one line"),
+        key("panels", &Figure::panels, store::several(store::text()), "columns that name a panel. Of a spectrogram they go down",
+            "one panel"),
+        key("across", &Figure::across, store::whole(1, 20), "panels in a row"),
+        key("free", &Figure::free, store::yes_or_no(), "each panel has its own scales"),
+        key("width", &Figure::width, store::whole(1, 4000), "of a panel [px]"),
+        key("height", &Figure::height, store::whole(1, 4000), "of a panel [px]"),
+        key("beside", &Figure::beside, store::text(), "the name of another figure, which stands at its right in the same picture", "alone"),
+        key("where", &Figure::where, where, "rows with one of these values", "all"),
+        key("labels", &Figure::labels, labels, "what is written in place of a name")};
 }
 
 void fit_the_kind(Figure& f, const store::Entry& e) {
@@ -89,7 +93,20 @@ void fit_the_kind(Figure& f, const store::Entry& e) {
 }  // namespace
 
 store::Kind<std::vector<Figure>> figures() {
-    return store::tables("figure", store::table(figure_keys(), fit_the_kind));
+    auto all = store::tables("figure", store::table(figure_keys(), fit_the_kind));
+    all.read = [read = all.read](const store::Entry& e) {
+        std::vector<Figure> figures = read(e);
+        std::size_t k = 0;
+        for (const store::Entry& one : e.items()) {
+            const std::string& beside = figures[k++].beside;
+            const auto right = std::ranges::find(figures, beside, &Figure::name);
+            if (beside.empty()) continue;
+            if (right == figures.end() || !right->beside.empty() || right->kind == FigureKind::spectrogram)
+                one.need("beside").refuse("the name of a figure of this file, no spectrogram, with nothing beside it");
+        }
+        return figures;
+    };
+    return all;
 }
 
 }  // namespace jvari::bench::suite

@@ -28,6 +28,7 @@ struct Figure {
     std::vector<std::pair<std::string, std::string>> labels;
     int across = 1, width = 640, height = 240;
     bool free = false;
+    std::string beside;  // the figure at its right in one picture; "": none
 };
 
 // [[figure]] tables of a suite.

@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/compare_record.hpp"
+#include "bench/compare/record/compare_record.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/whole.hpp"

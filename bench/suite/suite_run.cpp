@@ -14,7 +14,7 @@
 #include "bench/compare/time_limit.hpp"
 #include "bench/compare/truth.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/side_by_side.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {

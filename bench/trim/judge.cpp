@@ -8,7 +8,7 @@
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare_plan.hpp"
-#include "bench/compare/compare_record.hpp"
+#include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/time_limit.hpp"
 #include "bench/compare/truth.hpp"
 #include "bench/store/checksum.hpp"

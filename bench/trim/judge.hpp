@@ -16,7 +16,7 @@
 
 #include "analysis/statistics.hpp"
 #include "bench/compare/catalogue.hpp"
-#include "bench/store/listener.hpp"
+#include "bench/store/system/listener.hpp"
 #include "bench/trim/start.hpp"
 #include "bench/trim/target.hpp"
 #include "scenes/reduction.hpp"

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
-#include "bench/store/file_lock.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/file_lock.hpp"
 #include "bench/store/whole.hpp"
 #include "scenes/scene_file.hpp"
 

@@ -1,5 +1,5 @@
 // A comparison without the command line: two schemes, one row of a table each, on a scene of the installed library.
-#include <bench/compare/compare_record.hpp>
+#include <bench/compare/record/compare_record.hpp>
 #include <cstdio>
 
 int main() {

@@ -1,0 +1,43 @@
+// What of a comparison is kept to be heard.
+#include <algorithm>
+#include <cmath>
+
+#include "bench/compare/record/compare_record.hpp"
+
+namespace jvari::bench::compare {
+
+namespace {
+constexpr std::size_t most_samples = 12'000'000;  // 24 MB of files
+
+bool at_an_end(const Comparison& c, const Cell& cell) {  // of its scheme's rates
+    bool lowest = true, highest = true;
+    for (const Cell& other : c.cells) {
+        if (other.scheme != cell.scheme || other.sound.samples.empty()) continue;
+        lowest = lowest && cell.settings.sample_rate <= other.settings.sample_rate;
+        highest = highest && cell.settings.sample_rate >= other.settings.sample_rate;
+    }
+    return lowest || highest;
+}
+}  // namespace
+
+void write_sounds(const Comparison& c, const std::filesystem::path& folder) {
+    const Tap& tap = c.scene.taps.at(c.headline.nut);
+    std::size_t samples = 0;
+    for (const Cell& cell : c.cells) samples += cell.sound.samples.size();
+    std::vector<store::NamedSound> sounds;
+    const bool compared = !c.reference_sound.samples.empty();
+    if (compared) sounds.push_back({{"reference", "", ""}, "reference", tap.name, name_of(tap.quantity), &c.reference_sound, ""});
+    for (const Cell& cell : c.cells) {
+        if (cell.sound.samples.empty() || (samples > most_samples && !at_an_end(c, cell))) continue;
+        const std::string rate = cell.scheme->clock == Clock::continuous ? "" : store::text_of(cell.settings.sample_rate);
+        sounds.push_back({{cell.scheme->name, rate, std::to_string(cell.modes())},
+                          cell.scheme->name + (rate.empty() ? "" : "-" + rate),
+                          tap.name,
+                          name_of(tap.quantity),
+                          &cell.sound,
+                          compared ? "reference" : ""});
+    }
+    if (!sounds.empty()) store::write_sounds(folder, {"scheme", "rate", "modes"}, sounds);
+}
+
+}  // namespace jvari::bench::compare

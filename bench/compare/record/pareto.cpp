@@ -1,0 +1,60 @@
+#include "bench/compare/record/pareto.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/compare/bound.hpp"
+
+namespace jvari::bench::compare {
+
+namespace {
+bool sound(const Point& p) {
+    return std::isfinite(p.cost) && std::isfinite(p.error);
+}
+bool tie(const Point& a, const Point& b) {
+    return a.cost_lower <= b.cost_upper && b.cost_lower <= a.cost_upper;
+}
+bool beats(const Point& a, const Point& b) {
+    if (!sound(a)) return false;
+    if (a.error + a.certificate < b.error - b.certificate) return a.cost <= b.cost || tie(a, b);
+    return a.error <= b.error && a.cost < b.cost && !tie(a, b);
+}
+
+bool is_clock(const std::string& cost) {  // its quartiles are those of the cost per second of sound
+    return cost == "cost_s_per_s" || cost == "ns_per_step";
+}
+
+Point point_of(const store::Table& cells, std::size_t row, const std::string& error, const std::string& cost) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const Bound b = bound_of(cells, row, error);
+    const bool known = trusted(cells, row) && b.says() != Bound::Says::unknown;
+    const bool clock = is_clock(cost);
+    const double median = cells.number(row, "cost_s_per_s"), c = known ? cells.number(row, cost) : nan;
+    return {c, clock ? c * cells.number(row, "cost_lower") / median : c, clock ? c * cells.number(row, "cost_upper") / median : c,
+            std::isnan(b.error) ? nan : std::fmax(b.error, std::fmax(b.floor, b.certificate)),
+            std::isnan(b.certificate) ? 0 : b.certificate};
+}
+}  // namespace
+
+std::vector<bool> pareto_front(std::span<const Point> points) {
+    std::vector<bool> front;
+    for (const Point& p : points)
+        front.push_back(sound(p) && std::none_of(points.begin(), points.end(), [&p](const Point& other) { return beats(other, p); }));
+    return front;
+}
+
+std::vector<bool> pareto_front(const store::Table& cells, const store::Rows& rows, const std::string& error, const std::string& cost) {
+    std::vector<bool> front(cells.rows.size(), false), of_rows;
+    const std::vector<std::string> apart = is_clock(cost) ? std::vector<std::string>{"machine"} : std::vector<std::string>{};
+    for (const store::Rows& one_machine : store::alike(cells, rows, apart)) {
+        std::vector<Point> points;
+        for (const std::size_t row : one_machine) points.push_back(point_of(cells, row, error, cost));
+        const std::vector<bool> own = pareto_front(points);
+        for (std::size_t k = 0; k < own.size(); ++k) front[one_machine[k]] = own[k];
+    }
+    for (const std::size_t row : rows) of_rows.push_back(front[row]);
+    return of_rows;
+}
+
+}  // namespace jvari::bench::compare

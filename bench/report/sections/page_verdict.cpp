@@ -1,0 +1,150 @@
+// The first thing on the page: who is the cheapest at each accuracy, at which rate, at what cost and how certainly; then what the truth is,
+// what was compared with what, and how busy the machine was.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/compare/bound.hpp"
+#include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/spread.hpp"
+#include "bench/report/chart_data.hpp"
+#include "bench/report/identity.hpp"
+#include "bench/report/sections/page_sections.hpp"
+
+namespace jvari::bench::report {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+std::string wanted(const store::Table& cheapest, std::size_t i) {
+    const std::string &measure = cheapest.at(i, "measure"), goal = compare::goal_name(cheapest, i);
+    if (measure == "third_octave_db") return "third octaves within " + goal;
+    return "waveform within " + goal +
+           (measure == "error_l2_50ms"   ? ", first 50 ms"
+            : measure == "error_l2_10ms" ? ", first 10 ms"
+                                         : ", whole run");
+}
+
+std::string error_text(double error, const std::string& measure) {
+    return measure == "third_octave_db" ? fmt::format("{:.2g}\u00a0dB", error) : fmt::format("{:.2g}\u00a0%", 100 * error);
+}
+
+// The trusted cell that comes nearest, where none is near enough.
+std::string nearest_text(const store::Table& cells, const std::string& measure, compare::Controls controls) {
+    double least = HUGE_VAL;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < cells.rows.size(); ++i)
+        if (const double most = compare::bound_of(cells, i, measure).most(); compare::may_win(cells, i, controls) && most < least) {
+            least = most;
+            best = i;
+        }
+    if (!std::isfinite(least)) return "no trusted run has this error";
+    return fmt::format("nearest: {} by {} at {}", error_text(least, measure), series_of(cells, best),
+                       rate_text(cells.number(best, "rate")));
+}
+
+store::Table table_of(const store::Table& own, const std::string& name, compare::Controls controls) {
+    const store::Table cheapest = compare::cheapest_of(without_names(own), name, controls);
+    store::Table t{{"wanted", "cheapest scheme", "rate", "error", "computing per second of sound", "how certain"}, {}};
+    for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
+        const std::string &measure = cheapest.at(i, "measure"), &status = cheapest.at(i, "status"), &options = cheapest.at(i, "options");
+        if (status != "found") {
+            const bool open = status == "not_known";
+            t.rows.push_back(
+                {wanted(cheapest, i), open ? "not known" : "none", "", "", "",
+                 open ? "the truth is not certain enough; perhaps " + cheapest.at(i, "perhaps") : nearest_text(own, measure, controls)});
+            continue;
+        }
+        const double error = cheapest.number(i, "error"), bound = cheapest.number(i, "bound");
+        const bool bounded = bound - error > 0.1 * error;
+        const std::string ties = compare::ties_text(cheapest, i), &perhaps = cheapest.at(i, "perhaps");
+        std::string certain = bounded ? "at most that much, with what the truth is uncertain to" : "measured";
+        if (!ties.empty()) certain += "; a tie with " + ties;
+        if (!perhaps.empty()) certain += "; perhaps for less " + perhaps;
+        t.rows.push_back({wanted(cheapest, i), store::variant_name(cheapest.at(i, "scheme"), options),
+                          rate_text(cheapest.number(i, "rate")), (bounded ? "\u2264 " : "") + error_text(bounded ? bound : error, measure),
+                          fmt::format("{:.2g} ms", 1e3 * cheapest.number(i, "cost_s_per_s")), certain});
+    }
+    return t;
+}
+
+std::string truth_text(const Results& r, const store::Table& own) {
+    std::string name = own.column("reference") >= 0 && !own.rows.empty() ? own.at(0, "reference") : "", modes, until;
+    try {
+        const Json m = Json::parse(r.manifest);
+        if (m.contains("reference")) name = m.at("reference").at("name");
+    } catch (const Json::exception&) {
+    }
+    if (name.empty()) return "";
+    const double count = own.column("reference_modes") >= 0 ? own.number(0, "reference_modes") : std::nan("");
+    const double horizon = own.column("reference_horizon_s") >= 0 ? own.number(0, "reference_horizon_s") : std::nan("");
+    const std::string headline = compare::headline_error(own, store::all_rows(own));
+    const double certain = compare::bound_of(own, 0, headline).certificate;
+    std::string text = "Truth: " + name;
+    if (!std::isnan(count)) text += fmt::format(" with {:g} modes", count);
+    text += std::isnan(certain) ? ", whose own error is not known here"
+                                : fmt::format(", certain to {} in the headline measure", error_text(certain, headline));
+    if (!std::isnan(horizon)) text += fmt::format("; started 1e-12 apart it stays within 10 % of itself for {:.3g} s", horizon);
+    return text + ".";
+}
+
+std::string machine_text(const Results& r, const store::Table& own) {
+    std::string text;
+    try {
+        const Json m = Json::parse(r.manifest);
+        if (m.contains("cpu")) text = "Timed on " + m.at("cpu").get<std::string>();
+        if (m.contains("load") && m.contains("cores"))
+            text += fmt::format(", {} cores, at a load of {:.2g}", m.at("cores").get<int>(), m.at("load").get<double>());
+    } catch (const Json::exception&) {
+    }
+    const double spread = compare::median_spread(own);
+    if (text.empty() || std::isnan(spread)) return "";
+    return text + fmt::format("; the costs scatter by \u00b1{:.0f} % between their quartiles (median).", 100 * spread);
+}
+
+// Schemes that carry another number of modes than the reference: their error is of the cut as well.
+std::string modes_text(const store::Table& own) {
+    if (own.column("reference_modes") < 0 || own.rows.empty()) return "";
+    const double of_reference = own.number(0, "reference_modes");
+    std::set<std::string> others;
+    for (std::size_t i = 0; i < own.rows.size(); ++i)
+        if (const double modes = own.number(i, "modes"); own.at(i, "status") == "ok" && modes > 0 && modes != of_reference)
+            others.insert(own.at(i, "scheme"));
+    if (others.empty() || std::isnan(of_reference)) return "";
+    std::string names;
+    for (const std::string& name : others) names += (names.empty() ? "" : ", ") + name;
+    return fmt::format("Another number of modes than the truth's {:g} is carried by {}: that difference is in their errors.", of_reference,
+                       names);
+}
+}  // namespace
+
+std::vector<Verdict> verdicts_of(const Results& r) {
+    std::vector<Verdict> verdicts;
+    for (const std::string& problem : distinct(r.cells, "problem")) {
+        const store::Table own = rows_where(r.cells, "problem", problem);
+        Verdict v{problem, table_of(own, r.name, r.controls), {}};
+        std::size_t ok = 0, flagged = 0, refused = 0;
+        for (std::size_t i = 0; i < own.rows.size(); ++i) {
+            ok += own.at(i, "status") == "ok";
+            refused += own.at(i, "status") == "refused";
+            flagged += own.at(i, "status") == "ok" && !compare::trusted(own, i);
+        }
+        if (v.table.rows.empty())
+            v.sentences.push_back("No scheme of this scene can be the cheapest: none has a cost, an error and our trust.");
+        for (const std::string& text : {truth_text(r, own), modes_text(own)})
+            if (!text.empty()) v.sentences.push_back(text);
+        v.sentences.push_back(fmt::format("{} runs: {} ended well{}{}{}.", own.rows.size(), ok,
+                                          flagged ? fmt::format(", {} of them not to be trusted", flagged) : "",
+                                          own.rows.size() > ok + refused ? fmt::format(", {} failed", own.rows.size() - ok - refused) : "",
+                                          refused ? fmt::format(", {} were refused", refused) : ""));
+        if (const std::string machine = machine_text(r, own); !machine.empty()) v.sentences.push_back(machine);
+        if (const std::string busy = compare::busy_text(own); !busy.empty()) v.sentences.push_back("Costs: " + busy + ".");
+        verdicts.push_back(std::move(v));
+    }
+    return verdicts;
+}
+
+}  // namespace jvari::bench::report

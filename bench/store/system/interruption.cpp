@@ -1,0 +1,78 @@
+#include "bench/store/system/interruption.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace jvari::bench::store {
+
+namespace {
+struct Heeded {
+    std::mutex mutex;  // of what follows
+    std::condition_variable changed;
+    int undisturbed = 0;
+    bool ending = false;
+    std::list<std::function<void()>> last_words;  // newest first
+};
+Heeded& heeded() {
+    static Heeded& h = *new Heeded;  // outlives the end of main, during which there may still be an interruption
+    return h;
+}
+
+[[noreturn]] void end_by(int signal, const sigset_t& signals) {
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);  // a second one does what it does by default
+    Heeded& h = heeded();
+    std::unique_lock lock(h.mutex);
+    h.ending = true;
+    h.changed.wait(lock, [&h] { return h.undisturbed == 0; });
+    for (const auto& word : h.last_words) try {
+            word();
+        } catch (const std::exception&) {  // said or not, this is the end
+        }
+    raise(signal);
+    _exit(128 + signal);  // the first process of a container is not ended by a signal
+}
+}  // namespace
+
+void heed_interruptions() {
+    heeded();
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int s : {SIGINT, SIGTERM, SIGHUP})
+        if (struct sigaction set{}; sigaction(s, nullptr, &set) == 0 && set.sa_handler != SIG_IGN) sigaddset(&signals, s);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    std::thread([signals] {
+        int signal = 0;
+        if (sigwait(&signals, &signal) == 0) end_by(signal, signals);
+    }).detach();
+}
+
+Undisturbed::Undisturbed() {
+    Heeded& h = heeded();
+    std::unique_lock lock(h.mutex);
+    h.changed.wait(lock, [&h] { return !h.ending; });
+    ++h.undisturbed;
+}
+
+Undisturbed::~Undisturbed() {
+    Heeded& h = heeded();
+    std::unique_lock lock(h.mutex);
+    if (--h.undisturbed == 0) h.changed.notify_all();
+    h.changed.wait(lock, [&h] { return !h.ending; });  // that is the end
+}
+
+WhenInterrupted::WhenInterrupted(std::function<void()> word) {
+    const std::lock_guard lock(heeded().mutex);
+    place_ = heeded().last_words.insert(heeded().last_words.begin(), std::move(word));
+}
+
+WhenInterrupted::~WhenInterrupted() {
+    const std::lock_guard lock(heeded().mutex);
+    heeded().last_words.erase(place_);
+}
+
+}  // namespace jvari::bench::store

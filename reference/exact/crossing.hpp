@@ -1,0 +1,41 @@
+// The first instant at which a gap turns negative: a slow motion, given by its derivatives, plus fast exponential pairs,
+//
+//     g(u) = sign (sum p_n u^n/n! + Re sum b_k e^(lambda_k u)).
+//
+// Steps are taken that cannot pass a crossing: over a step d, g stays above g + g'd + g''d^2/2 - A d^3/6 with A a bound of |g'''|, or the
+// slow part alone stays above the sum of the amplitudes of the pairs. So nothing is sampled and nothing is missed, except dips that stay
+// above -bound. Near a crossing the derivative has one sign and Householder's iteration finishes. Amplitudes may not grow: Re lambda_k <=
+// 0.
+#pragma once
+
+#include <complex>
+
+#include "reference/exact/modal_sweep.hpp"
+
+namespace jvari {
+
+struct Gap {
+    double sign;
+    const double* p;  // [size], zeros behind
+    int size;
+    double growth;                          // p_n is of the order of growth^n at most: late terms may be left out early
+    const std::complex<double>*b, *lambda;  // [pairs]
+    int pairs;
+
+    struct Values {
+        double g, slope, curvature;               // all of it
+        double third;                             // of the pairs
+        double slow, slow_slope, slow_curvature;  // without the pairs
+        double amplitude;                         // sum |b_k| e^(Re lambda_k u)
+    };
+    Values at(double u, int terms) const noexcept;
+    Values at_start() const noexcept;
+    Values at(double u) const noexcept { return at(u, size); }
+    int terms_until(double u) const noexcept;       // in whole vectors
+    double depth_bound(double end) const noexcept;  // of g in [0, end], end <= 1
+};
+
+// In [0, end], or 2 if there is none. g(0) may be zero already: then what follows is asked for.
+double first_crossing(const Gap&, double end, double bound) noexcept;
+
+}  // namespace jvari

@@ -1,0 +1,457 @@
+// The exact reference: a string against one-sided contacts, event-driven, no step size in it.
+//
+// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck); contact loss of Issanchou et al. 2016, eq 24. The string is
+// linear, only the contact points are not. So the modes are touched twice a window (macro_window.hpp), and between its events a few short
+// vectors move. From one event to the next the points follow
+//   - their free motion, where nothing touches;
+//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast pair per point, or a polynomial where they are soft;
+//   - collocated_contact.hpp, step by step, where the law is no spring or there are many contacts.
+// crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. With compliance=matched the static
+// deflection of the modes left out stands in series with barrier and thread (in_series.hpp).
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "reference/exact/collocated_contact.hpp"
+#include "reference/exact/crossing.hpp"
+#include "reference/exact/macro_window.hpp"
+#include "reference/exact/pluck_series.hpp"
+#include "reference/exact/touching_set.hpp"
+#include "reference/exact/window_energies.hpp"
+#include "reference/profile_points.hpp"
+#include "reference/readout.hpp"
+#include "reference/references.hpp"
+#include "scenes/excitation.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr int most_sets_of = 4;  // contacts, for every set of them to be split beforehand
+constexpr double negligible = 1e-18;
+constexpr long phases_between_questions = 64;  // (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
+
+struct Extremes {  // of the run so far
+    double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, deepest = 0, tolerance = 0;
+};
+
+std::vector<BarrierLaw> laws_of(const String& s, const std::optional<InSeries>& series) {
+    std::vector<BarrierLaw> laws;
+    for (const Barrier& barrier : s.barriers) {
+        const auto& b = std::get<LumpedBarrier>(barrier);
+        laws.emplace_back(ContactLaw{b.stiffness.k, b.exponent}, b.contact_loss, series ? series->points.law.S : 0);
+    }
+    return laws;
+}
+
+class ExactContact final : public Scheme {
+public:
+    ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance, const std::optional<InSeries>&);
+    void reset() noexcept override;
+    Status advance(const Block& out) noexcept override;
+    int dofs() const override { return 2 * modes_.count(); }
+    std::vector<Fact> facts() const override;
+
+private:
+    bool interval(const Block& out) noexcept;                                       // to the next row
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;  // within one interval
+    bool window(double end, bool plucked, double since_pluck, const Block& out) noexcept;
+    double phase(double at, double end, bool probe) noexcept;  // to the next event, or as far as this way of going on reaches
+    double collocated(double left, int& crossed) noexcept;
+    Gap gap(int contact, int terms) const noexcept;  // the side the point is on now: positive until the next event
+    int next_crossing(double& end, int terms) noexcept;
+    void settle() noexcept;  // which points touch, by where they are and where they go
+    void move_on(double by, double left) noexcept;
+    void measure(int touching, double end, bool leaves) noexcept;
+    double stored(double F_e) const noexcept;
+    void write(const Block& out, int row) const noexcept;
+    double* at(std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * window_.stride; }
+
+    Modes modes_;
+    MacroWindow window_;
+    std::vector<BarrierLaw> law_;
+    CollocatedContact collocation_;
+    WindowEnergies spending_;
+    std::vector<std::optional<WindowEnergies::Touch>>
+        sets_;  // by the bits of their points; empty where there are too many contacts or a law is no spring
+    Readout readout_;
+    std::vector<Pluck> pluck_;                // none or one
+    double tap_rate_, tolerance_, interval_;  // of an interval: windows
+    std::vector<double> start_, stiffness_;   // y at t = 0; m omega0^2, per mode
+
+    std::vector<double> y_, u_;  // the state
+    double thread_force_ = 0;    // and F_s of in_series.hpp
+    std::vector<char> touching_, known_zero_;
+    long row_ = 0;
+    double bridge_impulse_ = 0, thread_impulse_ = 0;
+    WindowEnergies::Sums energies_;  // of the interval that ends here
+    int idle_ = 0;
+    double step_ = 0;  // of the collocation, the last
+    Extremes extremes_;
+
+    // one window; rows of window_.stride
+    std::vector<double> r_, path_, moments_, moment_;
+    std::vector<std::complex<double>> amplitude_;
+    std::vector<int> touched_;
+    WindowEnergies::Touch* touch_ = nullptr;    // of the springs that touch; nullptr: none do, or what does goes by collocation
+    bool collocated_ = false, onward_ = false;  // this phase, and the one before
+    int count_ = 0;                             // moments of this phase
+};
+
+ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double tolerance,
+                           const std::optional<InSeries>& series)
+    : modes_(std::move(modes)),
+      window_(modes_, s, 1 / tap_rate, tolerance, series),
+      law_(laws_of(s, series)),
+      collocation_(window_, law_),
+      spending_(window_, modes_, tolerance),
+      readout_(scene, modes_),
+      tap_rate_(tap_rate),
+      tolerance_(tolerance),
+      interval_(window_.per_row) {
+    if (s.pluck) pluck_.push_back(*s.pluck);
+    start_ = window_.osc.pad(initial_displacement(modes_, s));
+    std::vector<double> stiffness;
+    for (int i = 0; i < modes_.count(); ++i) stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
+    stiffness_ = window_.osc.pad(stiffness);
+    y_ = u_ = start_;
+    const int contacts = window_.contacts;
+    touching_.resize(contacts + 1);
+    known_zero_.resize(contacts + 1);
+    touched_.reserve(contacts);
+    for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
+    amplitude_.assign(contacts * contacts + 1, 0.0);
+    const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
+    if (springs && contacts <= most_sets_of) {
+        sets_.resize(1u << contacts);
+        for (unsigned bits = 1; bits < sets_.size(); ++bits) {
+            std::vector<int> points;
+            std::vector<double> k;
+            for (int a = 0; a < contacts; ++a)
+                if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].stiffness());
+            TouchingSet set(window_, points, k);
+            if (set.solves()) sets_[bits] = {set, spending_.pairs_of(set)};
+        }
+    }
+    reset();
+}
+
+void ExactContact::reset() noexcept {
+    std::copy(start_.begin(), start_.end(), y_.begin());
+    std::fill(u_.begin(), u_.end(), 0.0);
+    std::fill(touching_.begin(), touching_.end(), 0);
+    std::fill(known_zero_.begin(), known_zero_.end(), 0);
+    row_ = idle_ = 0;
+    step_ = 1;
+    onward_ = false;
+    bridge_impulse_ = thread_impulse_ = thread_force_ = 0;
+    energies_ = {};
+    extremes_ = {};
+}
+
+Status ExactContact::advance(const Block& out) noexcept {
+    for (int row = 0; row < out.rows; ++row) {
+        write(out, row);
+        if (!interval(out)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
+        ++row_;
+    }
+    return {};
+}
+
+void ExactContact::write(const Block& out, int row) const noexcept {
+    readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(), bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
+    const double F_e = pluck_.empty() ? 0 : force(pluck_[0], row_ / tap_rate_);
+    if (window_.series()) add_series(out, row, *window_.series(), window_.forces(y_.data(), thread_force_, F_e), F_e);
+    if (out.energy) write_energy(out, row, stored(F_e), energies_.supplied, energies_.dissipated);
+}
+
+bool ExactContact::interval(const Block& out) noexcept {
+    bridge_impulse_ = thread_impulse_ = 0;
+    energies_ = {};
+    double from = interval_, to = interval_;  // of the pluck within this interval
+    if (!pluck_.empty()) {
+        const double start = pluck_[0].start - row_ / tap_rate_;
+        from = std::clamp(start / window_.seconds(), 0.0, interval_);
+        to = std::clamp((start + pluck_[0].duration) / window_.seconds(), 0.0, interval_);
+    }
+    return stretch(0, from, false, out) && stretch(from, to, true, out) && stretch(to, interval_, false, out);
+}
+
+bool ExactContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
+    if (!(to > from)) return true;
+    const double longest = plucked ? std::min(1.0, pluck_window(pluck_[0]) / window_.seconds()) : 1;
+    const long count = static_cast<long>(std::ceil((to - from) / longest - 1e-12));
+    for (long i = 0; i < count; ++i) {
+        const double at = from + (to - from) * i / count;
+        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds()) : 0;
+        if (!window((to - from) / count, plucked, since_pluck, out) || out.stopped()) return false;
+    }
+    return true;
+}
+
+bool ExactContact::window(double end, bool plucked, double since_pluck, const Block& out) noexcept {
+    MacroWindow& w = window_;
+    w.open(y_.data(), u_.data(), plucked, since_pluck, thread_force_);
+    ++extremes_.windows;
+    for (int a = 0; a < w.contacts; ++a) {
+        std::copy_n(w.free_motion(a), w.size, at(r_, a));
+        if (known_zero_[a]) at(r_, a)[0] = 0;
+    }
+    extremes_.tolerance = std::max(extremes_.tolerance, 2 * (w.truncation() + w.rounding()));
+    std::fill(moments_.begin(), moments_.end(), 0.0);
+    long phases = 0;
+    for (double now = 0; now < end;) {
+        const double left = end - now, step = phase(now, left, out.energy != nullptr);
+        if (!(step >= 0) || out.stopped(phases++, phases_between_questions)) return false;
+        idle_ = step > 1e-15 ? 0 : idle_ + 1;
+        if (idle_ > 1000) return false;
+        now = step == left ? end : now + step;
+    }
+    w.state_at(end, moments_.data(), y_.data(), u_.data(), y_.data(), u_.data());
+    for (int a = 0; a < w.contacts; ++a) bridge_impulse_ += at(moments_, a)[0] * w.seconds();
+    thread_impulse_ += w.thread_impulse();
+    thread_force_ = w.thread_force();
+    return std::isfinite(y_[0]);
+}
+
+void ExactContact::settle() noexcept {
+    const MacroWindow& w = window_;
+    for (int a = 0; a < w.contacts; ++a) {
+        const double* r = at(r_, a);
+        const double* leading = std::find_if(r, r + 2, [](double c) { return c != 0; });
+        double sign = leading == r + 2 ? 0 : *leading;
+        if (sign == 0) {  // it lies on the surface, at rest: what pulls there
+            sign = r[2];
+            for (int b = 0; b < w.contacts; ++b)
+                if (at(r_, b)[0] < 0) sign += w.kernel(a, b)[1] * law_[b].force(-at(r_, b)[0], at(r_, b)[1] / w.seconds());
+        }
+        if (sign == 0) continue;
+        if (touching_[a] == (sign < 0)) continue;
+        touching_[a] = sign < 0;
+        ++extremes_.events;
+    }
+    touched_.clear();
+    unsigned bits = 0;
+    for (int a = 0; a < w.contacts; ++a)
+        if (touching_[a]) touched_.push_back(a), bits |= a < most_sets_of ? 1u << a : 0;
+    touch_ = !touched_.empty() && !sets_.empty() && sets_[bits] ? &*sets_[bits] : nullptr;
+}
+
+Gap ExactContact::gap(int a, int terms) const noexcept {
+    const int pairs = touch_ ? touch_->set.pairs() : 0;
+    return {touching_[a] ? -1.0 : 1.0,
+            path_.data() + static_cast<long>(a) * window_.stride,
+            terms,
+            collocated_ ? HUGE_VAL  // a collocated path is as fast as the contact
+            : touch_    ? touch_->set.growth()
+                        : window_.reach,
+            amplitude_.data() + a * pairs,
+            touch_ ? touch_->set.rates() : nullptr,
+            pairs};
+}
+
+int ExactContact::next_crossing(double& end, int terms) noexcept {
+    int first = -1;
+    for (int a = 0; a < window_.contacts; ++a) {
+        const double crossing = first_crossing(gap(a, terms), end, window_.rounding());
+        if (crossing <= end) end = crossing, first = a;
+    }
+    return first;
+}
+
+double ExactContact::phase(double now, double left, bool probe) noexcept {
+    MacroWindow& w = window_;
+    settle();
+    collocated_ = !touched_.empty() && !touch_;
+    std::fill(known_zero_.begin(), known_zero_.end(), 0);
+    double end = left;
+    int crossed = -1;
+    if (touched_.empty()) {
+        std::copy(r_.begin(), r_.end(), path_.begin());
+        crossed = next_crossing(end, w.size);
+    } else if (touch_) {
+        touch_->set.solve(r_.data(), path_.data(), amplitude_.data());
+        end = std::min(left, touch_->set.span());
+        crossed = next_crossing(end, w.size);
+    } else {
+        end = collocated(left, crossed);
+        if (!(end >= 0)) return -1;
+    }
+    onward_ = collocated_;
+    for (int a : touched_) measure(a, end, a == crossed);
+
+    count_ = 2;  // moments that are not negligible: (reach x step)^i/i!
+    for (double x = w.reach * end; count_ < w.terms && x > negligible; x *= w.reach * end / count_) ++count_;
+    const auto moments_until = [&](double until, int count) {
+        for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
+            if (touch_) touch_->set.moments(i, path_.data(), amplitude_.data(), until, count, at(moment_, i));
+            else collocation_.moments(i, until, count, at(moment_, i));
+    };
+    if (probe && end > 0) {
+        const auto all_moments = [&](double when, double* M) {  // of the phases before, seen from an earlier instant, and of this one
+            double earlier[3 * most_terms];
+            std::fill_n(earlier, w.size, 0.0);
+            powers(when - now - left, w.size, earlier + w.size);
+            std::fill_n(M, static_cast<long>(w.contacts) * w.stride, 0.0);
+            for (int a = 0; a < w.contacts; ++a)
+                w.sweep().combine(M + a * w.stride, w.size, at(moments_, a), w.terms, earlier + w.size, -1);
+            moments_until(when - now, w.terms);
+            for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
+                for (int n = 0; n < w.terms; ++n) M[touched_[i] * w.stride + n] += at(moment_, i)[n];
+        };
+        spending_.spend({now, now + end, y_.data(), u_.data(), touch_}, all_moments, energies_);
+        if (!touched_.empty() && !touch_) energies_.dissipated += collocation_.dissipated();
+    }
+    moments_until(end, count_);
+    move_on(end, left);
+    if (crossed >= 0) {
+        touching_[crossed] = !touching_[crossed];
+        at(r_, crossed)[0] = 0;
+        known_zero_[crossed] = 1;
+        ++extremes_.events;
+    }
+    return end;
+}
+
+// One collocation step, no longer than `left` and than the first crossing.
+double ExactContact::collocated(double left, int& crossed) noexcept {
+    const MacroWindow& w = window_;
+    using From = CollocatedContact::From;
+    const double allowed = 0.1 * tolerance_;
+    double d = std::min(left, step_);
+    for (int tries = 0;; ++tries) {
+        if (tries > 60) return -1;
+        const double error = collocation_.step(r_.data(), touched_, d,
+                                               tries > 0 ? From::same_start
+                                               : onward_ ? From::last_end
+                                                         : From::elsewhere);
+        ++extremes_.steps;
+        const double fits = std::pow(allowed / std::max(error, 1e-30), 0.1);  // a smooth force errs by d^12, near its onset by less
+        if (error <= allowed) {
+            if (d >= step_ || fits < 1) step_ = std::min(1.0, d * std::clamp(0.8 * fits, 0.5, 4.0));
+            break;
+        }
+        d *= std::clamp(0.8 * fits, 0.1, 0.7);
+        step_ = d;
+    }
+    for (int i = 0; i < 6; ++i) {
+        collocation_.path(r_.data(), path_.data());
+        double end = d;
+        const int first = next_crossing(end, w.size);
+        if (first < 0) return d;
+        crossed = first;
+        if (std::abs(end - d) <= 4e-16) break;
+        d = end;
+        if (!(d > negligible)) return 0;
+        if (collocation_.step(r_.data(), touched_, d, From::same_start) == HUGE_VAL) return -1;
+        ++extremes_.steps;
+    }
+    return d;
+}
+
+// The points' free motion and the moments, from the instant of this phase's start to `by` later, `left` before the window's end.
+void ExactContact::move_on(double by, double left) noexcept {
+    const MacroWindow& w = window_;
+    const auto combine = w.sweep().combine;
+    double e[3 * most_terms], later[3 * most_terms], shifted[most_terms];
+    const bool last = by == left;  // of the window: nobody asks for the free motion beyond it
+    if (!last) powers(by, w.size, e);
+    for (int a = 0; !last && a < w.contacts; ++a) {
+        double* r = at(r_, a);
+        std::fill_n(shifted, w.size, 0.0);
+        combine(shifted, w.size, e, count_, r, 1);
+        std::copy_n(shifted, w.size, r);
+    }
+    if (touched_.empty()) return;
+    std::fill_n(later, w.size, 0.0);  // a convolution reads the zeros before
+    powers(left - by, w.size, later + w.size);
+    for (std::size_t i = 0; i < touched_.size(); ++i) {
+        const double* m = at(moment_, static_cast<int>(i));
+        extremes_.tolerance = std::max(extremes_.tolerance, w.kernel_truncation() * std::abs(m[0]));
+        for (int a = 0; !last && a < w.contacts; ++a) combine(at(r_, a), w.size, m, count_, w.kernel(a, touched_[i]), 1);
+        combine(at(moments_, touched_[i]), w.size, m, count_, later + w.size, -1);
+    }
+}
+
+void ExactContact::measure(int a, double end, bool leaves) noexcept {
+    const Gap g = gap(a, window_.size);                             // touching: the gap's sign is turned, so this is the penetration
+    if (leaves && g.depth_bound(end) <= extremes_.deepest) return;  // nothing new, and contact forces are not negative in between
+    const auto start = g.at_start(), last = g.at(end, g.terms_until(end));
+    double deepest = std::max(start.g, last.g);
+    extremes_.smallest_force =
+        std::min(extremes_.smallest_force, law_[a].force(std::max(0.0, leaves ? start.g : std::min(start.g, last.g)), 0));
+    if (start.slope > 0 && last.slope < 0 && g.depth_bound(end) > extremes_.deepest) {
+        double low = 0, high = end, x = 0.5 * end;  // Newton's iteration for the turning point, kept inside
+        for (int i = 0; i < 30 && high - low > 1e-9 * end; ++i) {
+            const auto now = g.at(x);
+            (now.slope > 0 ? low : high) = x;
+            deepest = std::max(deepest, now.g);
+            const double next = x - now.slope / now.curvature;
+            if (std::abs(next - x) < 1e-9 * end) break;
+            x = next > low && next < high ? next : 0.5 * (low + high);
+        }
+    }
+    extremes_.deepest = std::max(extremes_.deepest, deepest);
+}
+
+double ExactContact::stored(double F_e) const noexcept {
+    const Springs& s = window_.springs;
+    double kinetic = 0, potential = 0;
+    for (int i = 0; i < window_.osc.padded; ++i) {
+        kinetic += u_[i] * u_[i];
+        potential += stiffness_[i] * y_[i] * y_[i];
+    }
+    double energy = 0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
+    if (window_.series()) return energy + window_.series_energy(y_.data(), thread_force_, F_e);
+    for (int a = 0; a < s.points; ++a) {
+        const double* g = s.weights.data() + static_cast<long>(a) * window_.osc.padded;
+        double eta = s.height[a];
+        for (int i = 0; i < window_.osc.padded; ++i) eta -= g[i] * y_[i];
+        energy += a < s.contacts ? law_[a].law.potential(eta) : 0.5 * s.k[a] * eta * eta;
+    }
+    return energy;
+}
+
+std::vector<Fact> ExactContact::facts() const {
+    return {{facts::events, extremes_.events},
+            {facts::contact_points, double(window_.contacts)},
+            {facts::coupled_contact_points, double(window_.contacts)},
+            {facts::windows, extremes_.windows},
+            {facts::window_terms, double(window_.terms)},
+            {facts::contact_steps, extremes_.steps},
+            {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
+            {facts::deepest_penetration, window_.series() && !law_.empty() ? law_[0].law.depth(extremes_.deepest) : extremes_.deepest},
+            {facts::detection_tolerance, extremes_.tolerance}};
+}
+
+constexpr Option tolerance_option{"tolerance", "1e-10", "what a window and a step of contact may cut off, relative, between 0 and 1"};
+constexpr Option options[] = {tolerance_option, nodes_option, compliance_option};
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    const double tolerance = number_option(settings, tolerance_option);
+    if (!(tolerance > 0 && tolerance < 1)) throw Refusal("option tolerance: expected a number between 0 and 1");
+    Settings unsampled = settings;
+    unsampled.sample_rate = 0;
+    Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const auto series = in_series(descriptor, scene, modes, settings);
+    const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
+    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance, series);
+}
+}  // namespace
+
+const Descriptor exact_contact = {
+    .name = "exact_contact",
+    .source = "van Walstijn et al. 2016, eqs 1-22, and Issanchou et al. 2016, eq 24, exact between events",
+    .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
+                  Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck),
+    .balance = Balance::to_tolerance,
+    .clock = Clock::continuous,
+    .make = made,
+    .options = options,
+    .approximates = points_for_a_profile,
+    .confirmation = [](const Scene&) {
+        return Confirmation{{{}, {{tolerance_option.name, "1e-12"}}}, {}};
+    }};
+
+}  // namespace jvari

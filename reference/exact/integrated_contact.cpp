@@ -1,0 +1,315 @@
+// The reference for any contact law: an adaptive integrator with event location, and exact flight between contacts.
+//
+// Sources: string_equations.hpp (van Walstijn et al. 2016, eqs 5-22, with any exponent; Issanchou et al. 2016, eq 24). While no barrier is
+// touched the motion is linear and flies exactly, its next contact isolated rigorously (flight.hpp); while one is, SUNDIALS integrates to a
+// stated tolerance and finds the crossings (integrator.hpp). With flight = integrate everything is integrated, by steps short enough for
+// root finding to see contacts, which is a belief and not a bound: it is there to be compared with.
+// On a body that moves there is no exact flight: all strings are integrated together (integrated_instrument.hpp).
+// A profile acts as the points of profile_points.hpp. Leaves out: polarisation.
+#include <algorithm>
+#include <cmath>
+
+#include "reference/exact/flight.hpp"
+#include "reference/integrated_instrument.hpp"
+#include "reference/integrator.hpp"
+#include "reference/profile_points.hpp"
+#include "reference/readout.hpp"
+#include "reference/references.hpp"
+#include "reference/string_equations.hpp"
+
+namespace jvari {
+
+namespace {
+struct Choice {
+    Integrator::Settings integrator;
+    bool exact_flight;
+    double first_step, longest_step;  // x 1/growth rate of the springs that act
+};
+
+class IntegratedContact final : public Scheme {
+public:
+    IntegratedContact(const String&, const Scene&, Modes, double tap_rate, const Choice&, const std::optional<InSeries>&);
+    void reset() noexcept override;
+    Status advance(const Block& out) noexcept override;
+    int dofs() const override { return 2 * modes_.count(); }
+    std::vector<Fact> facts() const override;
+
+private:
+    bool interval(const Block& out) noexcept;                                       // to the next row
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;  // within one interval
+    double integrate(double left, bool plucked, double since_pluck,
+                     const Block& out) noexcept;            // no further than the next crossing; how far [1/rate]
+    void start(bool plucked, double since_pluck) noexcept;  // y, u -> the integrator's state
+    void toggle(int contact) noexcept;
+    double pace() noexcept;  // of the fastest motion [1/s]
+    double stored() const noexcept;
+    const std::optional<InSeries>& series() const noexcept { return flight_.window.series(); }
+    bool exact_flight() const noexcept {
+        return choice_.exact_flight && std::find(equations_.touched.begin(), equations_.touched.end(), 1) == equations_.touched.end();
+    }
+
+    Modes modes_;
+    StringEquations equations_;
+    Flight flight_;
+    Integrator integrator_;
+    Readout readout_;
+    Choice choice_;
+    std::vector<Pluck> pluck_;  // none or one
+    double tap_rate_, interval_;
+    std::vector<double> start_;
+    std::vector<char> untouched_;
+
+    std::vector<double> y_, u_;
+    long row_ = 0;
+    int leaving_ = -1;  // the barrier just left
+    int idle_ = 0;
+    Flight::Sums sums_;
+    bool running_ = false;                     // the integrator's state is the present one
+    double seen_[StringEquations::sums] = {};  // of its sums, by sums_
+    double events_ = 0;
+};
+
+IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes modes, double tap_rate, const Choice& choice,
+                                     const std::optional<InSeries>& series)
+    : modes_(std::move(modes)),
+      equations_(modes_, s, series),
+      flight_(modes_, s, 1 / tap_rate, series),
+      integrator_(equations_, choice.integrator),
+      readout_(scene, modes_),
+      choice_(choice),
+      tap_rate_(tap_rate),
+      interval_(flight_.window.osc.rate / tap_rate) {
+    if (s.pluck) pluck_.push_back(*s.pluck);
+    start_ = flight_.window.osc.pad(initial_displacement(modes_, s));
+    untouched_.assign(equations_.contacts + 1, 0);
+    y_ = u_ = start_;
+    reset();
+}
+
+void IntegratedContact::reset() noexcept {
+    std::copy(start_.begin(), start_.end(), y_.begin());
+    std::fill(u_.begin(), u_.end(), 0.0);
+    std::fill(equations_.touched.begin(), equations_.touched.end(), 0);
+    flight_.reset();
+    integrator_.forget_effort();
+    row_ = idle_ = 0;
+    leaving_ = -1;
+    running_ = false;
+    sums_ = {};
+    events_ = 0;
+    if (choice_.exact_flight) return;  // it finds what is touched from the start
+    start(false, 0);
+    for (int a = 0; a < equations_.contacts; ++a) equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
+    running_ = false;
+}
+
+Status IntegratedContact::advance(const Block& out) noexcept {
+    for (int row = 0; row < out.rows; ++row) {
+        readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate, sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
+        if (series()) add_series(out, row, *series(), flight_.window.forces(y_.data(), flight_.thread_force, 0), 0);
+        if (out.energy) write_energy(out, row, stored(), sums_.energies.supplied, sums_.energies.dissipated);
+        if (!interval(out)) return {Outcome::not_converged, row_};
+        ++row_;
+    }
+    return {};
+}
+
+bool IntegratedContact::interval(const Block& out) noexcept {
+    sums_ = {};
+    double from = interval_, to = interval_;  // of the pluck within this interval
+    if (!pluck_.empty()) {
+        const double start = pluck_[0].start - row_ / tap_rate_;
+        from = std::clamp(start * flight_.window.osc.rate, 0.0, interval_);
+        to = std::clamp((start + pluck_[0].duration) * flight_.window.osc.rate, 0.0, interval_);
+    }
+    return stretch(0, from, false, out) && stretch(from, to, true, out) && stretch(to, interval_, false, out);
+}
+
+bool IntegratedContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
+    for (double at = from; at < to;) {
+        const double left = to - at;
+        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.window.osc.rate) : 0;
+        double step;
+        if (exact_flight()) {
+            const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(), u_.data(), sums_, out.energy != nullptr);
+            step = landing.length;
+            leaving_ = -1;
+            if (landing.contact >= 0) toggle(landing.contact);
+        } else step = integrate(left, plucked, since_pluck, out);
+        if (!(step >= 0) || out.stopped()) return false;
+        idle_ = step > 1e-15 * interval_ ? 0 : idle_ + 1;
+        if (idle_ > 1000) return false;
+        at = step == left ? to : at + step;
+    }
+    return true;
+}
+
+double IntegratedContact::integrate(double left, bool plucked, double since_pluck, const Block& out) noexcept {
+    if (!running_ || plucked != equations_.plucked) start(plucked, since_pluck);
+    const double before = integrator_.time();
+    const auto stop = integrator_.advance(before + left / flight_.window.osc.rate, out);
+    if (stop == Integrator::Stop::failed) return -1;
+    const double* z = integrator_.state();
+    for (int i = 0; i < modes_.count(); ++i) {
+        y_[i] = z[i] / modes_.omega0[i];
+        u_[i] = z[equations_.padded + i] / flight_.window.osc.rate;
+    }
+    flight_.thread_force = equations_.thread_force(z);
+    const double* sum = z + 2 * equations_.padded;
+    double since[StringEquations::sums];
+    for (int k = 0; k < StringEquations::sums; ++k) {
+        since[k] = sum[k] - seen_[k];
+        seen_[k] = sum[k];
+    }
+    sums_.bridge += since[StringEquations::bridge_impulse];
+    sums_.thread += since[StringEquations::thread_impulse];
+    sums_.energies.supplied += since[StringEquations::supplied];
+    sums_.energies.dissipated += since[StringEquations::dissipated];
+    if (stop == Integrator::Stop::reached) return left;
+    toggle(integrator_.crossed());
+    return std::min((integrator_.time() - before) * flight_.window.osc.rate, left);
+}
+
+void IntegratedContact::toggle(int contact) noexcept {
+    char& touched = equations_.touched[contact];
+    touched = !touched;
+    leaving_ = touched ? -1 : contact;
+    running_ = false;
+    ++events_;
+}
+
+void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
+    double* z = integrator_.state();
+    std::fill_n(z, equations_.size(), 0.0);
+    for (int i = 0; i < modes_.count(); ++i) {
+        z[i] = modes_.omega0[i] * y_[i];
+        z[equations_.padded + i] = flight_.window.osc.rate * u_[i];
+    }
+    if (series() && series()->relaxes()) {
+        double y_c = 0;
+        const auto& g = flight_.window.springs.weights;  // the thread's are the last
+        for (int i = 0; i < modes_.count(); ++i) y_c += g[g.size() - flight_.window.osc.padded + i] * y_[i];
+        equations_.put_thread(series()->lag(y_c, flight_.thread_force), z);
+    }
+    std::fill(std::begin(seen_), std::end(seen_), 0.0);
+    equations_.plucked = plucked;
+    equations_.pluck_time = since_pluck;
+    const double scale = 1 / pace();
+    integrator_.restart(choice_.first_step * scale, choice_.longest_step * scale);
+    running_ = true;
+}
+
+double IntegratedContact::pace() noexcept {
+    return std::max(flight_.window.springs.growth(untouched_.data()) * flight_.window.osc.rate, equations_.pace(integrator_.state()));
+}
+
+double IntegratedContact::stored() const noexcept {
+    double kinetic = 0, energy = 0;
+    for (int i = 0; i < modes_.count(); ++i) {
+        const double v = flight_.window.osc.rate * u_[i], p = modes_.omega0[i] * y_[i];
+        kinetic += v * v + p * p;
+    }
+    energy = 0.5 * modes_.mass * kinetic;
+    if (series()) return energy + flight_.window.series_energy(y_.data(), flight_.thread_force, 0);
+    for (int a = 0; a < equations_.points; ++a) {
+        const double* g = flight_.window.springs.weights.data() + static_cast<long>(a) * flight_.window.osc.padded;
+        double y = 0;
+        for (int i = 0; i < modes_.count(); ++i) y += g[i] * y_[i];
+        energy += equations_.potential(a, y);
+    }
+    return energy;
+}
+
+std::vector<Fact> IntegratedContact::facts() const {
+    const auto effort = integrator_.effort();
+    std::vector<Fact> facts = {
+        {facts::events, events_},
+        {facts::contact_points, double(equations_.contacts)},
+        {facts::integrator_steps, effort.steps},
+        {facts::slope_evaluations, effort.slopes},
+        {facts::linear_solves, effort.solves},
+        {facts::integrator_tolerance, choice_.integrator.tolerance},
+        {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
+        {facts::deepest_penetration, series() && equations_.contacts > 0 ? series()->points.law.depth(effort.deepest) : effort.deepest}};
+    if (choice_.exact_flight) facts.push_back({facts::detection_tolerance, flight_.tolerance()});
+    return facts;
+}
+
+constexpr Option method_option{
+    "method", "erk", "integrator: multistep (bdf, adams) or Runge-Kutta, explicit or implicit", {"bdf", "adams", "erk", "esdirk"}};
+constexpr Option order_option{"order", "", "order of the method, whole; absent: its highest, or 6 for erk with an exponent other than 1"};
+constexpr Option rtol_option{"rtol", "", "relative tolerance below 1; absent: 1e-10, or 1e-12 with an exponent other than 1"};
+constexpr Option floor_option{"floor", "", "absolute tolerance over the relative one; absent: 1e-2, or 1e-3 with an exponent other than 1"};
+constexpr Option linear_solver_option{"linear_solver", "woodbury", "solver of an implicit method's linear systems", {"woodbury", "dense"}};
+constexpr Option flight_option{"flight", "exact", "motion between contacts: exact, or integrated like the rest", {"exact", "integrate"}};
+constexpr Option first_step_option{"first_step", "", "first step in time constants; absent: 0.1, or 1e-3 with an exponent other than 1"};
+constexpr Option longest_step_option{"longest_step", "", "longest step in time constants; absent: 3, or 1 with flight=integrate"};
+constexpr Option options[] = {method_option, order_option,      rtol_option,         floor_option, linear_solver_option,
+                              flight_option, first_step_option, longest_step_option, nodes_option, compliance_option};
+
+double above_zero(const Settings& settings, const Option& o, double fallback) {
+    const double value = number_option(settings, o, fallback);
+    if (!(value > 0)) throw Refusal("option " + std::string(o.name) + ": expected a number above 0");
+    return value;
+}
+
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    Choice choice;
+    Integrator::Settings& i = choice.integrator;
+    const std::string method = choice_option(settings, method_option);
+    i.method = method == "bdf" ? Method::bdf : method == "adams" ? Method::adams : method == "erk" ? Method::erk : Method::esdirk;
+    i.solver = choice_option(settings, linear_solver_option) == "dense" ? LinearSolver::dense : LinearSolver::woodbury;
+    choice.exact_flight = choice_option(settings, flight_option) == "exact";
+    // A force like eta^alpha is smooth on the surface for alpha = 1 alone. Elsewhere a lower order errs as it estimates, from a small step
+    // on.
+    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
+    i.tolerance = above_zero(settings, rtol_option, smooth ? 1e-10 : 1e-12);
+    if (i.tolerance >= 1) throw Refusal("option rtol: expected a tolerance between 0 and 1");
+    i.floor = above_zero(settings, floor_option, smooth ? 1e-2 : 1e-3);
+    choice.first_step = above_zero(settings, first_step_option, smooth ? 0.1 : 1e-3);
+    choice.longest_step = above_zero(settings, longest_step_option, choice.exact_flight ? 3 : 1);
+    const int lowest = i.method == Method::bdf || i.method == Method::adams ? 1 : 3;
+    const int highest = i.method == Method::erk ? 8 : i.method == Method::adams ? 12 : 5;
+    const double order = number_option(settings, order_option, i.method == Method::erk && !smooth ? 6 : highest);
+    if (order != std::floor(order) || order < lowest || order > highest)
+        throw Refusal("option order: expected a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
+    i.order = static_cast<int>(order);
+    Settings unsampled = settings;
+    unsampled.sample_rate = 0;
+    if (needed_by(scene).has(Feature::moving_body)) {
+        const double longest = above_zero(settings, longest_step_option, 1);
+        return integrated_instrument(descriptor, scene, unsampled, i, choice.first_step, longest);
+    }
+    Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const auto series = in_series(descriptor, scene, modes, settings);
+    if (series && scene.strings.front().pluck)
+        throw Refusal(std::string(descriptor.name) + ": compliance=matched takes strings that are released; exact_contact takes a pluck");
+    const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
+    return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate, choice, series);
+}
+
+// An integrator of another kind is there for scenes that nothing else can confirm.
+Confirmation confirmation(const Scene& scene) {
+    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
+    if (needed_by(scene).has(Feature::moving_body))  // explicit methods alone: another one, of shorter steps
+        return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}},
+                {{{order_option.name, smooth ? "6" : "8"}, {rtol_option.name, "1e-12"}, {longest_step_option.name, "0.5"}}}};
+    return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}}, {{{method_option.name, "adams"}, {rtol_option.name, "1e-12"}}}};
+}
+}  // namespace
+
+const Descriptor sundials = {
+    .name = "sundials",
+    .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
+    .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
+                  Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body),
+    .balance = Balance::to_tolerance,
+    .clock = Clock::continuous,
+    .make = made,
+    .options = options,
+    .approximates = points_for_a_profile,
+    .confirmation = confirmation};
+
+}  // namespace jvari

@@ -1,0 +1,116 @@
+// One window of a string under point forces: the modes are read once at its start and given the forces' moments once at its end.
+//
+// In between, the contact points' free motion is a short vector of derivatives and what a force does to it is a kernel of derivatives:
+//
+//     y_a(t) = s_a(t) + sum_b int_0^t h_ab(t - w) F_b(w) dw,      M_i(t) = int_0^t (t - w)^i/i! F(w) dw
+//
+// with t = 1 the full length of a window. Thread and pluck act inside s, h and the moments handed to the modes (van Walstijn et al. 2016,
+// eqs 5-22): the thread answers its own point's free motion by a convolution, and so a force at b by kappa_b * F. Derivatives are cut after
+// `terms`; how far a point can be from its series is bounded. Velocities u are displacements per window [m].
+// Leaves out: contact, which its users decide.
+#pragma once
+
+#include <vector>
+
+#include "reference/exact/modal_sweep.hpp"
+#include "reference/exact/oscillators.hpp"
+#include "reference/exact/springs.hpp"
+#include "reference/in_series.hpp"
+
+namespace jvari {
+
+struct WindowChoice {
+    long per_row = 1;  // windows between two rows
+    int terms = 2;     // derivatives kept
+};
+// For a relative `tolerance` and a string whose fastest motion grows by e^reach between two rows. No window spans more than
+// longest_reach: beyond it more terms make the split of contact (touching_set.hpp) worse, not better.
+constexpr double longest_reach = 2.5;
+constexpr int most_terms = 24;
+WindowChoice choose_window(double tolerance, double reach);
+
+class MacroWindow {
+public:
+    // `interval` between rows [s]; windows a row and terms, 0: chosen by the tolerance
+    MacroWindow(const Modes&, const String&, double interval, double tolerance, const std::optional<InSeries>& = {}, int windows = 0,
+                int terms = 0);
+
+    Oscillators osc;
+    Springs springs;
+    int contacts, terms;
+    long per_row;
+    int size;       // terms in whole vectors
+    int stride;     // of rows of derivatives and moments: they are zero from `size` on, so that sums may run over
+    double length;  // of a full window [1/rate]
+    double reach;   // its growth: every derivative is at most so much larger than the one before, in the long run
+
+    double seconds() const { return length / osc.rate; }  // an impulse is M_0 times this
+    const double* kernel(int a, int b) const {
+        return &kernel_[(static_cast<long>(a) * contacts + b) * (stride + size) + size];
+    }                                                                                         // zeros before it, too
+    const double* free_motion(int a) const { return &free_[static_cast<long>(a) * stride]; }  // of the window that is open
+    double truncation() const { return truncation_; }                                         // how far it may be from the truth [m]
+    double rounding() const { return rounding_; }                                             // of a gap [m]
+    double kernel_truncation() const { return kernel_truncation_; }  // of a displacement, by an impulse M_0 of 1 [m]
+    const SweepFunctions& sweep() const { return *sweep_; }
+
+    // thread: F_s of in_series.hpp at its start, where the thread has a state of its own [N]
+    void open(const double* y, const double* u, bool plucked, double since_pluck, double thread = 0) noexcept;
+
+    // The modes at `at`, under contact forces of moments M[contact][stride]. The output may be the input of open().
+    void state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept;
+    // The same within a window, cheaper and good for integrals: (y, u) acts as the impulses (u + a y) delta + y delta'.
+    void state_near(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept;
+    double thread_impulse() const { return thread_impulse_; }  // until the instant of the last state_at [N s]
+    double thread_force() const { return thread_force_; }      // F_s at that instant, where the thread has a state
+    const std::optional<InSeries>& series() const { return series_; }
+    SeriesPoints::Forces forces(const double* y, double thread, double F_e) const noexcept;  // of what is in series, in that state
+    double series_energy(const double* y, double thread, double F_e) const noexcept;         // [J]
+
+    struct Push {
+        double force = 0, change = 0;  // of the pluck [N], and its derivative [N/window]
+    };
+    Push push_at(double at) const noexcept;
+    double push_growth() const { return plucked_ ? push_growth_ : 0; }  // of the open window: its derivatives grow by so much each
+    struct Power {
+        double supplied = 0, dissipated = 0;  // [J/window]
+    };
+    Power series_power(const double* y, const Push&) const noexcept;  // of what is in series, at the instant of the last state_at
+    bool threaded() const { return springs.points > contacts; }
+
+private:
+    double largest_eigenvalue() const;
+    std::vector<double> reply_series(double window, int count) const;
+    void answer(const double* reply, const double* motion, double first, double window, int count, double* F) const;
+    void impulse_response(int force, double window, int count, const double* reply, double* y, double* F) const;
+    struct Readings {
+        double b, c, Y;
+    };
+    Readings readings(const double* y, double thread, double F_e) const noexcept;
+    bool relaxes() const { return series_ && series_->relaxes(); }
+    void make_kernel();
+    void free_flow(double at, std::vector<double>& e) const noexcept;
+    int act(double at, const double* e, const double* M) noexcept;
+    void move(int forces, const double* flow, const double* y, const double* u, double* y_out, double* u_out) noexcept;
+
+    const SweepFunctions* sweep_;
+    int known_;  // derivatives of the thread's force: its damper needs one more of its point's motion
+    std::optional<InSeries> series_;
+    double series_cc_ = 0;      // C_cc [m/N]
+    std::vector<Pluck> pluck_;  // none or one
+    std::vector<char> none_;
+    std::vector<int> sweep_terms_;
+    std::vector<double> a_, b_, gains_;  // in units of the window
+    std::vector<double> slower_;         // reach^-n
+    double tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0, thread_force_ = 0,
+                               push_growth_ = 0;
+    bool plucked_ = false;
+    std::vector<double> kernel_, answer_, reply_, by_thread_, flow_, flow_at_;  // h_ab; kappa_b; F_c of p_c; h_ac; free motion's matrix
+    std::vector<double> p_, free_, force_, moments_, reach_, scratch_, impulse_, zeros_, ones_;
+    std::vector<const double*> acting_, acting_moments_;
+};
+
+void powers(double u, int count, double* e) noexcept;  // u^n/n!, n < count, and some more: in whole vectors
+extern const std::vector<double> inverse_factorial;
+
+}  // namespace jvari

@@ -1,0 +1,44 @@
+// Lumped springs on a string: the contacts (one-sided, exponent 1) and the thread (two-sided, with a damper). While a set of them is in
+// touch the motion of their points obeys linear Volterra equations,
+//
+//     y_a(t) = p_a(t) + sum_b int_0^t h_ab(t - s) F_b(s) ds,    F_b = k_b (height_b - y_b) - r_b y_b'
+//
+// whose Taylor coefficients follow one from another (h_ab(0) = 0), and whose remainder a majorant bounds: if
+// sum_b sum_i |h_ab^(i)| rho^(-i-1) (k_b + r_b rho) <= 0.9 for every a, then |y_a^(n)| <= C rho^n from one n on means the same for all n.
+// Times are in units of 1/rate (oscillators.hpp). Leaves out: contact loss, exponents other than 1.
+#pragma once
+
+#include <vector>
+
+#include "reference/exact/oscillators.hpp"
+
+namespace jvari {
+
+struct Springs {
+    // pull: how much of a contact's force the thread's point takes back (in_series.hpp), 0 where nothing is in series
+    Springs(const Modes&, const Oscillators&, const String&, double pull = 0);
+
+    int contacts = 0;                  // points 0 ... contacts - 1; the thread, where there is one, is the last point
+    int points = 0;                    // contacts and thread
+    int forces = 0;                    // one per point, and the pluck's the last where there is one
+    std::vector<double> k, r, height;  // [N/m], [N/m] (damper x rate), [m], one per point
+    std::vector<double> weights;       // g_a [point][mode]
+    std::vector<double> gains;         // g_b/(m rate^2) [force][mode], [m/N]
+    std::vector<double> kernel;        // h_ab^(n) [point][force][n], [m/N]
+    double pluck_reach = 0;            // largest displacement scale that the pluck can reach, a bound [m]
+
+    const double* h(int a, int b) const { return kernel.data() + (static_cast<long>(a) * forces + b) * longest_series; }
+
+    // rho for the contacts that touch: 1/time scale of the springs' motion.
+    double growth(const char* touching) const;
+
+    // Over a window of length z: y[a][n] and F[b][n] are n-th derivatives x z^n, n < terms. p[a][n] likewise, n < p_terms, and F of the
+    // pluck, are given.
+    void solve(const char* touching, double z, const double* p, int p_terms, int terms, double* y, double* F) const;
+
+private:
+    double floor_ = 0;           // growth is never below this
+    std::vector<double> sized_;  // sum_i |h_ab^(i)| floor^(1-i) [point][force]
+};
+
+}  // namespace jvari

@@ -1,0 +1,221 @@
+#include "reference/exact/touching_set.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "reference/exact/macro_window.hpp"
+
+namespace jvari {
+
+namespace {
+using Real = long double;
+using Complex = std::complex<Real>;
+using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr Real stiff = 12;        // the slowest fast pair, in radians per window
+constexpr Real most_spans = 100;  // of a window
+}  // namespace
+
+TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std::span<const double> stiffness)
+    : window_(&w), points_(points.begin(), points.end()), k_(stiffness.begin(), stiffness.end()) {
+    const int P = static_cast<int>(points_.size()), N = w.terms, size = w.size;
+    const auto h = [&](int a, int b, int j) { return static_cast<Real>(w.kernel(a, b)[j]); };
+    std::vector<Matrix> A(N + 2, Matrix::Zero(P, P));  // H_j K
+    for (int j = 0; j < N; ++j)
+        for (int a = 0; a < P; ++a)
+            for (int b = 0; b < P; ++b) A[j](a, b) = h(points_[a], points_[b], j) * k_[b];
+
+    // The fast invariant subspace: (p, p')' = L (p, p') with I^(j-1) p = [1 0] L^(1-j) (p, p').
+    Matrix symmetric(P, P);
+    for (int a = 0; a < P; ++a)
+        for (int b = 0; b < P; ++b) symmetric(a, b) = A[1](a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
+    const Matrix even = (symmetric + symmetric.transpose()) / 2;
+    if (Eigen::SelfAdjointEigenSolver<Matrix>(even, Eigen::EigenvaluesOnly).eigenvalues()(0) < stiff * stiff || !A[0].isZero(0)) {
+        soften();
+        return;
+    }
+    Matrix L = Matrix::Zero(2 * P, 2 * P);
+    L.topRightCorner(P, P).setIdentity();
+    L.bottomLeftCorner(P, P) = -A[1];
+    for (int i = 0; i < 200; ++i) {
+        const Matrix inverse = L.inverse();
+        Matrix next = L, power = inverse;
+        next.bottomRows(P).setZero();
+        next.bottomLeftCorner(P, P) = -A[1];
+        for (int j = 2; j < N; ++j, power = power * inverse) next.bottomRows(P) -= A[j] * power.topRows(P);
+        const Real change = (next - L).norm() / L.norm();
+        L = next;
+        if (change < 1e-18L) break;
+    }
+    const Eigen::EigenSolver<Matrix> eigen(L);
+    std::vector<Complex> rates;
+    ComplexMatrix v(P, P);
+    for (int k = 0; k < 2 * P; ++k) {
+        if (!(eigen.eigenvalues()(k).imag() > 0) || static_cast<int>(rates.size()) == P) continue;
+        v.col(static_cast<int>(rates.size())) = eigen.eigenvectors().col(k).head(P);
+        v.col(static_cast<int>(rates.size())) /= v.col(static_cast<int>(rates.size())).norm();
+        rates.push_back(eigen.eigenvalues()(k));
+    }
+    if (static_cast<int>(rates.size()) < P) return;  // a pair that does not oscillate
+    for (const Complex& rate : rates)
+        if (rate.real() > 0) return;
+
+    // G: rows and columns [derivative][point].
+    Matrix operation = Matrix::Zero(P * N, P * N);
+    for (int n = 0; n < N; ++n) {
+        if (n + 2 < N) operation.block(n * P, (n + 2) * P, P, P).setIdentity();
+        for (int j = 1; j <= n + 1 && j < N; ++j) operation.block(n * P, (n + 1 - j) * P, P, P) += A[j];
+    }
+    const Matrix G = operation.partialPivLu().inverse();
+
+    ComplexMatrix q = ComplexMatrix::Zero(P * N, P);
+    for (int k = 0; k < P; ++k)
+        for (int n = 0; n < N; ++n) {
+            Complex power = Complex(1) / rates[k];
+            for (int j = n + 2; j < N; ++j, power /= rates[k]) q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
+        }
+    const ComplexMatrix Q = G * q;
+
+    Matrix start(2 * P, 2 * P);  // beta -> (p(0), p'(0))
+    for (int k = 0; k < P; ++k) {
+        const ComplexMatrix here = v.col(k) + Q.block(0, k, P, 1), speed = rates[k] * v.col(k) + Q.block(P, k, P, 1);
+        start.block(0, k, P, 1) = here.real();
+        start.block(0, P + k, P, 1) = -here.imag();
+        start.block(P, k, P, 1) = speed.real();
+        start.block(P, P + k, P, 1) = -speed.imag();
+    }
+    const Matrix inverse = start.inverse();
+
+    pairs_ = P;
+    growth_ = w.reach;
+    for (const Complex& rate : rates) rate_.push_back(static_cast<std::complex<double>>(rate));
+    beta_.resize(2 * P);
+    start_.resize(4 * P * P);
+    for (int i = 0; i < 2 * P; ++i)
+        for (int j = 0; j < 2 * P; ++j) start_[i * 2 * P + j] = static_cast<double>(inverse(i, j));
+    inverse_.assign(static_cast<std::size_t>(P) * N * P * size, 0.0);
+    for (int m = 0; m + 2 < N; ++m)
+        for (int b = 0; b < P; ++b)
+            for (int a = 0; a < P; ++a)
+                for (int n = 0; n < N; ++n)
+                    inverse_[(static_cast<std::size_t>(m * P + b) * P + a) * size + n] = static_cast<double>(G(n * P + a, m * P + b));
+    shape_.assign(static_cast<std::size_t>(w.contacts) * P, 0.0);
+    slow_.assign(static_cast<std::size_t>(P) * w.contacts * 2 * size, 0.0);
+    for (int k = 0; k < P; ++k)
+        for (int a = 0; a < w.contacts; ++a) {
+            const auto touching = std::find(points_.begin(), points_.end(), a);
+            double* slow = slow_.data() + (static_cast<std::size_t>(a) * P + k) * 2 * size;
+            const auto add = [&](int n, Complex x) {
+                slow[n] += static_cast<double>(x.real());
+                slow[size + n] += static_cast<double>(x.imag());
+            };
+            if (touching != points_.end()) {
+                const int at = static_cast<int>(touching - points_.begin());
+                shape_[a * P + k] = static_cast<std::complex<double>>(v(at, k));
+                for (int n = 0; n < N; ++n) add(n, Q(n * P + at, k));
+                continue;
+            }
+            Complex sum = 0;  // -sum_b k_b v_b sum_j h_j lambda^(-j-1) of e^(lambda u), and what I^(j+1) leaves of it as powers
+            for (int b = 0; b < P; ++b)
+                for (int j = 1; j < N; ++j) {
+                    const Complex part = -static_cast<Real>(k_[b]) * v(b, k) * h(a, points_[b], j);
+                    sum += part * std::pow(rates[k], static_cast<Real>(-j - 1));
+                    for (int n = 0; n <= j; ++n) add(n, -part * std::pow(rates[k], static_cast<Real>(n - j - 1)));
+                }
+            shape_[a * P + k] = static_cast<std::complex<double>>(sum);
+        }
+}
+
+// The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j).
+void TouchingSet::soften() noexcept {
+    const MacroWindow& w = *window_;
+    const int P = static_cast<int>(points_.size()), N = w.terms;
+    std::vector<Matrix> R(N, Matrix::Identity(P, P));
+    Real growth = w.reach;
+    for (int n = 1; n < N; ++n) {
+        R[n].setZero();
+        for (int j = 0; j < n; ++j)
+            for (int a = 0; a < P; ++a)
+                for (int b = 0; b < P; ++b)
+                    R[n].row(a) -= static_cast<Real>(w.kernel(points_[a], points_[b])[j]) * k_[b] * R[n - 1 - j].row(b);
+        if (n >= N / 2) growth = std::max(growth, std::pow(R[n].norm(), Real(1) / n));
+    }
+    growth_ = static_cast<double>(growth);
+    span_ = w.reach / growth_;
+    if (growth > most_spans * w.reach) return;
+    resolvent_.assign(static_cast<std::size_t>(P) * P * 2 * w.size, 0.0);
+    for (int n = 0; n < N; ++n)
+        for (int a = 0; a < P; ++a)
+            for (int b = 0; b < P; ++b) resolvent_[(a * P + b) * 2 * w.size + w.size + n] = static_cast<double>(R[n](a, b));
+}
+
+void TouchingSet::solve(const double* r, double* path, std::complex<double>* amplitude) noexcept {
+    const MacroWindow& w = *window_;
+    const int P = static_cast<int>(points_.size()), N = w.terms, stride = w.stride, size = w.size;
+    const auto combine = w.sweep().combine;
+    for (int a = 0; a < P; ++a) {
+        double* out = path + points_[a] * stride;
+        std::fill_n(out, size, 0.0);
+        for (int b = 0; pairs_ == 0 && b < P; ++b)
+            combine(out, size, r + points_[b] * stride, N, resolvent_.data() + (static_cast<std::size_t>(a * P + b) * 2 + 1) * size, -1);
+        if (pairs_ == 0) continue;
+        for (int b = 0; b < P; ++b)
+            combine(out, size, r + points_[b] * stride + 2, N - 2, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
+                    static_cast<long>(P) * P * size);
+    }
+    for (int k = 0; k < pairs_; ++k) {
+        double re = 0, im = 0;
+        for (int b = 0; b < P; ++b)
+            for (int d = 0; d < 2; ++d) {
+                const double x = r[points_[b] * stride + d] - path[points_[b] * stride + d];
+                re += start_[k * 2 * P + d * P + b] * x;
+                im += start_[(P + k) * 2 * P + d * P + b] * x;
+            }
+        beta_[2 * k] = re;
+        beta_[2 * k + 1] = -im;
+    }
+    const auto add_pairs = [&](int a) {
+        combine(path + a * stride, size, beta_.data(), 2 * pairs_, slow_.data() + static_cast<std::size_t>(a) * P * 2 * size, size);
+        for (int k = 0; k < pairs_; ++k) amplitude[a * P + k] = std::complex<double>(beta_[2 * k], -beta_[2 * k + 1]) * shape_[a * P + k];
+    };
+    for (int a : points_) add_pairs(a);
+    if (P == w.contacts) return;
+    for (int a = 0; a < w.contacts; ++a) {
+        if (std::find(points_.begin(), points_.end(), a) != points_.end()) continue;
+        double* out = path + a * stride;
+        std::copy_n(r + a * stride, size, out);
+        for (int b = 0; b < P; ++b) {
+            double pushed[most_terms];
+            for (int n = 0; n < N; ++n) pushed[n] = -k_[b] * path[points_[b] * stride + n];
+            combine(out, size, pushed, N, w.kernel(a, points_[b]) - 1, -1);  // h^(n-1-m) F^(m)
+        }
+        add_pairs(a);
+    }
+}
+
+void TouchingSet::moments(int which, const double* path, const std::complex<double>* amplitude, double u, int count,
+                          double* m) const noexcept {
+    const int a = points_[which], size = window_->size;
+    double e[3 * most_terms];
+    powers(u, 2 * size + 1, e);
+    std::fill_n(m, size, 0.0);
+    window_->sweep().combine(m, size, path + a * window_->stride, pairs_ > 0 ? std::min(window_->terms, count + 2) : window_->terms, e + 1,
+                             1);
+    for (int k = 0; k < pairs_; ++k) {  // X_i = int (u - w)^i/i! e^(lambda w) dw = (X_(i-1) - u^i/i!)/lambda
+        const std::complex<double> inverse = 1.0 / rate_[k], c = amplitude[a * pairs_ + k];
+        const double size_now = std::exp(rate_[k].real() * u), phase = rate_[k].imag() * u;
+        double re = size_now * std::cos(phase), im = size_now * std::sin(phase);
+        for (int i = 0; i < count; ++i) {
+            const double x = re - e[i], y = im;
+            re = x * inverse.real() - y * inverse.imag();
+            im = x * inverse.imag() + y * inverse.real();
+            m[i] += c.real() * re - c.imag() * im;
+        }
+    }
+    for (int i = 0; i < size; ++i) m[i] *= -k_[which];
+}
+
+}  // namespace jvari

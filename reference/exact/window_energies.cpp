@@ -1,0 +1,198 @@
+#include "reference/exact/window_energies.hpp"
+
+#include <gsl/gsl_integration.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace jvari {
+
+namespace {
+using Complex = std::complex<double>;
+
+constexpr double rounding = 1e-15, of_tolerance = 1e-3;  // of an integral, relative
+constexpr double longest = 2.5;                          // growth over a piece, in powers of e
+constexpr double fast = 10;  // |lambda| x piece from which on a Legendre series against e^(lambda t) keeps its digits
+
+// int_0^z e^x dx/z
+Complex mean_exponential(Complex z) {
+    if (std::abs(z) > 0.5) return (std::exp(z) - 1.0) / z;
+    Complex term = 1, sum = 1;
+    for (int n = 2; n < 20; ++n) sum += term *= z / double(n);
+    return sum;
+}
+// f may grow by so much for the error of f^2 by n nodes, n!^4/((2n + 1)(2n)!^3) (2 growth)^2n, to be `allowed`.
+double growth_for(int n, double allowed) {
+    return 0.5 * std::exp((std::log(allowed * (2 * n + 1)) - 4 * std::lgamma(n + 1) + 3 * std::lgamma(2 * n + 1)) / (2 * n));
+}
+}  // namespace
+
+WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolerance) : window_(&w) {
+    const int M = w.osc.padded;
+    const Springs& s = w.springs;
+    const double seconds = w.seconds();
+    for (int n = 2; n <= most_nodes; ++n) {
+        const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> table(
+            gsl_integration_glfixed_table_alloc(n), gsl_integration_glfixed_table_free);
+        Rule rule{n, growth_for(n, std::max(rounding, of_tolerance * tolerance)), {}, {}};
+        for (int q = 0; q < n; ++q) gsl_integration_glfixed_point(0, 1, q, &rule.node[q], &rule.weight[q], table.get());
+        rules_.push_back(rule);
+    }
+    const Rule& finest = rules_.back();
+    for (int j = 0; j < most_nodes; ++j)
+        for (int q = 0; q < most_nodes; ++q) legendre_.push_back((2 * j + 1) * finest.weight[q] * std::legendre(j, 2 * finest.node[q] - 1));
+
+    for (int i = 0; i < modes.count(); ++i) loss_.push_back(2 * modes.mass * modes.sigma[i] / seconds);
+    loss_ = w.osc.pad(loss_);
+    const auto row = [&](const std::vector<double>& rows, int a, double factor) {
+        const auto first = rows.begin() + static_cast<long>(a) * M;
+        return w.osc.pad({first, first + M}, factor);
+    };
+    thread_ = pluck_ = y_ = u_ = lost_ = std::vector<double>(M, 0.0);
+    if (w.threaded() && !w.series()) {  // in series the thread moves otherwise than its point
+        thread_ = row(s.weights, w.contacts, 1);
+        thread_loss_ = s.r[w.contacts] / w.osc.rate / seconds;
+    }
+    if (s.forces > s.points) pluck_ = row(s.gains, s.points, modes.mass * w.osc.rate * w.osc.rate);
+    moments_.assign(static_cast<std::size_t>(w.contacts + 1) * w.stride, 0.0);
+    lost_to_.assign(static_cast<std::size_t>(w.contacts + 1) * most_nodes, 0.0);
+    gained_by_ = lost_to_;
+}
+
+Complex WindowEnergies::Pairs::against(const std::vector<double>& row, int pair, const Oscillators& osc) const {
+    const double* re = velocity.data() + static_cast<long>(2 * pair) * osc.padded;
+    return {dot(osc, row.data(), re), dot(osc, row.data(), re + osc.padded)};
+}
+
+WindowEnergies::Pairs WindowEnergies::pairs_of(const TouchingSet& set) {
+    MacroWindow& w = *window_;
+    const int M = w.osc.padded, P = set.pairs();
+    const std::size_t row = moments_.size();
+    Pairs p;
+    p.rates.assign(set.rates(), set.rates() + P);
+    p.moments.assign(2 * P * row, 0.0);
+    if (P == 0) return p;
+    const std::vector<double> rest(M, 0.0);
+    std::vector<double> y(M), alone(M), u(M);
+    w.open(rest.data(), rest.data(), false, 0);  // the thread alone acts then: what it does is taken off
+    w.state_at(1, p.moments.data(), rest.data(), rest.data(), y.data(), alone.data());
+    for (int k = 0; k < P; ++k) {
+        for (std::size_t i = 0; i < set.points().size(); ++i) {
+            Complex moment = set.pair_force(static_cast<int>(i), k);
+            double* m = p.moments.data() + 2 * k * row + static_cast<long>(set.points()[i]) * w.stride;
+            for (int n = 0; n < w.terms; ++n) {
+                moment /= p.rates[k];
+                m[n] = moment.real();
+                m[row + n] = moment.imag();
+            }
+        }
+        for (int part = 2 * k; part < 2 * k + 2; ++part) {
+            w.state_at(1, p.moments.data() + part * row, rest.data(), rest.data(), y.data(), u.data());
+            for (int i = 0; i < M; ++i) u[i] -= alone[i];
+            p.velocity.insert(p.velocity.end(), u.begin(), u.end());
+            p.thread.push_back(dot(w.osc, thread_.data(), u.data()));
+        }
+    }
+    for (int k = 0; k < P; ++k) {
+        const auto W = [&](int pair, int i) { return Complex(p.velocity[2 * pair * M + i], p.velocity[(2 * pair + 1) * M + i]); };
+        const auto Y = [&](int pair) { return Complex(p.thread[2 * pair], p.thread[2 * pair + 1]); };
+        for (int l = 0; l < P; ++l) {
+            Complex product = thread_loss_ * Y(k) * Y(l), of_conjugate = thread_loss_ * Y(k) * std::conj(Y(l));
+            for (int i = 0; i < M; ++i) {
+                product += loss_[i] * W(k, i) * W(l, i);
+                of_conjugate += loss_[i] * W(k, i) * std::conj(W(l, i));
+            }
+            p.product.push_back(product);
+            p.product_of_conjugate.push_back(of_conjugate);
+        }
+        p.pluck.push_back(p.against(pluck_, k, w.osc));
+    }
+    return p;
+}
+
+int WindowEnergies::plan(const Stretch& s) noexcept {
+    const double whole = s.to - s.from;
+    const double smooth = std::max(s.touch ? s.touch->set.growth() : window_->reach, window_->push_growth());
+    double slowest = HUGE_VAL, fastest = smooth;
+    for (int k = 0; s.touch && k < s.touch->set.pairs(); ++k) {
+        const double rate = std::abs(s.touch->pairs.rates[k]);
+        slowest = std::min(slowest, rate);
+        fastest = std::max(fastest, rate);
+    }
+    const auto cut = [&](double growth) { return std::max(1, static_cast<int>(std::ceil(whole * growth / longest))); };
+    int pieces = cut(smooth);
+    split_ = std::isfinite(slowest) && slowest * whole / pieces > fast;
+    if (!split_) pieces = cut(fastest);
+    length_ = whole / pieces;
+    rule_ = &rules_.back();
+    for (auto r = rules_.rbegin(); !split_ && r != rules_.rend() && fastest * length_ < r->growth; ++r) rule_ = &*r;
+    return pieces;
+}
+
+void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) noexcept {
+    MacroWindow& w = *window_;
+    const int M = w.osc.padded, P = split_ ? s.touch->set.pairs() : 0;
+    const std::size_t row = moments_.size();
+    const double weight = length_ * rule_->weight[q];
+    for (int k = 0; k < P; ++k) {  // what is left of them is slow
+        const Complex z = s.touch->set.beta(k) * std::exp(s.touch->pairs.rates[k] * (at - s.from));
+        const double *re = s.touch->pairs.moments.data() + 2 * k * row, *im = re + row;
+        for (std::size_t n = 0; n < row; ++n) moments_[n] -= z.real() * re[n] - z.imag() * im[n];
+    }
+    w.state_near(at, moments_.data(), s.y, s.u, y_.data(), u_.data());
+    for (int i = 0; i < M; ++i) lost_[i] = loss_[i] * u_[i];
+    const double thread = thread_loss_ > 0 ? dot(w.osc, thread_.data(), u_.data()) : 0;
+    sums.dissipated += weight * (dot(w.osc, lost_.data(), u_.data()) + thread_loss_ * thread * thread);
+    const MacroWindow::Push pluck = w.push_at(at);
+    if (pluck.force != 0) sums.supplied += weight * pluck.force * dot(w.osc, pluck_.data(), u_.data());
+    for (int k = 0; k < P; ++k) {
+        const Pairs& p = s.touch->pairs;
+        const Complex at_thread(p.thread[2 * k], p.thread[2 * k + 1]);
+        lost_to_[k * most_nodes + q] = 2.0 * (p.against(lost_, k, w.osc) + thread_loss_ * thread * at_thread);
+        gained_by_[k * most_nodes + q] = pluck.force * p.pluck[k];
+    }
+    if (w.series()) {
+        const auto p = w.series_power(y_.data(), pluck);
+        sums.supplied += weight * p.supplied;
+        sums.dissipated += weight * p.dissipated;
+    }
+}
+
+// int e^(lambda (t - from)) P_j dt of a piece: by parts, exact; P_j^(m)(1) = (j + m)!/(2^m m! (j - m)!).
+void WindowEnergies::add_pairs(const Stretch& s, double start, Sums& sums) noexcept {
+    const Pairs& p = s.touch->pairs;
+    const int P = s.touch->set.pairs();
+    for (int k = 0; k < P; ++k) {
+        const Complex rate = p.rates[k], beta = s.touch->set.beta(k), z = 0.5 * rate * length_;
+        const Complex first = std::exp(rate * (start - s.from)), last = std::exp(rate * (start + length_ - s.from));
+        Complex lost = 0, gained = 0;
+        for (int j = 0; j < most_nodes; ++j) {
+            Complex lost_j = 0, gained_j = 0, integral = 0, power = z;
+            for (int q = 0; q < most_nodes; ++q) {
+                lost_j += legendre_[j * most_nodes + q] * lost_to_[k * most_nodes + q];
+                gained_j += legendre_[j * most_nodes + q] * gained_by_[k * most_nodes + q];
+            }
+            double derivative = 1;
+            for (int m = 0; m <= j; ++m, power *= z) {
+                integral += derivative * ((m % 2 ? -1.0 : 1.0) * last - (j % 2 ? -1.0 : 1.0) * first) / power;
+                derivative *= 0.5 * (j + m + 1) * (j - m) / (m + 1);
+            }
+            lost += lost_j * integral;
+            gained += gained_j * integral;
+        }
+        sums.dissipated += 0.5 * length_ * (beta * lost).real();
+        sums.supplied += 0.5 * length_ * (beta * gained).real();
+        for (int l = 0; l < P; ++l) {
+            const auto integral = [&](Complex a, Complex b) {  // of e^((a + b)(t - from))
+                return std::exp((a + b) * (start - s.from)) * mean_exponential((a + b) * length_) * length_;
+            };
+            const Complex other = p.rates[l], beta_l = s.touch->set.beta(l);
+            sums.dissipated += 0.5 * (beta * beta_l * p.product[k * P + l] * integral(rate, other) +
+                                      beta * std::conj(beta_l) * p.product_of_conjugate[k * P + l] * integral(rate, std::conj(other)))
+                                         .real();
+        }
+    }
+}
+
+}  // namespace jvari
