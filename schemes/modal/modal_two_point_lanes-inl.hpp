@@ -1,7 +1,7 @@
 // Two to four strings advanced together, in two pairs: linear contact, the modes' own compliance (van Walstijn et al. 2016, eqs 44-48).
 //
 // The contact equations of a pair are a chain of some 140 cycles (a root and two divisions in a row), as long as one pass over 133 modes.
-// A processor looks ahead, but not past a chain that fills its scheduler. So the chain of one pair is cut into six stages, which stand
+// A processor looks ahead, but not past a chain that fills its scheduler. So the chain of one pair is cut into five stages, which stand
 // between the thirds of the other pair's two passes. A lane holds a string, no branch depends on whether it touches, and the operations of
 // a lane are those of step_own and solve_linear_contact in their order: the same bits.
 #if defined(JVARI_MODAL_TWO_POINT_LANES) == defined(HWY_TARGET_TOGGLE)
@@ -120,7 +120,7 @@ private:
 
     template <int first>
     HWY_INLINE void rest() {
-        if constexpr (first < 6) {
+        if constexpr (first <= 5) {
             stage<first>();
             rest<first + 1>();
         }
@@ -151,8 +151,6 @@ private:
             p_ = hn::IfThenElse(in_, b_, gap_ - free);  // leaves by r, else enters to x: both by a quadratic
             square_ = p_ * p_ + hn::IfThenElse(in_, four * phi * eta_ * eta_, four * stiff_ * free * gap_);
             product_ = hn::IfThenElse(in_, two * phi * eta_ * eta_, two * free * gap_);
-        }
-        if constexpr (n == 2) {
             root_ = hn::Sqrt(square_);
             staying_ = k * (eta_ + half * b_) / stiff_;
         }
