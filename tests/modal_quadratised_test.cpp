@@ -11,7 +11,7 @@
 
 #include "c3.hpp"
 #include "scenes/modes.hpp"
-#include "schemes/modal/modal_energies.hpp"
+#include "schemes/modal/kernels/modal_energies.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "schemes/modal/modal_energies.hpp"
+#include "schemes/modal/kernels/modal_energies.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"

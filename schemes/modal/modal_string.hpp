@@ -7,7 +7,7 @@
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
 #include "schemes/contact/contact.hpp"
-#include "schemes/modal/modal_pass.hpp"
+#include "schemes/modal/kernels/modal_pass.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {

@@ -26,9 +26,9 @@
 #include <utility>
 
 #include "schemes/contact/eliminated_thread.hpp"
-#include "schemes/modal/modal_energies.hpp"
+#include "schemes/modal/kernels/modal_energies.hpp"
+#include "schemes/modal/kernels/series_kernel.hpp"
 #include "schemes/modal/modal_string.hpp"
-#include "schemes/modal/series_kernel.hpp"
 #include "schemes/modal_coefficients.hpp"
 
 namespace jvari {

@@ -88,6 +88,7 @@ public:
     std::vector<Fact> facts() const override { return points_.facts(); }
     std::vector<FreeMode> free_modes() const override {
         std::vector<FreeMode> all;
+        all.reserve(m_.count);
         for (int i = 0; i < m_.count; ++i) all.push_back(three_point_mode(m_.num[i], m_.loss[i], m_.dt));
         return all;
     }

@@ -19,9 +19,9 @@
 #include "schemes/aligned.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/modal/effective_modes.hpp"
+#include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
-#include "schemes/modal/modal_two_point_kernel.hpp"
 #include "schemes/modal/modal_two_point_points.hpp"
 #include "schemes/modal_coefficients.hpp"
 

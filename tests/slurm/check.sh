@@ -92,7 +92,8 @@ trap finish EXIT
 trap 'exit 130' INT TERM
 
 came_up() { for _ in $(seq 300); do [ "$(sinfo -h -N -t idle -o %N 2>/dev/null | sort -u | grep -c .)" = 3 ] && return 0; sleep 0.2; done; return 1; }
-if ! { slurmctld -c && for k in 1 2 3; do slurmd -N v$k || exit 1; done && came_up; }; then
+start() { slurmctld -c && for k in 1 2 3; do slurmd -N v$k || return 1; done && came_up; }
+if ! start; then
     tail -n 5 "$dir"/log/* || true
     echo "skipped: the daemons of Slurm do not come up on this machine"
     exit 77

@@ -11,8 +11,8 @@
 
 #include <type_traits>
 
-#include "schemes/modal/modal_two_point_kernel.hpp"
-#include "schemes/modal/vectors-inl.hpp"
+#include "schemes/modal/kernels/modal_two_point_kernel.hpp"
+#include "schemes/modal/kernels/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {

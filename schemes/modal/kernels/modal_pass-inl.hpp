@@ -8,8 +8,8 @@
 #define JVARI_MODAL_PASS_INL
 #endif
 
-#include "schemes/modal/modal_pass.hpp"
-#include "schemes/modal/vectors-inl.hpp"
+#include "schemes/modal/kernels/modal_pass.hpp"
+#include "schemes/modal/kernels/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {

@@ -1,12 +1,12 @@
-#include "schemes/modal/modal_pass.hpp"
+#include "schemes/modal/kernels/modal_pass.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "schemes/modal/modal_pass.cpp"
+#define HWY_TARGET_INCLUDE "schemes/modal/kernels/modal_pass.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
 #include <hwy/highway.h>
 
-#include "schemes/modal/modal_pass-inl.hpp"
+#include "schemes/modal/kernels/modal_pass-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {

@@ -1,12 +1,12 @@
-#include "schemes/modal/modal_energies.hpp"
+#include "schemes/modal/kernels/modal_energies.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "schemes/modal/modal_energies.cpp"
+#define HWY_TARGET_INCLUDE "schemes/modal/kernels/modal_energies.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
 #include <hwy/highway.h>
 
-#include "schemes/modal/vectors-inl.hpp"
+#include "schemes/modal/kernels/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {

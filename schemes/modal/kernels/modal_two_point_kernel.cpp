@@ -1,14 +1,14 @@
 // The fused step of the modal two-point scheme (van Walstijn et al. 2016, eqs 41-48), compiled once per instruction set by Highway.
 // Presence of contact, thread and pluck is a template argument: an absent part costs nothing. So is what stands in series with the points.
-#include "schemes/modal/modal_two_point_kernel.hpp"
+#include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 
 #include <unistd.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "schemes/modal/modal_two_point_kernel.cpp"
+#define HWY_TARGET_INCLUDE "schemes/modal/kernels/modal_two_point_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
-#include "schemes/modal/modal_two_point_lanes-inl.hpp"
+#include "schemes/modal/kernels/modal_two_point_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {

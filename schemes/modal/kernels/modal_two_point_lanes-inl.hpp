@@ -13,7 +13,7 @@
 
 #include <span>
 
-#include "schemes/modal/modal_two_point_pass-inl.hpp"
+#include "schemes/modal/kernels/modal_two_point_pass-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {

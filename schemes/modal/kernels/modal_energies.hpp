@@ -1,7 +1,7 @@
 // The sums over the modes behind the energy columns, each in one pass and compiled once per instruction set.
 #pragma once
 
-#include "schemes/modal/modal_pass.hpp"
+#include "schemes/modal/kernels/modal_pass.hpp"
 
 namespace jvari {
 
