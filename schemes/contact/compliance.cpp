@@ -192,6 +192,11 @@ bool matched_without_loss(const Descriptor& descriptor, const Scene& scene, cons
     return true;
 }
 
+void refuse_matched_points(const Descriptor& descriptor, const Settings& settings) {
+    if (choice_option(settings, compliance_option) == "matched")
+        throw Refusal(std::string(descriptor.name) + ": compliance=matched is for one lumped barrier without contact loss");
+}
+
 MissingCompliance::MissingCompliance(const MissingMatrix& m) {
     const bool barrier = m.contacts > 0;
     const int points = m.contacts + (m.thread ? 1 : 0), c = m.contacts;

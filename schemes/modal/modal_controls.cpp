@@ -160,15 +160,14 @@ ModalArray modal_masses(const ModalString& string) {
 }
 
 Made made_explicit(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    const bool matched = choice_option(settings, compliance_option) == "matched";
     if (!touches_once_without_loss(scene.strings.front())) {
-        if (matched) throw Refusal(std::string(descriptor.name) + ": compliance=matched is for one lumped barrier without contact loss");
+        refuse_matched_points(descriptor, settings);
         return made_of_points<ExplicitPoints>(descriptor, scene, settings, explicit_gain,
                                               [](const ModalString& string, const ModalArray&) { return modal_masses(string); });
     }
     ModalString string = modal_string(descriptor, scene, settings);
     const ModalArray gain = explicit_gain(string), inertia = modal_masses(string);
-    if (matched) return explicit_in_series(descriptor, scene, std::move(string), gain);
+    if (choice_option(settings, compliance_option) == "matched") return explicit_in_series(descriptor, scene, std::move(string), gain);
     ExplicitContact contact;
     contact.law = string.barrier;
     contact.limit = stiffness_limit(string);

@@ -270,8 +270,7 @@ using Made = std::unique_ptr<Scheme>;
 Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels, Quadratisation variant) {
     if (!touches_once_without_loss(scene.strings.front())) {
         if (levels == 3) throw Refusal(std::string(descriptor.name) + ": several barriers, profiles and contact loss are for levels=2");
-        if (choice_option(settings, compliance_option) == "matched")
-            throw Refusal(std::string(descriptor.name) + ": compliance=matched is for one lumped barrier without contact loss");
+        refuse_matched_points(descriptor, settings);
         return std::make_unique<ModalTwoPointPoints<QuadratisedPoints>>(
             descriptor, scene, settings, exact_two_point, [variant](const auto&... parts) { return QuadratisedPoints(parts..., variant); });
     }

@@ -58,6 +58,13 @@ ModalArray rest_increments(const ModalString& m) {
     return d;
 }
 
+std::vector<FreeMode> three_point_modes(const ModalString& m) {
+    std::vector<FreeMode> all;
+    all.reserve(m.count);
+    for (int i = 0; i < m.count; ++i) all.push_back(three_point_mode(m.num[i], m.loss[i], m.dt));
+    return all;
+}
+
 ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.front();
     ModalString m;

@@ -61,6 +61,7 @@ ModalString modal_string(const Descriptor&, const Scene&, const Settings&);
 
 // d^0 = q^0 - q^{-1} of the free motion that passes y0 at rest, for three-point recursions.
 ModalArray rest_increments(const ModalString&);
+std::vector<FreeMode> three_point_modes(const ModalString&);  // as those recursions have them
 
 double modal_dot(const ModalArray&, const ModalArray&);
 double modal_dot_by_eights(const ModalArray&, const ModalArray&);  // eight partial sums: of padded arrays, and faster

@@ -151,12 +151,7 @@ public:
         if constexpr (!ActsInSeries<Contact>) f.push_back({facts::static_compliance, compliance_ / m_.true_compliance});
         return f;
     }
-    std::vector<FreeMode> free_modes() const override {
-        std::vector<FreeMode> all;
-        all.reserve(m_.count);
-        for (int i = 0; i < m_.count; ++i) all.push_back(three_point_mode(m_.num[i], m_.loss[i], m_.dt));
-        return all;
-    }
+    std::vector<FreeMode> free_modes() const override { return three_point_modes(m_); }
 
 private:
     EliminatedThread couple(double phi, double k) const { return {k, phi, theta_.bb, theta_.bc, theta_.cc}; }

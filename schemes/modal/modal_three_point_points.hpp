@@ -86,12 +86,7 @@ public:
 
     int dofs() const override { return 2 * m_.count; }
     std::vector<Fact> facts() const override { return points_.facts(); }
-    std::vector<FreeMode> free_modes() const override {
-        std::vector<FreeMode> all;
-        all.reserve(m_.count);
-        for (int i = 0; i < m_.count; ++i) all.push_back(three_point_mode(m_.num[i], m_.loss[i], m_.dt));
-        return all;
-    }
+    std::vector<FreeMode> free_modes() const override { return three_point_modes(m_); }
 
 private:
     static constexpr long steps_between_looks = 64;
