@@ -362,7 +362,10 @@ TEST(ModalEnergies, AreTheSumsThatTheyStandFor) {
             lost_two += p[i] * s * s, given_two += g[i] * s, stored += q * q + static_cast<long double>(den[i]) * x[i] * x[i];
             const long double d = s - static_cast<long double>(p[i]) * v[i] - static_cast<long double>(r[i]) * x[i], sum = d + v[i];
             lost += static_cast<long double>(W[i]) * p[i] * sum * sum, given += g[i] * sum;
-            const auto energy = [&](long double step, long double mean) { return W[i] * (den[i] * step * step + r[i] * mean * mean); };
+            const long double weight = W[i], of_step = den[i], of_mean = r[i];
+            const auto energy = [&](long double step, long double mean) {
+                return weight * (of_step * step * step + of_mean * mean * mean);
+            };
             after += energy(d, 2.0L * x[i] + d), before += energy(v[i], 2.0L * x[i] - v[i]);
         }
         const auto near = [&](double got, long double want) { EXPECT_NEAR(got, static_cast<double>(want), 2e-15 * size) << forces; };
