@@ -60,6 +60,23 @@ TEST(InSeries, ExactContactAndSundialsAgreeOnWhatIsMatched) {
         }
 }
 
+// With something in series no contact is split, and a window spans a row. At a tolerance that asks for more than it can hold, half of one.
+TEST(InSeries, AWindowAsLongAsARowSaysWhatTwoHalvesSay) {
+    for (const double exponent : {1.0, 1.4}) {
+        Scene scene = with(exponent, 1.2);
+        scene.duration = 0.05;
+        Settings fine = matched(133);
+        fine.options.push_back({"tolerance", "1e-13"});
+        const auto whole = run(exact_contact, scene, matched(133)), halves = run(exact_contact, scene, fine);
+        EXPECT_EQ(fact(halves, "windows"), 2 * fact(whole, "windows"));
+        EXPECT_EQ(fact(halves, "events"), fact(whole, "events"));
+        EXPECT_GT(fact(whole, "events"), 10);
+        for (std::size_t k = 0; k < scene.taps.size(); ++k)
+            EXPECT_LT(difference(whole.trace.column(k), halves.trace.column(k)), exponent == 1 ? 1e-11 : 1e-9)
+                << exponent << " " << scene.taps[k].name;
+    }
+}
+
 // A contact as soft as those, with nothing in series: several spans of one solution fill a window.
 TEST(InSeries, TheyAgreeOnASoftContactOfItsOwn) {
     Scene scene = with(1, 1.2);

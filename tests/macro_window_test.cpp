@@ -78,8 +78,18 @@ TEST(MacroWindow, IsNeverLongerThanTheSplitAllowsAndKeepsWhatTheToleranceNeeds) 
     for (const double reach : {0.01, 2.4, 2.6, 33.0, 1e5}) {
         const auto c = choose_window(1e-12, reach);
         EXPECT_LE(reach / c.per_row, longest_reach);
+        EXPECT_LE(c.terms, most_split_terms);
+    }
+}
+
+// Where no contact is split a window may be twice as long, unless its tolerance asks for more terms than there are.
+TEST(MacroWindow, IsLongerWhereNothingIsSplitAndTheTermsReach) {
+    for (const double tolerance : {1e-3, 1e-6, 1e-10, 1e-12}) {
+        const auto c = choose_window(tolerance, 4.78, false);
+        EXPECT_EQ(c.per_row, 1);
         EXPECT_LE(c.terms, most_terms);
     }
+    EXPECT_EQ(choose_window(1e-15, 4.78, false).per_row, 2);
 }
 
 // Two modes with a thread near their end, bent and let go: where the contact's point is `rows` of 0.25 ms later [m].

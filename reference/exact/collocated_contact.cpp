@@ -99,12 +99,10 @@ void CollocatedContact::couple(double d) noexcept {
             for (int l = 0; l < last; ++l, power *= d) f[l] = h[l] * power;
             for (int j = 0; j < nodes; ++j) {
                 double* column = couple_.data() + static_cast<std::size_t>(b * nodes + j) * size + a * nodes;
-                std::fill_n(column, nodes, 0.0);
-                w.sweep().combine(column, nodes, f, last, &within_[j * nodes], nodes * nodes);
+                w.sweep().combined(column, nodes, f, last, &within_[j * nodes], nodes * nodes);
                 if (!lossy_) continue;  // which has nothing in series: h^(0) = 0
                 column = couple_speed_.data() + static_cast<std::size_t>(b * nodes + j) * size + a * nodes;
-                std::fill_n(column, nodes, 0.0);
-                w.sweep().combine(column, nodes, f + 1, last - 1, &within_[j * nodes], nodes * nodes);
+                w.sweep().combined(column, nodes, f + 1, last - 1, &within_[j * nodes], nodes * nodes);
                 for (int i = 0; i < nodes; ++i) column[i] /= d;
             }
         }

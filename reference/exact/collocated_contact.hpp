@@ -46,7 +46,7 @@ public:
 
 private:
     void derivatives(int which, double* f) const noexcept;  // of a force, at the step's start
-    static constexpr int nodes = 8, orders = 26;
+    static constexpr int nodes = 8, orders = 34;
     const MacroWindow* window_;
     std::vector<BarrierLaw> law_;
     std::array<double, nodes> node_, weight_, last_, before_last_;  // and the rows that give the last two Legendre coefficients

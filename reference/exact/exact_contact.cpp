@@ -357,8 +357,7 @@ void ExactContact::move_on(double by, double left) noexcept {
     if (!last) powers(by, w.size, e);
     for (int a = 0; !last && a < w.contacts; ++a) {
         double* r = at(r_, a);
-        std::fill_n(shifted, w.size, 0.0);
-        combine(shifted, w.size, e, count_, r, 1);
+        w.sweep().combined(shifted, w.size, e, count_, r, 1);
         std::copy_n(shifted, w.size, r);
     }
     if (touched_.empty()) return;

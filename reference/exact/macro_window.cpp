@@ -28,13 +28,18 @@ void powers(double u, int count, double* e) noexcept {
     sweep_functions().powers(u, count, inverse_factorial.data(), e);
 }
 
-WindowChoice choose_window(double tolerance, double reach) {
-    WindowChoice c;
-    c.per_row = std::max(1L, static_cast<long>(std::ceil(std::min(1e18, reach / longest_reach))));
-    const double z = reach / c.per_row;
-    c.terms = 6;
-    while (c.terms < most_terms && tail(z, c.terms) > 0.1 * tolerance) ++c.terms;
-    return c;
+WindowChoice choose_window(double tolerance, double reach, bool split) {
+    const auto of_windows = [&](double longest, int most) {
+        WindowChoice c;
+        c.per_row = std::max(1L, static_cast<long>(std::ceil(std::min(1e18, reach / longest))));
+        c.terms = 6;
+        while (c.terms < most && tail(reach / c.per_row, c.terms) > 0.1 * tolerance) ++c.terms;
+        return c;
+    };
+    const auto c = of_windows(longest_reach, most_split_terms);
+    if (split) return c;
+    const auto longer = of_windows(longest_unsplit, most_terms);
+    return tail(reach / longer.per_row, longer.terms) > 0.1 * tolerance ? c : longer;
 }
 
 MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, double tolerance, const std::optional<InSeries>& series,
@@ -48,7 +53,7 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     if (s.pluck) pluck_.push_back(*s.pluck);
     none_.assign(contacts + 1, 0);
     const double growth = largest_eigenvalue();
-    const auto choice = choose_window(tolerance, growth * osc.rate * interval);
+    const auto choice = choose_window(tolerance, growth * osc.rate * interval, !series && contacts > 0);
     per_row = windows > 0 ? windows : choice.per_row;
     terms = kept > 0 ? kept : choice.terms;
     size = std::max(16, (terms + lanes - 1) / lanes * lanes);  // 16: a collocated path is of degree 9
@@ -235,7 +240,6 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
     if (threaded()) {
         double *F = force_.data() + contacts * stride, *p = p_.data() + contacts * stride;
         p[0] -= s.height[contacts];
-        std::fill_n(F, size, 0.0);
         const double k = s.k[contacts], r = s.r[contacts] / length;
         if (relaxes()) {
             for (int n = terms - 1; n > 0; --n) p[n] = k * p[n - 1] + r * p[n];
@@ -243,7 +247,7 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
         } else {
             for (int n = 0; n < known_; ++n) p[n] = k * p[n] + r * p[n + 1];
         }
-        sweep_->combine(F, size, p, known_, reply_.data() + stride, -1);
+        sweep_->combined(F, size, p, known_, reply_.data() + stride, -1);
         std::fill(F + known_, F + size, 0.0);
         for (int a = 0; a < contacts; ++a) {
             double* f = free_.data() + a * stride;
@@ -276,8 +280,7 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
     thread_impulse_ = 0;
     if (threaded()) {  // its own motion, and its answer kappa_b * F_b to each contact
         double* m = moments_.data() + contacts * stride;
-        std::fill_n(m, size, 0.0);
-        sweep_->combine(m, size, force_.data() + contacts * stride, known_, e + 1, 1);
+        sweep_->combined(m, size, force_.data() + contacts * stride, known_, e + 1, 1);
         for (int b = 0; b < contacts; ++b)
             if (M[b * stride] != 0)
                 sweep_->combine(m, size, answer_.data() + b * stride, known_, M + b * stride + 1, 1);  // kappa^(n) with M_(n+1)
@@ -295,8 +298,7 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
     }
     if (plucked_) {
         double* m = moments_.data() + s.points * stride;
-        std::fill_n(m, size, 0.0);
-        sweep_->combine(m, size, force_.data() + s.points * stride, terms, e + 1, 1);
+        sweep_->combined(m, size, force_.data() + s.points * stride, terms, e + 1, 1);
         push(s.points, m);
     }
     return acting;

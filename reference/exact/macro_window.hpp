@@ -23,11 +23,12 @@ struct WindowChoice {
     long per_row = 1;  // windows between two rows
     int terms = 2;     // derivatives kept
 };
-// For a relative `tolerance` and a string whose fastest motion grows by e^reach between two rows. No window spans more than
-// longest_reach: beyond it more terms make the split of contact (touching_set.hpp) worse, not better.
-constexpr double longest_reach = 2.5;
-constexpr int most_terms = 24;
-WindowChoice choose_window(double tolerance, double reach);
+// For a relative `tolerance` and a string whose fastest motion grows by e^reach between two rows. Where stiff contact is split
+// (touching_set.hpp) no window spans more than longest_reach: beyond it more terms make that worse, not better. Where nothing is split,
+// with something in series or no contact at all, a window may span longest_unsplit, if most_terms are enough for it.
+constexpr double longest_reach = 2.5, longest_unsplit = 5;
+constexpr int most_split_terms = 24, most_terms = 32;
+WindowChoice choose_window(double tolerance, double reach, bool split = true);
 
 class MacroWindow {
 public:

@@ -1,6 +1,8 @@
 // Four vectors of modes at a time hide the latency of the recurrences; the derivatives of a block are kept for all outputs.
 #include "reference/exact/modal_sweep.hpp"
 
+#include <type_traits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/exact/modal_sweep.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
@@ -12,7 +14,7 @@ namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr double inverse_factorials[24] = {1.0 / 1,
+constexpr double inverse_factorials[32] = {1.0 / 1,
                                            1.0 / 1,
                                            1.0 / 2,
                                            1.0 / 6,
@@ -35,7 +37,15 @@ constexpr double inverse_factorials[24] = {1.0 / 1,
                                            1.0 / 2432902008176640000,
                                            1.0 / 51090942171709440000.0,
                                            1.0 / 1124000727777607680000.0,
-                                           1.0 / 25852016738884976640000.0};
+                                           1.0 / 25852016738884976640000.0,
+                                           1.0 / 620448401733239439360000.0,
+                                           1.0 / 15511210043330985984000000.0,
+                                           1.0 / 403291461126605635584000000.0,
+                                           1.0 / 10888869450418352160768000000.0,
+                                           1.0 / 304888344611713860501504000000.0,
+                                           1.0 / 8841761993739701954543616000000.0,
+                                           1.0 / 265252859812191058636308480000000.0,
+                                           1.0 / 8222838654177922817725562880000000.0};
 
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
@@ -177,32 +187,61 @@ void move(const ModalSweep& m) {
     }
 }
 
-template <int vectors>
+// Of a convolution, step -1, row j begins at out[j]: what lies before are zeros, and whole vectors of them are left out.
+template <int vectors, bool convolution, bool fresh>
 void combine_in(double* HWY_RESTRICT out, const double* HWY_RESTRICT x, int count, const double* A, long step) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     V even[vectors], odd[vectors];
     for (int v = 0; v < vectors; ++v) {
-        even[v] = hn::LoadU(d, out + v * N);
+        even[v] = fresh ? hn::Zero(d) : hn::LoadU(d, out + v * N);
         odd[v] = hn::Zero(d);
     }
     int j = 0;
-    for (; j + 1 < count; j += 2) {
-        const V x0 = hn::Set(d, x[j]), x1 = hn::Set(d, x[j + 1]);
-        for (int v = 0; v < vectors; ++v) {
-            even[v] = hn::MulAdd(x0, hn::LoadU(d, A + j * step + v * N), even[v]);
-            odd[v] = hn::MulAdd(x1, hn::LoadU(d, A + (j + 1) * step + v * N), odd[v]);
+    const auto rows = [&](auto first, int until) {
+        for (; j + 1 < until; j += 2) {
+            const V x0 = hn::Set(d, x[j]), x1 = hn::Set(d, x[j + 1]);
+            for (int v = first; v < vectors; ++v) {
+                even[v] = hn::MulAdd(x0, hn::LoadU(d, A + j * step + v * N), even[v]);
+                odd[v] = hn::MulAdd(x1, hn::LoadU(d, A + (j + 1) * step + v * N), odd[v]);
+            }
         }
+        if (j < until) {
+            for (int v = first; v < vectors; ++v) even[v] = hn::MulAdd(hn::Set(d, x[j]), hn::LoadU(d, A + j * step + v * N), even[v]);
+            ++j;
+        }
+    };
+    if constexpr (convolution && vectors > 1) {
+        const auto from = [&](auto first) {
+            if constexpr (first.value < vectors) rows(first, HWY_MIN(count, (first.value + 1) * N));
+        };
+        from(std::integral_constant<int, 0>());
+        from(std::integral_constant<int, 1>());
+        from(std::integral_constant<int, 2>());
+        from(std::integral_constant<int, 3>());
+    } else {
+        rows(std::integral_constant<int, 0>(), count);
     }
-    if (j < count)
-        for (int v = 0; v < vectors; ++v) even[v] = hn::MulAdd(hn::Set(d, x[j]), hn::LoadU(d, A + j * step + v * N), even[v]);
     for (int v = 0; v < vectors; ++v) hn::StoreU(hn::Add(even[v], odd[v]), d, out + v * N);
 }
-void combine(double* out, int size, const double* x, int count, const double* A, long step) {
+template <bool fresh>
+HWY_INLINE void combine_into(double* out, int size, const double* x, int count, const double* A, long step) {
     const int N = static_cast<int>(hn::Lanes(D()));
-    for (; size >= 3 * N; size -= 3 * N, out += 3 * N, A += 3 * N) combine_in<3>(out, x, count, A, step);
-    for (; size >= 2 * N; size -= 2 * N, out += 2 * N, A += 2 * N) combine_in<2>(out, x, count, A, step);
-    for (; size >= N; size -= N, out += N, A += N) combine_in<1>(out, x, count, A, step);
+    if (step == -1 && size <= 4 * N) {
+        if (size == 4 * N) return combine_in<4, true, fresh>(out, x, count, A, -1);
+        if (size == 3 * N) return combine_in<3, true, fresh>(out, x, count, A, -1);
+        if (size == 2 * N) return combine_in<2, true, fresh>(out, x, count, A, -1);
+    }
+    for (; size >= 4 * N; size -= 4 * N, out += 4 * N, A += 4 * N) combine_in<4, false, fresh>(out, x, count, A, step);
+    if (size == 3 * N) combine_in<3, false, fresh>(out, x, count, A, step);
+    else if (size == 2 * N) combine_in<2, false, fresh>(out, x, count, A, step);
+    else if (size == N) combine_in<1, false, fresh>(out, x, count, A, step);
+}
+void combine(double* out, int size, const double* x, int count, const double* A, long step) {
+    combine_into<false>(out, size, x, count, A, step);
+}
+void combined(double* out, int size, const double* x, int count, const double* A, long step) {
+    combine_into<true>(out, size, x, count, A, step);
 }
 
 // u^lane; `later` becomes u^N
@@ -298,7 +337,7 @@ void scale_rows(double* out, const double* row, const double* A, const double* r
 }
 
 const SweepFunctions* functions() {
-    static constexpr SweepFunctions table = {read, move, combine, powers, evaluate, bound, factor, substitute, scale_rows};
+    static constexpr SweepFunctions table = {read, move, combine, combined, powers, evaluate, bound, factor, substitute, scale_rows};
     return &table;
 }
 

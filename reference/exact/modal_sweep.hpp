@@ -25,11 +25,13 @@ struct SweepFunctions {
     void (*read)(const ModalSweep&);
     // y_out = e11 y + e12 u + ..., with sum_n A^n (0, sum_f gain_f m_fn) by Horner
     void (*move)(const ModalSweep&);
-    // out[i] += sum_j x_j A[j step + i], i < size: shifts, convolutions and matrices, by the step. size: a multiple of 8
+    // out[i] += sum_j x_j A[j step + i], i < size: shifts, convolutions and matrices, by the step. size: a multiple of 8. For step -1
+    // there are `count` zeros before A, or before A + 1.
     void (*combine)(double* out, int size, const double* x, int count, const double* A, long step);
+    void (*combined)(double* out, int size, const double* x, int count, const double* A, long step);  // the same, out[i] = ...
     // e[n] = u^n/n!, n < count in whole vectors of at most 8
     void (*powers)(double u, int count, const double* inverse_factorial, double* e);
-    // out[k] = sum_n p[n + k] u^n/n!, k < 3, n < size <= 24: a motion of derivatives p at u, and its first two derivatives there
+    // out[k] = sum_n p[n + k] u^n/n!, k < 3, n < size <= 32: a motion of derivatives p at u, and its first two derivatives there
     void (*evaluate)(const double* p, int size, double u, double* out);
     // The same of |p[n + k]| for k = 2, 3: bounds of the second and third derivatives up to u
     void (*bound)(const double* p, int size, double u, double* out);

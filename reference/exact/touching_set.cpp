@@ -158,9 +158,10 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
     const auto combine = w.sweep().combine;
     for (int a = 0; a < P; ++a) {
         double* out = path + points_[a] * stride;
-        std::fill_n(out, size, 0.0);
+        if (pairs_ > 0) std::fill_n(out, size, 0.0);
         for (int b = 0; pairs_ == 0 && b < P; ++b)
-            combine(out, size, r + points_[b] * stride, N, resolvent_.data() + (static_cast<std::size_t>(a * P + b) * 2 + 1) * size, -1);
+            (b == 0 ? w.sweep().combined : combine)(out, size, r + points_[b] * stride, N,
+                                                    resolvent_.data() + (static_cast<std::size_t>(a * P + b) * 2 + 1) * size, -1);
         if (pairs_ == 0) continue;
         for (int b = 0; b < P; ++b)
             combine(out, size, r + points_[b] * stride + 2, N - 2, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
@@ -201,9 +202,8 @@ void TouchingSet::moments(int which, const double* path, const std::complex<doub
     const int a = points_[which], size = window_->size;
     double e[3 * most_terms];
     powers(u, 2 * size + 1, e);
-    std::fill_n(m, size, 0.0);
-    window_->sweep().combine(m, size, path + a * window_->stride, pairs_ > 0 ? std::min(window_->terms, count + 2) : window_->terms, e + 1,
-                             1);
+    window_->sweep().combined(m, size, path + a * window_->stride, pairs_ > 0 ? std::min(window_->terms, count + 2) : window_->terms, e + 1,
+                              1);
     for (int k = 0; k < pairs_; ++k) {  // X_i = int (u - w)^i/i! e^(lambda w) dw = (X_(i-1) - u^i/i!)/lambda
         const std::complex<double> inverse = 1.0 / rate_[k], c = amplitude[a * pairs_ + k];
         const double size_now = std::exp(rate_[k].real() * u), phase = rate_[k].imag() * u;
