@@ -1,7 +1,10 @@
 #include "reference/readout.hpp"
 
+#include "reference/partial_sums.hpp"
+
 namespace jvari {
 
+JVARI_CLONES
 double weighted_sum(const double* w, const double* y, int count) {
     double sum[8] = {};
     int i = 0;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "reference/exact/collocated_contact.hpp"
 #include "reference/exact/crossing.hpp"
@@ -60,6 +61,33 @@ TEST(MacroWindow, TheSplitOfStiffContactIsWhatSmallStepsMakeOfIt) {
 
 TEST(MacroWindow, ASoftContactIsWhatSmallStepsMakeOfItAsFarAsItsSpan) {
     for (const double k : {1e4, 3e5, 3e6}) EXPECT_LT(split_against_steps(2, 21, 1, k), 1e-11) << k;
+}
+
+// A second point in the air moves as the moments of the first one's force move it, up to the end of the span.
+TEST(MacroWindow, ASoftContactPushesAPointInTheAirAsItsMomentsDo) {
+    const Scene scene = c3_release();
+    String s = scene.strings.front();
+    s.barriers.push_back(LumpedBarrier{11e-3, 0, 0, {3e6}, 1, 0});
+    const Modes modes = modes_of(s, 133);
+    MacroWindow w(modes, s, 1 / 44100.0, 1e-12, {}, 2, 21);
+    const int point[] = {0};
+    const double k[] = {3e6};
+    TouchingSet set(w, point, k);
+    ASSERT_EQ(set.pairs(), 0);
+    std::vector<double> r(2 * w.stride, 0.0), path(2 * w.stride), m(w.stride), now(3);
+    r[1] = -0.1 * w.seconds();
+    r[w.stride] = 1e-5, r[w.stride + 1] = -1e-6;
+    std::complex<double> none[1];
+    set.solve(r.data(), path.data(), none);
+    for (const double part : {0.3, 1.0}) {
+        const double u = part * set.span();
+        set.moments(0, path.data(), none, u, w.terms, m.data());
+        double pushed = 0;
+        for (int n = 0; n < w.terms; ++n) pushed += w.kernel(1, 0)[n] * m[n];
+        w.sweep().evaluate(path.data() + w.stride, w.size, u, now.data());
+        EXPECT_GT(pushed, 1e-8);
+        EXPECT_NEAR(now[0] - (1e-5 - 1e-6 * u), pushed, 1e-11 * pushed) << part;
+    }
 }
 
 // The series of the slow part is asymptotic: a window as long as a row does not reach with 24 terms what half a row does with 21.
@@ -141,6 +169,33 @@ TEST(FirstCrossing, FindsWhatDenseSamplingFindsAndNeverLater) {
         EXPECT_LT(gap.at(found + 1e-7).g, 0) << trial;
     }
     EXPECT_GT(crossings, 50);
+}
+
+// Gaps of a window without contact: up to three slow waves beside a height. Those that stay open are most, and mostly seen at a glance.
+TEST(FirstCrossing, SaysOpenOnlyWhereDenseSamplingFindsNoCrossing) {
+    int crossings = 0, open = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        double p[64] = {0.8 + 0.7 * std::fmod(trial * 0.7548776662, 1.0)};
+        for (int wave = 0; wave < 3; ++wave) {
+            const double rate = 4.8 * std::fmod(trial * 0.5698402910 + 0.3 * wave, 1.0), phase = 0.61 * trial + wave;
+            double power = 0.5;
+            for (int n = 0; n < 32; ++n, power *= rate) p[n] += power * std::cos(phase + 0.5 * n * std::numbers::pi);
+        }
+        if (p[0] < 0) continue;
+        for (const double sign : {1.0, -1.0}) {
+            double turned[64];
+            for (int n = 0; n < 64; ++n) turned[n] = sign * p[n];
+            const Gap gap{sign, turned, 32, 4.8, nullptr, nullptr, 0};
+            const double found = first_crossing(gap, 1, 1e-16);
+            double sampled = 2;
+            for (int i = 0; i <= 1000 && sampled == 2; ++i)
+                if (gap.at(i * 1e-3).g < 0) sampled = i * 1e-3;
+            EXPECT_LE(found, sampled + 1e-12) << trial;
+            ++(found > 1 ? open : crossings);
+        }
+    }
+    EXPECT_GT(crossings, 300);
+    EXPECT_GT(open, 300);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace jvari {
 
@@ -51,6 +52,30 @@ double Gap::depth_bound(double end) const noexcept {
 }
 
 namespace {
+// For sizes of 16, 24 and 32: C(i, n)/(C(size - 1, n) n!) [n][i], what derivatives are in Bernstein's polynomials of degree size - 1.
+const std::vector<std::vector<double>> to_bernstein = [] {
+    std::vector<std::vector<double>> tables;
+    for (int size = 16; size <= 32; size += 8) {
+        std::vector<double> B(size * size, 0.0);
+        for (int n = 0; n < size; ++n)
+            for (int i = n; i < size; ++i) {
+                double x = 1;
+                for (int k = 0; k < n; ++k) x *= static_cast<double>(i - k) / ((size - 1 - k) * (k + 1.0));
+                B[n * size + i] = x;
+            }
+        tables.push_back(std::move(B));
+    }
+    return tables;
+}();
+// That a gap without pairs is nowhere negative in [0, end], by a bound that is as good as its polynomial is nearly linear.
+bool stays_open(const Gap& gap, double end) noexcept {
+    const double z = gap.growth * end;  // a short search is cheaper than this
+    if (!(z > 2.5 && z < 100) || gap.pairs > 0 || gap.size < 16 || gap.size > 32 || gap.size % 8 != 0) return false;
+    double range[2];
+    sweep_functions().range(gap.p, to_bernstein[gap.size / 8 - 2].data(), gap.size, end, range);
+    return (gap.sign > 0 ? range[0] : -range[1]) >= 0;
+}
+
 // The largest d up to `cap` for which g + slope d + curvature d^2/2 - third d^3/6 >= 0 is certain.
 double safe_step(double g, double slope, double curvature, double third, double cap) {
     const auto by = [&](double q) {  // g + slope d - q d^2/2 = 0
@@ -158,6 +183,7 @@ double first_crossing(const Gap& gap, double end, double bound) noexcept {
     const Bounds whole = bounds_until(gap, pairs, end);
     if (!std::isfinite(whole.third)) return 2;  // beyond all numbers: so is the motion, which ends the run
     if (safe_over(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end)) return 2;
+    if (stays_open(gap, end)) return 2;
     double from = 0;
     for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {  // a stage has its own terms and bounds: early ones are cheap
         if (to > 0.5 * end) to = end;

@@ -94,7 +94,8 @@ private:
     std::vector<int> touched_;
     WindowEnergies::Touch* touch_ = nullptr;    // of the springs that touch; nullptr: none do, or what does goes by collocation
     bool collocated_ = false, onward_ = false;  // this phase, and the one before
-    int count_ = 0;                             // moments of this phase
+    int count_ = 0;                             // moments of this phase that are not negligible: (reach x step)^i/i!
+    double counted_until_ = -1;                 // by a step of that length
 };
 
 ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double tolerance,
@@ -197,7 +198,7 @@ bool ExactContact::window(double end, bool plucked, double since_pluck, const Bl
         if (known_zero_[a]) at(r_, a)[0] = 0;
     }
     extremes_.tolerance = std::max(extremes_.tolerance, 2 * (w.truncation() + w.rounding()));
-    std::fill(moments_.begin(), moments_.end(), 0.0);
+    for (int a = 0; a < w.contacts; ++a) std::fill_n(at(moments_, a), w.size, 0.0);  // nothing is ever written behind them
     long phases = 0;
     for (double now = 0; now < end;) {
         const double left = end - now, step = phase(now, left, out.energy != nullptr);
@@ -279,8 +280,10 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
     onward_ = collocated_;
     for (int a : touched_) measure(a, end, a == crossed);
 
-    count_ = 2;  // moments that are not negligible: (reach x step)^i/i!
-    for (double x = w.reach * end; count_ < w.terms && x > negligible; x *= w.reach * end / count_) ++count_;
+    if (end != counted_until_) {
+        count_ = 2, counted_until_ = end;
+        for (double x = w.reach * end; count_ < w.terms && x > negligible; x *= w.reach * end / count_) ++count_;
+    }
     const auto moments_until = [&](double until, int count) {
         for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
             if (touch_) touch_->set.moments(i, path_.data(), amplitude_.data(), until, count, at(moment_, i));

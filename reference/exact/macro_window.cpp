@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "reference/exact/pluck_series.hpp"
+#include "reference/readout.hpp"
 
 namespace jvari {
 
@@ -53,7 +54,8 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     if (s.pluck) pluck_.push_back(*s.pluck);
     none_.assign(contacts + 1, 0);
     const double growth = largest_eigenvalue();
-    const auto choice = choose_window(tolerance, growth * osc.rate * interval, !series && contacts > 0);
+    const bool split = !series && contacts > 0;
+    const auto choice = choose_window(tolerance, growth * osc.rate * interval, split);
     per_row = windows > 0 ? windows : choice.per_row;
     terms = kept > 0 ? kept : choice.terms;
     size = std::max(16, (terms + lanes - 1) / lanes * lanes);  // 16: a collocated path is of degree 9
@@ -75,7 +77,7 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
         for (int j = i; j < std::min(i + sweep_lanes, osc.padded); ++j)
             fastest = std::max(fastest, a_[j] * a_[j] > 4 * b_[j] ? a_[j] : std::sqrt(b_[j]));
         int n = 4;
-        while (n < terms && n * n * tail(fastest, n) > 1e-6 * tolerance) ++n;
+        while (n < terms && n * n * tail(fastest, n) > (split ? 1e-6 : 1e-4) * tolerance) ++n;
         sweep_terms_.push_back(n);
     }
     const std::size_t points = springs.points + 1, forces = springs.forces + 1;
@@ -291,7 +293,7 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
             sweep_->evaluate(F, size, at, now);
             thread_force_ = now[0];
             for (int b = 0; b < contacts; ++b)
-                for (int n = 0; n < terms && M[b * stride] != 0; ++n) thread_force_ += answer_[b * stride + n] * M[b * stride + n];
+                if (M[b * stride] != 0) thread_force_ += weighted_sum(answer_.data() + b * stride, M + b * stride, terms);
         }
         for (int b = 0; series_ && b < contacts; ++b) thread_impulse_ -= series_->pull() * M[b * stride] * seconds();
         push(contacts, m);

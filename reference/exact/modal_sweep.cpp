@@ -288,6 +288,22 @@ void bound(const double* p, int size, double u, double* out) {
     evaluate_at<2, 4, true>(p, size, u, out);
 }
 
+void range(const double* p, const double* bernstein, int size, double u, double* out) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    HWY_ALIGN double x[32], b[32] = {};
+    V later, power = first_powers(u, later);
+    for (int n = 0; n < size; n += N, power = hn::Mul(power, later)) hn::Store(hn::Mul(power, hn::LoadU(d, p + n)), d, x + n);
+    combine_into<true>(b, size, x, size, bernstein, size);
+    V least = hn::Load(d, b), most = least;
+    for (int n = N; n < size; n += N) {
+        least = hn::Min(least, hn::Load(d, b + n));
+        most = hn::Max(most, hn::Load(d, b + n));
+    }
+    out[0] = hn::GetLane(hn::MinOfLanes(d, least));
+    out[1] = hn::GetLane(hn::MaxOfLanes(d, most));
+}
+
 void subtract(double* to, double f, const double* column, int from, int size) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
@@ -337,7 +353,7 @@ void scale_rows(double* out, const double* row, const double* A, const double* r
 }
 
 const SweepFunctions* functions() {
-    static constexpr SweepFunctions table = {read, move, combine, combined, powers, evaluate, bound, factor, substitute, scale_rows};
+    static constexpr SweepFunctions table = {read, move, combine, combined, powers, evaluate, bound, range, factor, substitute, scale_rows};
     return &table;
 }
 

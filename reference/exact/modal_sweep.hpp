@@ -35,6 +35,9 @@ struct SweepFunctions {
     void (*evaluate)(const double* p, int size, double u, double* out);
     // The same of |p[n + k]| for k = 2, 3: bounds of the second and third derivatives up to u
     void (*bound)(const double* p, int size, double u, double* out);
+    // The least and the largest coefficient of the motion of derivatives p over [0, u] in Bernstein's polynomials of degree size - 1 <= 31,
+    // which it stays between. bernstein: C(i, n)/(C(size - 1, n) n!) [n][i]
+    void (*range)(const double* p, const double* bernstein, int size, double u, double* out);
     // sum_j matrix[j][i] x[j] = right[i] without pivots, first the factors in the place of the matrix, then x in the place of right.
     // scratch: size, a multiple of 8
     void (*factor)(double* matrix, double* scratch, int size);

@@ -15,8 +15,29 @@ using Complex = std::complex<Real>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr Real stiff = 12;        // the slowest fast pair, in radians per window
-constexpr Real most_spans = 100;  // of a window
+constexpr Real stiff = 12;           // the slowest fast pair, in radians per window
+constexpr Real most_spans = 100;     // of a window
+constexpr Real longest_span = 9;     // of a soft set's growth: e^9 last bits are as much as the tolerances here bear
+constexpr int resolvent_terms = 72;  // 9^72/72! is nothing
+
+// x^n, n < `powers`, on [0, 1] as polynomials of degree N - 1 by their Chebyshev series: coefficients of x^i [i][n].
+// x^n = 2^(1 - 2n) (C(2n, n)/2 + sum_k C(2n, n - k) T_k(2x - 1)). Up to n = N - 1 nothing changes.
+Matrix economised(int N, int powers) {
+    Matrix T = Matrix::Zero(N, N), out = Matrix::Identity(N, powers);  // T_k(2x - 1) = (4x - 2) T_(k-1) - T_(k-2) [i][k]
+    T(0, 0) = 1;
+    if (N > 1) T(0, 1) = -1, T(1, 1) = 2;
+    for (int k = 2; k < N; ++k)
+        for (int i = 0; i <= k; ++i) T(i, k) = (i > 0 ? 4 * T(i - 1, k - 1) : 0) - 2 * T(i, k - 1) - T(i, k - 2);
+    for (int n = N; n < powers; ++n) {
+        Real c = 1;  // C(2n, n)/4^n
+        for (int i = 1; i <= n; ++i) c *= static_cast<Real>(2 * i - 1) / (2 * i);
+        for (int k = 0; k < N; ++k) {
+            out.col(n) += (k == 0 ? c : 2 * c) * T.col(k);
+            c *= static_cast<Real>(n - k) / (n + k + 1);
+        }
+    }
+    return out;
+}
 }  // namespace
 
 TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std::span<const double> stiffness)
@@ -129,40 +150,56 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
         }
 }
 
-// The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j).
+// The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j), and below it what points that do not touch follow. p_n = sum R_(n-m) r_m
+// goes on where r ends. Cut there it would reach as far as its growth allows; the best polynomial of as many terms reaches four times so
+// far.
 void TouchingSet::soften() noexcept {
     const MacroWindow& w = *window_;
     const int P = static_cast<int>(points_.size()), N = w.terms;
-    std::vector<Matrix> R(N, Matrix::Identity(P, P));
+    std::vector<Matrix> R(resolvent_terms, Matrix::Zero(w.contacts, P));
+    for (int b = 0; b < P; ++b) R[0](points_[b], b) = 1;
     Real growth = w.reach;
-    for (int n = 1; n < N; ++n) {
-        R[n].setZero();
-        for (int j = 0; j < n; ++j)
-            for (int a = 0; a < P; ++a)
+    for (int n = 1; n < resolvent_terms; ++n) {
+        for (int j = 0; j < std::min(n, N); ++j)
+            for (int a = 0; a < w.contacts; ++a)
                 for (int b = 0; b < P; ++b)
-                    R[n].row(a) -= static_cast<Real>(w.kernel(points_[a], points_[b])[j]) * k_[b] * R[n - 1 - j].row(b);
-        if (n >= N / 2) growth = std::max(growth, std::pow(R[n].norm(), Real(1) / n));
+                    R[n].row(a) -= static_cast<Real>(w.kernel(a, points_[b])[j]) * k_[b] * R[n - 1 - j].row(points_[b]);
+        if (n >= N / 2 && n < N) growth = std::max(growth, std::pow(R[n].norm(), Real(1) / n));
     }
     growth_ = static_cast<double>(growth);
-    span_ = w.reach / growth_;
+    const Real span = std::min<Real>(1, std::min<Real>(3 * w.reach, longest_span) / growth);
+    span_ = static_cast<double>(span);
     if (growth > most_spans * w.reach) return;
-    resolvent_.assign(static_cast<std::size_t>(P) * P * 2 * w.size, 0.0);
-    for (int n = 0; n < N; ++n)
-        for (int a = 0; a < P; ++a)
-            for (int b = 0; b < P; ++b) resolvent_[(a * P + b) * 2 * w.size + w.size + n] = static_cast<double>(R[n](a, b));
+    Matrix shorter = economised(N, resolvent_terms);  // of derivatives over the span
+    for (int n = N; n < resolvent_terms; ++n)
+        for (int i = 0; i < N; ++i) shorter(i, n) *= std::exp(std::lgamma(i + Real(1)) - std::lgamma(n + Real(1))) * std::pow(span, n - i);
+    resolvent_.assign(static_cast<std::size_t>(w.contacts) * P * N * w.size, 0.0);
+    for (int a = 0; a < w.contacts; ++a)
+        for (int b = 0; b < P; ++b)
+            for (int m = 0; m < N; ++m)
+                for (int i = 0; i < N; ++i) {
+                    Real sum = i >= m ? R[i - m](a, b) : Real(0);
+                    for (int n = N; n < resolvent_terms; ++n) sum += shorter(i, n) * R[n - m](a, b);
+                    resolvent_[((static_cast<std::size_t>(a) * P + b) * N + m) * w.size + i] = static_cast<double>(sum);
+                }
 }
 
 void TouchingSet::solve(const double* r, double* path, std::complex<double>* amplitude) noexcept {
     const MacroWindow& w = *window_;
     const int P = static_cast<int>(points_.size()), N = w.terms, stride = w.stride, size = w.size;
     const auto combine = w.sweep().combine;
+    for (int a = 0; pairs_ == 0 && a < w.contacts; ++a) {
+        double* out = path + a * stride;
+        const bool touches = std::find(points_.begin(), points_.end(), a) != points_.end();
+        if (!touches) std::copy_n(r + a * stride, size, out);
+        for (int b = 0; b < P; ++b)
+            (touches && b == 0 ? w.sweep().combined : combine)(out, size, r + points_[b] * stride, N,
+                                                               resolvent_.data() + (static_cast<std::size_t>(a) * P + b) * N * size, size);
+    }
+    if (pairs_ == 0) return;
     for (int a = 0; a < P; ++a) {
         double* out = path + points_[a] * stride;
-        if (pairs_ > 0) std::fill_n(out, size, 0.0);
-        for (int b = 0; pairs_ == 0 && b < P; ++b)
-            (b == 0 ? w.sweep().combined : combine)(out, size, r + points_[b] * stride, N,
-                                                    resolvent_.data() + (static_cast<std::size_t>(a * P + b) * 2 + 1) * size, -1);
-        if (pairs_ == 0) continue;
+        std::fill_n(out, size, 0.0);
         for (int b = 0; b < P; ++b)
             combine(out, size, r + points_[b] * stride + 2, N - 2, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
                     static_cast<long>(P) * P * size);

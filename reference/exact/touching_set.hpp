@@ -6,9 +6,9 @@
 // (lambda^2 + sum_j H_j K lambda^(1-j)) v = 0, and a polynomial as slow as the string, p_s = G (r'' + Re sum_k beta_k q_k), with G the
 // inverse of the operator on truncated vectors of derivatives and q_k,n = sum_{j >= n+2} H_j K v_k lambda_k^(n+1-j). beta follows from
 // p(0) = r(0), p'(0) = r'(0). The series in G is asymptotic: see longest_reach. Where some direction is not stiff,
-// or something is in series (H_0 is not zero then), nothing is split off: p follows from r by the resolvent's series over a span that is a
-// part of the window. All of it is made once per set of touching points. Leaves out: sets with such a direction beside one so stiff that
-// spans are short; solves() is false for them.
+// or something is in series (H_0 is not zero then), nothing is split off: p follows from r by the resolvent, over a window or a part of it.
+// All of it is made once per set of touching points. Leaves out: sets with such a direction beside one so stiff that spans are short;
+// solves() is false for them.
 #pragma once
 
 #include <complex>
@@ -48,7 +48,7 @@ private:
     int pairs_ = 0;
     double growth_ = 0, span_ = 1;
     std::vector<std::complex<double>> rate_, shape_;  // [pair], [contact][pair]
-    std::vector<double> resolvent_;                   // of a soft set [point][point][size zeros, then terms]
+    std::vector<double> resolvent_;                   // of a soft set: r -> path over its span [contact][point][column: derivative][row]
     std::vector<double> inverse_;                     // G [column: derivative][column: point][row: point][row: derivative]
     std::vector<double> start_;                       // (p(0), p'(0)) -> beta [2 pairs][2 pairs]
     std::vector<double> slow_;                        // what Re beta and -Im beta of a pair add to the slow part [contact][pair][2][size]
