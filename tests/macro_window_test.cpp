@@ -63,6 +63,22 @@ TEST(MacroWindow, ASoftContactIsWhatSmallStepsMakeOfItAsFarAsItsSpan) {
     for (const double k : {1e4, 3e5, 3e6}) EXPECT_LT(split_against_steps(2, 21, 1, k), 1e-11) << k;
 }
 
+// The linear systems of a collocation: I + a matrix of a norm below one half, so that no pivots are needed.
+TEST(MacroWindow, FactorsSolveTheSystemThatTheyAreOf) {
+    const SweepFunctions& sweep = sweep_functions();
+    for (const int size : {8, 16, 24, 40, 64}) {
+        std::vector<double> matrix(size * size), x(size), right(size, 0.0), scratch(size);
+        for (int j = 0; j < size; ++j) {
+            x[j] = std::cos(1.7 * j) + 0.1;
+            for (int i = 0; i < size; ++i) matrix[j * size + i] = std::sin(0.37 * i + 1.91 * j * j) / (2 * size) + (i == j ? 1 : 0);
+            for (int i = 0; i < size; ++i) right[i] += matrix[j * size + i] * x[j];
+        }
+        sweep.factor(matrix.data(), scratch.data(), size);
+        sweep.substitute(matrix.data(), right.data(), scratch.data(), size);
+        for (int i = 0; i < size; ++i) EXPECT_NEAR(right[i], x[i], 1e-14) << size << " " << i;
+    }
+}
+
 // A second point in the air moves as the moments of the first one's force move it, up to the end of the span.
 TEST(MacroWindow, ASoftContactPushesAPointInTheAirAsItsMomentsDo) {
     const Scene scene = c3_release();

@@ -97,14 +97,18 @@ void CollocatedContact::couple(double d) noexcept {
             const double* h = w.kernel(touching_[a], touching_[b]);
             double f[orders], power = d;
             for (int l = 0; l < last; ++l, power *= d) f[l] = h[l] * power;
-            for (int j = 0; j < nodes; ++j) {
-                double* column = couple_.data() + static_cast<std::size_t>(b * nodes + j) * size + a * nodes;
-                w.sweep().combined(column, nodes, f, last, &within_[j * nodes], nodes * nodes);
-                if (!lossy_) continue;  // which has nothing in series: h^(0) = 0
-                column = couple_speed_.data() + static_cast<std::size_t>(b * nodes + j) * size + a * nodes;
-                w.sweep().combined(column, nodes, f + 1, last - 1, &within_[j * nodes], nodes * nodes);
-                for (int i = 0; i < nodes; ++i) column[i] /= d;
-            }
+            double columns[nodes * nodes];  // all at once: a call for each would cost more than its sums
+            const auto write = [&](std::vector<double>& to) {
+                for (int j = 0; j < nodes; ++j)
+                    for (int i = 0; i < nodes; ++i)
+                        to[static_cast<std::size_t>(b * nodes + j) * size + a * nodes + i] = columns[j * nodes + i];
+            };
+            w.sweep().combined(columns, nodes * nodes, f, last, within_.data(), nodes * nodes);
+            write(couple_);
+            if (!lossy_) continue;  // which has nothing in series: h^(0) = 0
+            w.sweep().combined(columns, nodes * nodes, f + 1, last - 1, within_.data(), nodes * nodes);
+            for (double& x : columns) x /= d;
+            write(couple_speed_);
         }
 }
 

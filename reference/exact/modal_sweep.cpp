@@ -310,16 +310,46 @@ void subtract(double* to, double f, const double* column, int from, int size) {
     const V factor = hn::Set(d, f);
     for (int i = from; i < size; i += N) hn::StoreU(hn::NegMulAdd(factor, hn::LoadU(d, column + i), hn::LoadU(d, to + i)), d, to + i);
 }
+// Eight columns at a time: first among themselves, then from each column that follows, which is read and written once for all eight.
 void factor(double* matrix, double* column, int size) {
-    const int N = static_cast<int>(hn::Lanes(D()));
-    for (int c = 0; c < size; ++c) {
-        double* pivot = matrix + static_cast<long>(c) * size;
-        const int from = c / N * N;
-        const double inverse = 1 / pivot[c];
-        for (int i = from; i <= c; ++i) column[i] = 0;  // rows up to c stay
-        for (int i = c + 1; i < size; ++i) column[i] = pivot[i] *= inverse;
-        for (int j = c + 1; j < size; ++j)
-            subtract(matrix + static_cast<long>(j) * size, matrix[static_cast<long>(j) * size + c], column, from, size);
+    constexpr int block = 8;
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    using Lane = decltype(hn::SetTableIndices(d, static_cast<const int64_t*>(nullptr)));
+    Lane every[block];  // a lane everywhere
+    for (int k = 0; k < N; ++k) {
+        HWY_ALIGN int64_t index[block];
+        for (int i = 0; i < block; ++i) index[i] = k;
+        every[k] = hn::SetTableIndices(d, index);
+    }
+    HWY_ALIGN double low[block * block];  // their factors in their own rows, zero up to the diagonal [column][row]
+    for (int first = 0; first < size; first += block) {
+        double* HWY_RESTRICT panel = matrix + static_cast<long>(first) * size;
+        for (int c = first; c < first + block; ++c) {
+            double* pivot = matrix + static_cast<long>(c) * size;
+            const int from = c / N * N;
+            const double inverse = 1 / pivot[c];
+            for (int i = from; i <= c; ++i) column[i] = 0;  // rows up to c stay
+            for (int i = c + 1; i < size; ++i) column[i] = pivot[i] *= inverse;
+            for (int j = c + 1; j < first + block; ++j)
+                subtract(matrix + static_cast<long>(j) * size, matrix[static_cast<long>(j) * size + c], column, from, size);
+            for (int i = 0; i < block; ++i) low[(c - first) * block + i] = first + i > c ? pivot[first + i] : 0;
+        }
+        for (int j = first + block; j < size; ++j) {
+            double* HWY_RESTRICT to = matrix + static_cast<long>(j) * size;
+            V f[block], own[block];
+            for (int v = 0; v < block / N; ++v) own[v] = hn::LoadU(d, to + first + v * N);
+            for (int k = 0; k < block; ++k) {
+                f[k] = hn::TableLookupLanes(own[k / N], every[k % N]);
+                for (int v = k / N; v < block / N; ++v) own[v] = hn::NegMulAdd(f[k], hn::Load(d, low + k * block + v * N), own[v]);
+            }
+            for (int v = 0; v < block / N; ++v) hn::StoreU(own[v], d, to + first + v * N);
+            for (int i = first + block; i < size; i += N) {
+                V x = hn::LoadU(d, to + i);
+                for (int k = 0; k < block; ++k) x = hn::NegMulAdd(f[k], hn::LoadU(d, panel + static_cast<long>(k) * size + i), x);
+                hn::StoreU(x, d, to + i);
+            }
+        }
     }
 }
 void substitute(const double* matrix, double* right, double* x, int size) {
