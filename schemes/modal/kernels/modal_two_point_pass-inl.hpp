@@ -82,6 +82,14 @@ HWY_INLINE void note(TwoPoint& m, const ContactSolution& x, double eta) {
     }
 }
 
+// In a register from here on: GCC 12 otherwise reads it from memory at each use, three loads for one, and a pass waits for its loads.
+HWY_INLINE V held(V v) {
+#if HWY_ARCH_X86 && HWY_COMPILER_GCC && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+    asm("" : "+v"(v.raw));
+#endif
+    return v;
+}
+
 struct NothingBetween {
     template <int part>
     HWY_INLINE void at() const {}
@@ -107,11 +115,11 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Betw
         V forced = hn::Zero(d), g_b{}, g_c{};
         if constexpr (pluck) forced = hn::Mul(hn::Load(d, ge + j), fe);
         if constexpr (thread) {
-            g_c = hn::Load(d, of(Column::g_c));
-            forced = hn::MulAdd(g_c, fc, forced);
+            g_c = held(hn::Load(d, of(Column::g_c)));
+            forced = pluck ? hn::MulAdd(g_c, fc, forced) : hn::Mul(g_c, fc);
         }
         if constexpr (barrier) {
-            g_b = hn::Load(d, of(Column::g_b));
+            g_b = held(hn::Load(d, of(Column::g_b)));
             forced = hn::MulAdd(g_b, fb, forced);
         }
         const V s = hn::Add(u0, forced);  // (41)
