@@ -102,7 +102,7 @@ Block block_at(Trace& trace, long row, int rows, long end) {
     block.rows = static_cast<int>(std::min<long>(rows, end - row));
     block.taps = trace.taps();
     block.stride = trace.stride;
-    block.tap = trace.tap.data() + row;
+    block.tap = trace.tap.empty() ? nullptr : trace.tap.data() + row;
     block.energy = trace.energy.empty() ? nullptr : trace.energy.data() + row;
     return block;
 }

@@ -238,6 +238,7 @@ HWY_INLINE void combine_into(double* out, int size, const double* x, int count, 
     else if (size == N) combine_in<1, false, fresh>(out, x, count, A, step);
 }
 void combine(double* out, int size, const double* x, int count, const double* A, long step) {
+    if (count == 0) return;  // there may be no A
     combine_into<false>(out, size, x, count, A, step);
 }
 void combined(double* out, int size, const double* x, int count, const double* A, long step) {
