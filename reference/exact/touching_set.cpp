@@ -216,7 +216,6 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
         beta_[2 * k + 1] = -im;
     }
     const auto add_pairs = [&](int a) {
-        if (pairs_ == 0) return;
         combine(path + a * stride, size, beta_.data(), 2 * pairs_, slow_.data() + static_cast<std::size_t>(a) * P * 2 * size, size);
         for (int k = 0; k < pairs_; ++k) amplitude[a * P + k] = std::complex<double>(beta_[2 * k], -beta_[2 * k + 1]) * shape_[a * P + k];
     };
