@@ -74,7 +74,7 @@ struct SeriesPoints {
         Forces force;
         double Y_after = 0;
     };
-    Instant instant(double y_b, double y_c, double Y, bool at_start) const {  // at_start: there is no time before it
+    [[gnu::always_inline]] Instant instant(double y_b, double y_c, double Y, bool at_start) const {  // at_start: there is no time before it
         return law.law.alpha == 1 || !barrier ? linear_instant(y_b, y_c, Y, at_start) : power_instant(y_b, y_c, Y, at_start);
     }
 
@@ -84,7 +84,7 @@ private:
         double operator()(double Y, double c, double b) const { return on_Y * Y + (on_c * c + on_b * b); }
     };
     Relaxation in, out;  // in contact, and not: exponent 1
-    Instant linear_instant(double y_b, double y_c, double Y, bool at_start) const {
+    [[gnu::always_inline]] Instant linear_instant(double y_b, double y_c, double Y, bool at_start) const {
         const double b = h_b - y_b, c = h_c - y_c;
         const double from_in = in(Y, c, b), from_out = out(Y, c, b);
         Instant i;

@@ -25,7 +25,8 @@ struct SeriesForce {
         SeriesPoints::Forces force{};      // at the step
         double least_force = 0, most_force = 0;
 
-        void act(const SeriesPoints& p, const MissingCompliance& missing, double b, double c, double pluck, bool at_start) {
+        [[gnu::always_inline]] void act(const SeriesPoints& p, const MissingCompliance& missing, double b, double c, double pluck,
+                                        bool at_start) {
             F_e = pluck;
             y_b = b + missing.be * pluck;
             y_c = c + missing.ce * pluck;
