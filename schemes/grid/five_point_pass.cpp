@@ -6,6 +6,8 @@
 
 #include <hwy/highway.h>
 
+#include "schemes/grid/neighbours-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
@@ -14,13 +16,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <bool loss_in_space>
 void pass(const FivePointWeights& w, int intervals, double* HWY_RESTRICT next, const double* HWY_RESTRICT now,
           const double* HWY_RESTRICT before, double* HWY_RESTRICT kept) {
-    const hn::CappedTag<double, 8> d;
+    const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const auto a0 = hn::Set(d, w.a0), a1 = hn::Set(d, w.a1), a2 = hn::Set(d, w.a2), b0 = hn::Set(d, w.b0), b1 = hn::Set(d, w.b1),
                b2 = hn::Set(d, w.b2);
     for (int l = 1; l < intervals; l += lanes) {
-        const auto p = hn::Add(hn::LoadU(d, now + l - 1), hn::LoadU(d, now + l + 1));
-        const auto q = hn::Add(hn::LoadU(d, now + l - 2), hn::LoadU(d, now + l + 2));
+        const auto p = hn::Add(neighbour<-1>(now + l), neighbour<1>(now + l));
+        const auto q = hn::Add(neighbour<-2>(now + l), neighbour<2>(now + l));
         auto sum = hn::MulAdd(a2, q, hn::MulAdd(a1, p, hn::Mul(a0, hn::LoadU(d, now + l))));
         sum = hn::MulAdd(b0, hn::LoadU(d, before + l), sum);
         if constexpr (loss_in_space) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schemes/grid/grid_solve.cpp"
@@ -9,11 +10,12 @@
 
 #include <hwy/highway.h>
 
+#include "schemes/grid/neighbours-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<double, 8>;
 
 // x_-k = -x_k, x_{N+k} = -x_{N-k}, k <= reach
 HWY_INLINE void mirror(double* HWY_RESTRICT x, int N, int reach) {
@@ -26,20 +28,34 @@ HWY_INLINE void mirror(double* HWY_RESTRICT x, int N, int reach) {
     }
 }
 
-// out_l = c_0 x_l + sum_k c_k (x_{l - k step} + x_{l + k step})
-template <int pairs, int step>
-HWY_INLINE void convolve(const double* HWY_RESTRICT c, int N, const double* HWY_RESTRICT x, double* HWY_RESTRICT out) {
+// out_l = c_0 x_l + sum_k c_k (x_{l - k step} + x_{l + k step}) of `vectors` vectors of l. Where a vector holds several steps they read the
+// same neighbours, in memory once.
+template <int pairs, int step, int vectors, int... j>
+HWY_INLINE void sum_at(int l, const double* HWY_RESTRICT c, const double* HWY_RESTRICT x, double* HWY_RESTRICT out,
+                       std::integer_sequence<int, j...>) {
     const D d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int l = 1; l < N; l += lanes) {
-        auto even = hn::Mul(hn::Set(d, c[0]), hn::LoadU(d, x + l)), odd = hn::Zero(d);
+    constexpr int lanes = hn::MaxLanes(D()), apart = lanes / step;
+    const hn::Vec<D> near[] = {neighbour<(j - pairs) * step>(x + l)...};
+#pragma GCC unroll 4
+    for (int v = 0; v < vectors; ++v) {
+        const int mid = pairs + v * apart;
+        auto even = hn::Mul(hn::Set(d, c[0]), near[mid]), odd = hn::Zero(d);
+#pragma GCC unroll 16
         for (int k = 1; k <= pairs; ++k) {
-            const auto both = hn::Add(hn::LoadU(d, x + l - k * step), hn::LoadU(d, x + l + k * step));
+            const auto both = hn::Add(near[mid - k], near[mid + k]);
             if (k % 2) odd = hn::MulAdd(hn::Set(d, c[k]), both, odd);
             else even = hn::MulAdd(hn::Set(d, c[k]), both, even);
         }
-        hn::StoreU(hn::Add(even, odd), d, out + l);
+        hn::StoreU(hn::Add(even, odd), d, out + l + v * lanes);
     }
+}
+template <int pairs, int step>
+HWY_INLINE void convolve(const double* HWY_RESTRICT c, int N, const double* HWY_RESTRICT x, double* HWY_RESTRICT out) {
+    constexpr int lanes = hn::MaxLanes(D()), vectors = lanes == 2 * step ? 2 : 1;
+    int l = 1;
+    for (; l + (vectors - 1) * lanes < N; l += vectors * lanes)
+        sum_at<pairs, step, vectors>(l, c, x, out, std::make_integer_sequence<int, 2 * pairs + 1 + (vectors - 1) * lanes / step>());
+    if (l < N) sum_at<pairs, step, 1>(l, c, x, out, std::make_integer_sequence<int, 2 * pairs + 1>());
 }
 
 template <int pairs>
