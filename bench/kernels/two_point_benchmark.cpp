@@ -69,18 +69,20 @@ void step(benchmark::State& state) {
 }
 // The same with what is missing of the string's compliance in series, and the explicit form that it makes possible with the modes that are
 // stable there. Their errors are in docs/compliance-matching.md: there is no plain form to take them against.
-void matched(benchmark::State& state, const std::string& name, int modes, bool option) {
+void matched(benchmark::State& state, const std::string& name, int modes, decltype(Settings::options) options) {
     const Scene scene = three_taps();
     Settings s = settings();
     s.modes = modes;
-    if (option) s.options = {{"compliance", "matched"}};
+    s.options = std::move(options);
     const auto& all = schemes();
     const auto scheme = make_scheme(*std::find_if(all.begin(), all.end(), [&](const Descriptor& d) { return d.name == name; }), scene, s);
     time_rows(state, *scheme);
 }
 BENCHMARK(step<fused>)->Name("two_point/fused");
-BENCHMARK_CAPTURE(matched, two_point, "modal_two_point", 133, true);
-BENCHMARK_CAPTURE(matched, strang_40_modes, "modal_strang", 40, false);
+using Words = decltype(Settings::options);
+BENCHMARK_CAPTURE(matched, two_point, "modal_two_point", 133, Words{{"compliance", "matched"}});
+BENCHMARK_CAPTURE(matched, strang_40_modes, "modal_strang", 40, Words{});
+BENCHMARK_CAPTURE(matched, strang_of_order_4_40_modes, "modal_strang", 40, Words{{"order", "4"}});
 BENCHMARK(step<plain<double>>)->Name("two_point/plain_eigen");
 
 // Four strings of different pitch, and four times those, as runs of one and as one scene. Counter `error`: the bridge force of all over
