@@ -165,6 +165,28 @@ TEST(MacroWindow, TheThreadMovesTheModesAsExactlyAsCrossingsAreFound) {
     }
 }
 
+// Weights are in units of the last point's. One at the string's end, where no mode moves, changes no other.
+TEST(MacroWindow, APointThatNoModeMovesLeavesTheOthersAsTheyWere) {
+    String s = c3_release().strings.front();
+    const Modes modes = modes_of(s, 133);
+    std::vector<std::vector<double>> ends;
+    for (const bool fixed : {false, true}) {
+        if (fixed) s.barriers.push_back(LumpedBarrier{0, -1, 0, {1e7}, 1, 0});
+        s.thread.reset();
+        MacroWindow w(modes, s, 1 / 44100.0, 1e-10);
+        std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0), M(2 * w.stride, 0.0);
+        for (int n = 0; n < w.terms; ++n) M[n] = 1e-2 * inverse_factorial[n + 1];
+        w.open(y.data(), u.data(), false, 0);
+        ends.emplace_back(w.free_motion(0), w.free_motion(0) + w.size);
+        w.state_at(1, M.data(), y.data(), u.data(), y.data(), u.data());
+        for (const auto* x : {&y, &u}) ends.back().insert(ends.back().end(), x->begin(), x->end());
+        w.state_near(0.5, M.data(), y.data(), u.data(), y.data(), u.data());
+        for (const auto* x : {&y, &u}) ends.back().insert(ends.back().end(), x->begin(), x->end());
+    }
+    ASSERT_EQ(ends[0].size(), ends[1].size());
+    for (std::size_t i = 0; i < ends[0].size(); ++i) EXPECT_NEAR(ends[0][i], ends[1][i], 1e-12 * std::abs(ends[0][i]) + 1e-17) << i;
+}
+
 // Two pairs of frequencies near one another over a slow parabola: the first crossing of a sampled gap, and never later.
 TEST(FirstCrossing, FindsWhatDenseSamplingFindsAndNeverLater) {
     int crossings = 0;

@@ -68,10 +68,10 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     tail_ = tail(reach, terms);
     modal_tail_ = 10 * std::exp(reach) * tail(length, terms) / std::min(1.0, length);
 
-    a_ = osc.a, b_ = osc.b, gains_ = springs.gains;
+    a_ = osc.a, b_ = osc.b;
     for (double& x : a_) x *= length;
     for (double& x : b_) x *= length * length;
-    for (double& x : gains_) x *= length * length;
+    make_base(modes);
     for (int i = 0; i < osc.padded; i += sweep_lanes) {
         double fastest = 0;  // root of x^2 - a x + b, or its size
         for (int j = i; j < std::min(i + sweep_lanes, osc.padded); ++j)
@@ -89,9 +89,31 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     scratch_.resize((points * (stride + 1) + 4 * size) * lanes);
     zeros_.assign(4 * osc.padded, 0.0);
     ones_.assign(osc.padded, 1.0);
-    impulse_ = flow_ = flow_at_ = zeros_;
+    impulse_.assign(osc.padded, 0.0);
+    offset_ = impulse_;
+    base_moments_.assign(stride, 0.0);
+    flow_ = flow_at_ = zeros_;
     free_flow(1, flow_);
     make_kernel();
+}
+
+void MacroWindow::make_base(const Modes& modes) {
+    const int M = osc.padded, last = springs.points - 1;
+    const double gain = length * length / (modes.mass * osc.rate * osc.rate);
+    base_.assign(M, 0.0);
+    over_base_ = base_;
+    for (int i = 0; i < modes.count(); ++i) {
+        double most = 0;
+        for (int a = 0; a < springs.points; ++a) most = std::max(most, std::abs(springs.weights[a * M + i]));
+        for (int f = 0; f < springs.forces; ++f) most = std::max(most, std::abs(springs.gains[f * M + i]) * length * length / gain);
+        const double own = last >= 0 ? springs.weights[last * M + i] : 1;
+        base_[i] = std::abs(own) > 1e-100 * most ? own : most > 0 ? 1e-100 * most : 1;
+        over_base_[i] = 1 / base_[i];
+    }
+    base_gain_ = gain;
+    weights_ = springs.weights, gains_ = springs.gains;
+    for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] *= over_base_[i % M];
+    for (std::size_t i = 0; i < gains_.size(); ++i) gains_[i] *= length * length * over_base_[i % M];
 }
 
 // The thread's force F_s answers what its point does without it. With C_cc in series (0: nothing), Y_c the thread's own displacement,
@@ -222,7 +244,7 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
     m.count = size;
     m.stride = stride;
     m.terms = sweep_terms_.data();
-    m.y = y, m.u = u, m.a = a_.data(), m.b = b_.data(), m.weights = s.weights.data();
+    m.y = y, m.u = u, m.a = a_.data(), m.b = b_.data(), m.base = base_.data(), m.weights = weights_.data();
     m.p = p_.data(), m.reach = reach_.data(), m.scratch = scratch_.data();
     sweep_->read(m);
     std::copy_n(p_.begin(), contacts * stride, free_.begin());
@@ -273,7 +295,12 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
 int MacroWindow::act(double at, const double* e, const double* M) noexcept {
     const Springs& s = springs;
     int acting = 0;
+    std::fill_n(base_moments_.begin(), size, 0.0);
     const auto push = [&](int force, const double* m) {
+        if (force == s.points - 1) {
+            for (int n = 0; n < size; ++n) base_moments_[n] = base_gain_ * m[n];
+            return;
+        }
         acting_moments_[acting] = m;
         acting_[acting++] = gains_.data() + static_cast<long>(force) * osc.padded;
     };
@@ -313,6 +340,7 @@ void MacroWindow::move(int forces, const double* flow, const double* y, const do
     m.terms = sweep_terms_.data();
     m.y = y, m.u = u, m.a = a_.data(), m.b = b_.data();
     m.e11 = flow, m.e12 = flow + osc.padded, m.e21 = flow + 2 * osc.padded, m.e22 = flow + 3 * osc.padded;
+    m.base = base_.data(), m.base_moments = base_moments_.data();
     m.gains = acting_.data(), m.moments = acting_moments_.data();
     m.y_out = y_out, m.u_out = u_out;
     sweep_->move(m);
@@ -334,9 +362,12 @@ void MacroWindow::state_near(double at, const double* M, const double* y, const 
     const double* e = until + 1;
     powers(at, 2 * size + 1, until + 1);
     int acting = act(at, e, M);
-    for (int i = 0; i < osc.padded; ++i) impulse_[i] = u[i] + a_[i] * y[i];
+    for (int i = 0; i < osc.padded; ++i) {
+        impulse_[i] = (u[i] + a_[i] * y[i]) * over_base_[i];
+        offset_[i] = y[i] * over_base_[i];
+    }
     acting_[acting] = impulse_.data(), acting_moments_[acting++] = e;
-    acting_[acting] = y, acting_moments_[acting++] = e - 1;
+    acting_[acting] = offset_.data(), acting_moments_[acting++] = e - 1;
     move(acting, zeros_.data(), y, u, y_out, u_out);
 }
 

@@ -89,6 +89,7 @@ private:
     };
     Readings readings(const double* y, double thread, double F_e) const noexcept;
     bool relaxes() const { return series_ && series_->relaxes(); }
+    void make_base(const Modes&);
     void make_kernel();
     void free_flow(double at, std::vector<double>& e) const noexcept;
     int act(double at, const double* e, const double* M) noexcept;
@@ -101,13 +102,17 @@ private:
     std::vector<Pluck> pluck_;  // none or one
     std::vector<char> none_;
     std::vector<int> sweep_terms_;
-    std::vector<double> a_, b_, gains_;  // in units of the window
-    std::vector<double> slower_;         // reach^-n
+    std::vector<double> a_, b_;  // in units of the window
+    // Of the last point; where that is a node the smallest that counts for nothing, 0 where there is no mode. What other points weigh and
+    // forces gain is in units of these, in the window's units; base_gain_: what the last point's own force gains.
+    std::vector<double> base_, over_base_, weights_, gains_, base_moments_;
+    double base_gain_ = 0;
+    std::vector<double> slower_;  // reach^-n
     double tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0, thread_impulse_ = 0, thread_force_ = 0,
                                push_growth_ = 0;
     bool plucked_ = false;
     std::vector<double> kernel_, answer_, reply_, by_thread_, flow_, flow_at_;  // h_ab; kappa_b; F_c of p_c; h_ac; free motion's matrix
-    std::vector<double> p_, free_, force_, moments_, reach_, scratch_, impulse_, zeros_, ones_;
+    std::vector<double> p_, free_, force_, moments_, reach_, scratch_, impulse_, offset_, zeros_, ones_;
     std::vector<const double*> acting_, acting_moments_;
 };
 

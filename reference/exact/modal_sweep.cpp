@@ -50,38 +50,50 @@ constexpr double inverse_factorials[32] = {1.0 / 1,
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
-// K vectors of modes from i on. One or two outputs are summed on the way; for more the derivatives are kept.
+// K vectors of modes from i on, which are scaled by `base`: the last output is their sum. One or two outputs are summed on the way; for
+// more the derivatives are kept.
 template <int fixed_outputs, int K>
 HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum, double* HWY_RESTRICT kept) {
     constexpr bool keep = fixed_outputs < 0;
+    constexpr int fixed_others = keep ? 0 : fixed_outputs - 1;
     const D d;
-    const int N = static_cast<int>(hn::Lanes(d)), outputs = keep ? m.outputs : fixed_outputs, stride = m.count;
+    const int N = static_cast<int>(hn::Lanes(d)), stride = m.count, others = keep ? m.outputs - 1 : fixed_others;
     const int terms = m.terms[i / sweep_lanes];
-    V d0[K], d1[K], a[K], b[K], g[keep ? 1 : fixed_outputs][K];
+    V d0[K], d1[K], a[K], b[K], g[fixed_others + 1][K];
     for (int k = 0; k < K; ++k) {
         const int at = i + k * N;
+        const V base = hn::LoadU(d, m.base + at);
         a[k] = hn::LoadU(d, m.a + at);
         b[k] = hn::LoadU(d, m.b + at);
-        d0[k] = hn::LoadU(d, m.y + at);
-        d1[k] = hn::LoadU(d, m.u + at);
+        d0[k] = hn::Mul(base, hn::LoadU(d, m.y + at));
+        d1[k] = hn::Mul(base, hn::LoadU(d, m.u + at));
     }
     const auto load_weights = [&](int o, V* w) {
         for (int k = 0; k < K; ++k) w[k] = hn::LoadU(d, m.weights + static_cast<long>(o) * m.modes + i + k * N);
     };
-    for (int o = 0; o < outputs; ++o) {
+    V size[K];
+    for (int k = 0; k < K; ++k) size[k] = hn::Add(hn::Abs(d0[k]), hn::Abs(d1[k]));
+    for (int o = 0; o < others; ++o) {
         V* w = g[keep ? 0 : o];
         load_weights(o, w);
-        V size = hn::LoadU(d, sum + (o * (stride + 1) + stride) * N);
-        for (int k = 0; k < K; ++k) size = hn::MulAdd(hn::Abs(w[k]), hn::Add(hn::Abs(d0[k]), hn::Abs(d1[k])), size);
-        hn::StoreU(size, d, sum + (o * (stride + 1) + stride) * N);
+        V total = hn::LoadU(d, sum + (o * (stride + 1) + stride) * N);
+        for (int k = 0; k < K; ++k) total = hn::MulAdd(hn::Abs(w[k]), size[k], total);
+        hn::StoreU(total, d, sum + (o * (stride + 1) + stride) * N);
     }
+    double* HWY_RESTRICT own = sum + others * (stride + 1) * N;
+    V reach = hn::LoadU(d, own + stride * N);
+    for (int k = 0; k < K; ++k) reach = hn::Add(size[k], reach);
+    hn::StoreU(reach, d, own + stride * N);
     for (int n = 0; n < terms; ++n) {
-        for (int o = 0; !keep && o < outputs; ++o) {
+        for (int o = 0; o < fixed_others; ++o) {
             double* out = sum + (o * (stride + 1) + n) * N;
             V total = hn::LoadU(d, out);
             for (int k = 0; k < K; ++k) total = hn::MulAdd(g[o][k], d0[k], total);
             hn::StoreU(total, d, out);
         }
+        V total = hn::LoadU(d, own + n * N);
+        for (int k = 0; k < K; ++k) total = hn::Add(d0[k], total);
+        hn::StoreU(total, d, own + n * N);
         for (int k = 0; k < K; ++k) {
             if (keep) hn::StoreU(d0[k], d, kept + (n * K + k) * N);
             const V next = hn::NegMulSub(a[k], d1[k], hn::Mul(b[k], d0[k]));
@@ -89,7 +101,7 @@ HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum,
             d1[k] = next;
         }
     }
-    for (int o = 0; keep && o < outputs; ++o) {
+    for (int o = 0; keep && o < others; ++o) {
         load_weights(o, g[0]);
         for (int n = 0; n < terms; ++n) {
             double* out = sum + (o * (stride + 1) + n) * N;
@@ -123,6 +135,7 @@ HWY_INLINE V fold(const double* rows) {
 void read(const ModalSweep& m) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d)), outputs = m.outputs, stride = m.count;
+    if (outputs == 0) return;
     double* HWY_RESTRICT sum = m.scratch;                                // [output][stride + 1][N], reach the last
     double* HWY_RESTRICT kept = m.scratch + outputs * (stride + 1) * N;  // [term][K][N]
     for (int i = 0; i < outputs * (stride + 1) * N; i += N) hn::StoreU(hn::Zero(d), d, sum + i);
@@ -146,27 +159,37 @@ HWY_INLINE void move_block(const ModalSweep& m, int i) {
         const int at = i + k * N;
         a[k] = hn::LoadU(d, m.a + at);
         b[k] = hn::LoadU(d, m.b + at);
-        Y[k] = U[k] = hn::Zero(d);
         if constexpr (forces > 0)
             for (int f = 0; f < forces; ++f) g[k][f] = hn::LoadU(d, m.gains[f] + at);
     }
-    for (int n = m.terms[i / sweep_lanes] - 1; n >= 0; --n)
+    const auto pushed = [&](int k, int n) {
+        V f = hn::Set(d, m.base_moments[n]);
+        for (int j = 0; j < count; ++j) {
+            const V moment = hn::Set(d, m.moments[j][n]);
+            if constexpr (forces > 0) f = hn::MulAdd(g[k][j], moment, f);
+            else f = hn::MulAdd(hn::LoadU(d, m.gains[j] + i + k * N), moment, f);
+        }
+        return f;
+    };
+    const int terms = m.terms[i / sweep_lanes];
+    for (int k = 0; k < K; ++k) {
+        Y[k] = pushed(k, terms - 1);
+        U[k] = hn::NegMulAdd(a[k], Y[k], pushed(k, terms - 2));
+    }
+    for (int n = terms - 3; n >= 0; --n)
         for (int k = 0; k < K; ++k) {
-            V f = hn::Zero(d);
-            for (int j = 0; j < count; ++j) {
-                const V moment = hn::Set(d, m.moments[j][n]);
-                if constexpr (forces > 0) f = hn::MulAdd(g[k][j], moment, f);
-                else f = hn::MulAdd(hn::LoadU(d, m.gains[j] + i + k * N), moment, f);
-            }
-            const V next = hn::NegMulAdd(a[k], U[k], hn::NegMulAdd(b[k], Y[k], f));
+            const V next = hn::NegMulAdd(a[k], U[k], hn::NegMulAdd(b[k], Y[k], pushed(k, n)));
             Y[k] = U[k];
             U[k] = next;
         }
     for (int k = 0; k < K; ++k) {
         const int at = i + k * N;
-        const V y = hn::LoadU(d, m.y + at), u = hn::LoadU(d, m.u + at);
-        hn::StoreU(hn::MulAdd(hn::LoadU(d, m.e11 + at), y, hn::MulAdd(hn::LoadU(d, m.e12 + at), u, Y[k])), d, m.y_out + at);
-        hn::StoreU(hn::MulAdd(hn::LoadU(d, m.e21 + at), y, hn::MulAdd(hn::LoadU(d, m.e22 + at), u, U[k])), d, m.u_out + at);
+        const V y = hn::LoadU(d, m.y + at), u = hn::LoadU(d, m.u + at), base = hn::LoadU(d, m.base + at);
+        const auto end = [&](const double* of_y, const double* of_u, V by_forces) {
+            return hn::MulAdd(base, by_forces, hn::MulAdd(hn::LoadU(d, of_y + at), y, hn::Mul(hn::LoadU(d, of_u + at), u)));
+        };
+        hn::StoreU(end(m.e11, m.e12, Y[k]), d, m.y_out + at);
+        hn::StoreU(end(m.e21, m.e22, U[k]), d, m.u_out + at);
     }
 }
 template <int forces>

@@ -8,22 +8,25 @@ constexpr int sweep_lanes = 32;  // modes in a block; they are padded to a multi
 
 struct ModalSweep {
     int modes = 0, outputs = 0, forces = 0;
-    int count = 0, stride = 0;                                                    // read: derivatives of an output, and between outputs
-    const int* terms = nullptr;                                                   // [block]
-    const double *y = nullptr, *u = nullptr;                                      // state; u = velocity in units of the window
-    const double *a = nullptr, *b = nullptr;                                      // y'' = -a y' - b y
-    const double* weights = nullptr;                                              // [output][mode]
+    int count = 0, stride = 0;                // read: derivatives of an output, and between outputs
+    const int* terms = nullptr;               // [block]
+    const double *y = nullptr, *u = nullptr;  // state; u = velocity in units of the window
+    const double *a = nullptr, *b = nullptr;  // y'' = -a y' - b y
+    // The last output's weights are `base`, and the others' are in units of those: a product less for each term. Likewise of the forces.
+    const double* base = nullptr;                                                 // [mode], zero for what fills a vector alone
+    const double* weights = nullptr;                                              // [output but the last][mode]
     double *p = nullptr, *scratch = nullptr;                                      // read: [output][stride], derivatives; reach behind them
     double* reach = nullptr;                                                      // read: [output], sum |w| (|y| + |u|)
     const double *e11 = nullptr, *e12 = nullptr, *e21 = nullptr, *e22 = nullptr;  // move: the free motion's matrix
-    const double* const* gains = nullptr;                                         // [force][mode]
+    const double* base_moments = nullptr;                                         // [term], of a force whose gains are `base`
+    const double* const* gains = nullptr;                                         // [force][mode], over base
     const double* const* moments = nullptr;                                       // [force][term]
     double *y_out = nullptr, *u_out = nullptr;
 };
 struct SweepFunctions {
-    // p[o][n] = n-th derivative of sum_i w_oi y_i. scratch: (outputs (count + 1) + 4 count) x 8 doubles
+    // p[o][n] = n-th derivative of sum_i base_i w_oi y_i. scratch: (outputs (count + 1) + 4 count) x 8 doubles
     void (*read)(const ModalSweep&);
-    // y_out = e11 y + e12 u + ..., with sum_n A^n (0, sum_f gain_f m_fn) by Horner
+    // y_out = e11 y + e12 u + ..., with base sum_n A^n (0, m_n + sum_f gain_f m_fn) by Horner
     void (*move)(const ModalSweep&);
     // out[i] += sum_j x_j A[j step + i], i < size: shifts, convolutions and matrices, by the step. size: a multiple of 8. For step -1
     // there are `count` zeros before A, or before A + 1.
