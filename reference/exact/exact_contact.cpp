@@ -5,7 +5,7 @@
 // vectors move. From one event to the next the points follow
 //   - their free motion, where nothing touches;
 //   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast pair per point, or a polynomial where they are soft;
-//   - collocated_contact.hpp, step by step, where the law is no spring or there are many contacts.
+//   - collocated_contact.hpp, step by step (contact_steps.hpp), where the law is no spring or there are many contacts.
 // crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. With compliance=matched the static
 // deflection of the modes left out stands in series with barrier and thread (in_series.hpp).
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "reference/exact/collocated_contact.hpp"
+#include "reference/exact/contact_steps.hpp"
 #include "reference/exact/crossing.hpp"
 #include "reference/exact/macro_window.hpp"
 #include "reference/exact/pluck_series.hpp"
@@ -43,6 +44,13 @@ std::vector<BarrierLaw> laws_of(const String& s, const std::optional<InSeries>& 
     return laws;
 }
 
+double exponent_of(const std::vector<BarrierLaw>& laws) {  // the one farthest from a spring's
+    double exponent = 1;
+    for (const BarrierLaw& l : laws)
+        if (std::abs(l.law.law.alpha - 1) > std::abs(exponent - 1)) exponent = l.law.law.alpha;
+    return exponent;
+}
+
 class ExactContact final : public Scheme {
 public:
     ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance, const std::optional<InSeries>&);
@@ -57,6 +65,7 @@ private:
     bool window(double end, bool plucked, double since_pluck, const Block& out) noexcept;
     double phase(double at, double end, bool probe) noexcept;  // to the next event, or as far as this way of going on reaches
     double collocated(double left, int& crossed) noexcept;
+    double leaving(double d, int but) const noexcept;
     Gap gap(int contact, int terms) const noexcept;  // the side the point is on now: positive until the next event
     int next_crossing(double& end, int terms) noexcept;
     void settle() noexcept;  // which points touch, by where they are and where they go
@@ -85,7 +94,8 @@ private:
     double bridge_impulse_ = 0, thread_impulse_ = 0;
     WindowEnergies::Sums energies_;  // of the interval that ends here
     int idle_ = 0;
-    double step_ = 0;  // of the collocation, the last
+    ContactSteps steps_;
+    double leaves_ = HUGE_VAL;  // when the first of the points in collocation lets go, perhaps
     Extremes extremes_;
 
     // one window; rows of window_.stride
@@ -108,7 +118,8 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
       readout_(scene, modes_),
       tap_rate_(tap_rate),
       tolerance_(tolerance),
-      interval_(window_.per_row) {
+      interval_(window_.per_row),
+      steps_(0.1 * tolerance, exponent_of(law_)) {
     if (s.pluck) pluck_.push_back(*s.pluck);
     start_ = window_.osc.pad(initial_displacement(modes_, s));
     std::vector<double> stiffness;
@@ -142,7 +153,8 @@ void ExactContact::reset() noexcept {
     std::fill(touching_.begin(), touching_.end(), 0);
     std::fill(known_zero_.begin(), known_zero_.end(), 0);
     row_ = idle_ = 0;
-    step_ = 1;
+    steps_.reset();
+    leaves_ = HUGE_VAL;
     onward_ = false;
     bridge_impulse_ = thread_impulse_ = thread_force_ = 0;
     energies_ = {};
@@ -277,6 +289,7 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
         end = collocated(left, crossed);
         if (!(end >= 0)) return -1;
     }
+    if (!collocated_ && crossed >= 0 && !touching_[crossed]) steps_.set_in(), leaves_ = HUGE_VAL;
     onward_ = collocated_;
     for (int a : touched_) measure(a, end, a == crossed);
 
@@ -319,36 +332,54 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
 double ExactContact::collocated(double left, int& crossed) noexcept {
     const MacroWindow& w = window_;
     using From = CollocatedContact::From;
-    const double allowed = 0.1 * tolerance_;
-    double d = std::min(left, step_);
+    double d = steps_.next(left, leaves_), error;
     for (int tries = 0;; ++tries) {
         if (tries > 60) return -1;
-        const double error = collocation_.step(r_.data(), touched_, d,
-                                               tries > 0 ? From::same_start
-                                               : onward_ ? From::last_end
-                                                         : From::elsewhere);
+        error = collocation_.step(r_.data(), touched_, d, tries > 0 ? From::same_start : onward_ ? From::last_end : From::elsewhere);
         ++extremes_.steps;
-        const double fits = std::pow(allowed / std::max(error, 1e-30), 0.1);  // a smooth force errs by d^12, near its onset by less
-        if (error <= allowed) {
-            if (d >= step_ || fits < 1) step_ = std::min(1.0, d * std::clamp(0.8 * fits, 0.5, 4.0));
-            break;
+        if (steps_.fits(error)) break;
+        leaves_ = HUGE_VAL;
+        if (error < 1e-2) {  // else the path says nothing
+            collocation_.path(r_.data(), path_.data());
+            double end = d;
+            const int first = next_crossing(end, w.size);
+            leaves_ = first < 0 ? d + leaving(d, -1) : touching_[first] ? end : HUGE_VAL;
         }
-        d *= std::clamp(0.8 * fits, 0.1, 0.7);
-        step_ = d;
+        steps_.rejected(error, leaves_);
+        d = steps_.next(left, leaves_);
     }
     for (int i = 0; i < 6; ++i) {
         collocation_.path(r_.data(), path_.data());
         double end = d;
         const int first = next_crossing(end, w.size);
-        if (first < 0) return d;
+        if (first < 0) break;
         crossed = first;
-        if (std::abs(end - d) <= 4e-16) break;
+        if (std::abs(end - d) <= std::max(4e-16, 1e-3 * tolerance_ * d)) break;
         d = end;
-        if (!(d > negligible)) return 0;
+        if (!(d > negligible)) {
+            d = 0;
+            break;
+        }
         if (collocation_.step(r_.data(), touched_, d, From::same_start) == HUGE_VAL) return -1;
         ++extremes_.steps;
     }
+    steps_.accepted(error, d);
+    if (crossed >= 0 && !touching_[crossed]) steps_.set_in();
+    leaves_ = leaving(d, crossed);
     return d;
+}
+
+// When the first of the points that touch lets go, from the end of a step d on, by its acceleration there.
+double ExactContact::leaving(double d, int but) const noexcept {
+    double first = HUGE_VAL;
+    for (int a : touched_) {
+        if (a == but) continue;
+        double now[3];
+        window_.sweep().evaluate(path_.data() + static_cast<long>(a) * window_.stride, window_.size, d, now);
+        const double depth = -now[0], root = now[1] * now[1] + 2 * now[2] * depth;  // depth - now1 t - now2 t^2/2 = 0
+        if (depth > 0 && root >= 0 && now[1] + std::sqrt(root) > 0) first = std::min(first, 2 * depth / (now[1] + std::sqrt(root)));
+    }
+    return first;
 }
 
 // The points' free motion and the moments, from the instant of this phase's start to `by` later, `left` before the window's end.
