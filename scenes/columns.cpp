@@ -42,7 +42,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     return cells;
 }
 
-struct Reading {
+struct ColumnLine {
     std::string place;  // "modes.csv:12"
 
     std::size_t find(const std::vector<std::string_view>& header, const Column& c) const {
@@ -72,17 +72,17 @@ void read_columns(const std::string& path, const std::string& text, const Column
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         const std::string_view one = trimmed(std::string_view(text).substr(begin, end - begin));
-        const Reading reading{path + ":" + std::to_string(++line)};
+        const ColumnLine at{path + ":" + std::to_string(++line)};
         begin = end + 1;
         if (one.empty() || one.front() == '#') continue;
         const auto cells = cells_of(one);
         if (header) {
-            column_a = reading.find(cells, first), column_b = reading.find(cells, second);
+            column_a = at.find(cells, first), column_b = at.find(cells, second);
             header = false;
             continue;
         }
-        a.push_back(reading.number(cells, column_a, first));
-        b.push_back(reading.number(cells, column_b, second));
+        a.push_back(at.number(cells, column_a, first));
+        b.push_back(at.number(cells, column_b, second));
     }
     if (header) throw SceneFileError(path + ":1: found no header, expected the columns " + list_of({first.name, second.name}));
 }

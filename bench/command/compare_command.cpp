@@ -28,16 +28,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder / "cells", error);
-    if (!fs::is_directory(folder))
-        throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
-    store::must_be_writable(folder / "cells.csv");
-    store::must_be_writable(folder / "cells" / "any.json");
-    store::sweep_parts(folder / "cells");
-}
-
 std::string kept_text(const compare::KeptCells& keep, const std::string& folder) {
     if (folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
     if (keep.of == 0) return "interrupted: no cell has its errors yet; long runs of references are kept";

@@ -21,7 +21,6 @@
 namespace jvari::bench::command {
 
 namespace {
-using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 void clear_line() {
@@ -67,7 +66,7 @@ public:
         if (shown_) clear_line();
     }
     void show(double fraction, const std::string& what) override {
-        const auto now = Clock::now();
+        const auto now = std::chrono::steady_clock::now();
         if (now - start_ < 2s || now - last_ < 200ms) return;
         last_ = now;
         const store::Undisturbed line;
@@ -82,7 +81,7 @@ private:
         return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
     }
     std::string job_;
-    Clock::time_point start_ = Clock::now(), last_ = start_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
     std::optional<store::WhenInterrupted> shown_;  // the line is cleared at an interruption, too
 };
 
@@ -90,7 +89,7 @@ class OffTerminal : public store::Progress {
 public:
     explicit OffTerminal(std::string job) : job_(std::move(job)) {}
     void show(double fraction, const std::string& what) override {
-        const auto now = Clock::now();
+        const auto now = std::chrono::steady_clock::now();
         if (now - last_ < 1min) return;
         last_ = now;
         tell(fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what));
@@ -98,7 +97,7 @@ public:
 
 private:
     std::string job_;
-    Clock::time_point last_ = Clock::now();
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 }  // namespace
 

@@ -27,12 +27,6 @@ struct Shelf {  // what is listed
 constexpr Quantity quantities[] = {Quantity::displacement, Quantity::velocity,     Quantity::nut_force,
                                    Quantity::bridge_force, Quantity::thread_force, Quantity::driving_force};
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
-    return text;
-}
-
 Json scenes_json(const Shelf& shelf) {
     Json all = Json::array();
     for (const auto& [name, scene] : shelf.scenes) {

@@ -7,17 +7,17 @@
 
 namespace jvari::bench::command {
 
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
+    return text;
+}
+
 namespace {
 using Json = nlohmann::ordered_json;
 
 const char* name_of(Balance b) {
     return b == Balance::exact ? "exact" : b == Balance::to_tolerance ? "to tolerance" : "none";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
-    return text;
 }
 
 std::vector<std::string> approximations_of(const Descriptor& d, const char* quote) {  // "damping (fact start_phase_error)"

@@ -50,6 +50,16 @@ void must_be_ours(const fs::path& folder, const std::string& what, const store::
                               foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
 }
 
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder / "cells", error);
+    if (!fs::is_directory(folder / "cells"))
+        throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
+    store::must_be_writable(folder / "cells.csv");
+    store::must_be_writable(folder / "cells" / "any.json");
+    for (const char* own : {"cells", "points", "sounds", "failures", "references"}) store::sweep_parts(folder / own);
+}
+
 nlohmann::ordered_json with_results(nlohmann::ordered_json own, const std::string& manifest, const store::Table& cells,
                                     const store::Table& cheapest, const nlohmann::ordered_json& files) {
     using Json = nlohmann::ordered_json;

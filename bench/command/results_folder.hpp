@@ -14,6 +14,9 @@ namespace jvari::bench::command {
 // "suite smoke"); notes files that no such folder has, which stay where they are. A folder that is not there is empty.
 void must_be_ours(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
 
+// What they write into, once it is ours: made, found writable, and without the parts that a killed run left.
+void make_folder(const std::filesystem::path& folder);
+
 // What `compare` and `suite` say of their results as JSON, behind what is their own: manifest, cells, cheapest, files.
 nlohmann::ordered_json with_results(nlohmann::ordered_json own, const std::string& manifest, const store::Table& cells,
                                     const store::Table& cheapest, const nlohmann::ordered_json& files);

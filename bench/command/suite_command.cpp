@@ -107,16 +107,6 @@ int code_of(const std::vector<suite::SuiteRecord>& records) {
     if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return exit_code::done;  // empty: a suite of maps alone
     return std::all_of(records.begin(), records.end(), is("refused")) ? exit_code::refused : exit_code::run_failed;
 }
-
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder / "cells", error);
-    if (!fs::is_directory(folder / "cells"))
-        throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
-    store::must_be_writable(folder / "cells.csv");
-    store::must_be_writable(folder / "cells" / "any.json");
-    for (const char* own : {"cells", "points", "sounds", "failures", "references"}) store::sweep_parts(folder / own);
-}
 }  // namespace
 
 int suite_command(const SuiteRequest& r) {

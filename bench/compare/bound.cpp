@@ -10,7 +10,7 @@ namespace jvari::bench::compare {
 namespace {
 constexpr double small_share = 0.1;     // a certificate of a tenth of the error leaves its first digit
 constexpr double nothing_is_right = 1;  // relative L2 of silence
-constexpr const char* relative_l2[] = {"error_l2_50ms", "error_l2_10ms", "error_l2_whole"};  // the headline first
+constexpr const char* l2_columns[] = {"error_l2_50ms", "error_l2_10ms", "error_l2_whole"};  // the headline first
 
 std::string column_of(const char* what, const std::string& error_column) {  // error_l2_50ms_nut: certificate_l2_50ms_nut
     return what + error_column.substr(std::min(error_column.size(), std::string("error").size()));
@@ -63,7 +63,7 @@ bool trusted(const store::Table& cells, std::size_t row) {
 }
 
 std::string headline_error(const store::Table& cells, const store::Rows& rows) {
-    for (const char* column : relative_l2)
+    for (const char* column : l2_columns)
         if (std::any_of(rows.begin(), rows.end(), [&](std::size_t i) { return std::isfinite(cells.number(i, column)); })) return column;
     return "error_l2_whole";
 }

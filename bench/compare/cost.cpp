@@ -16,7 +16,7 @@ namespace jvari::bench::compare {
 
 namespace {
 constexpr double shortest_sample = 0.02;  // [s]
-constexpr double budget = 10;             // of one cell [s]
+constexpr double cell_budget = 10;        // of one cell [s]
 
 struct Timed : Contender {
     int runs;                                    // back to back in one sample
@@ -72,7 +72,7 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
         if (c.cell->refused) continue;
         const double once = std::max(c.cell->summary.wall_seconds, 1e-6);
         const int runs = static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
-        const int most = static_cast<int>(std::clamp(budget / (once * runs), 2.0, 1e6));
+        const int most = static_cast<int>(std::clamp(cell_budget / (once * runs), 2.0, 1e6));
         timed.push_back({c, runs, std::min(repeats, most), {}, {}, {}});
         if (c.added == Element::radiation) timed.back().radiation = sound::radiating_taps(*c.scene, c.cell->settings.tap_rate);
         work += once * runs * timed.back().repeats;

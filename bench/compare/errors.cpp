@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "analysis/error.hpp"
 #include "analysis/spectrum.hpp"
+#include "bench/store/records.hpp"
 
 namespace jvari::bench::compare {
 
 namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> errors_of(std::span<const double> c, std::span<const double> r, double rate) {
     const StftDifference stft = multi_resolution_stft_difference(c, r, rate);
@@ -67,7 +66,7 @@ double headline_window(double duration) {
 double horizon_of(const Errors& errors, const Headline& h) {
     std::size_t k = 0;
     while (measures()[k].column != "horizon_s") ++k;
-    return errors.empty() ? nan : errors[h.nut][k];
+    return errors.empty() ? store::nan : errors[h.nut][k];
 }
 
 }  // namespace jvari::bench::compare

@@ -1,15 +1,14 @@
 #include "bench/compare/summary.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "analysis/energy.hpp"
+#include "bench/store/records.hpp"
 #include "scenes/modes.hpp"
 
 namespace jvari::bench::compare {
 
 namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 int modes_used(const Scene& scene, const Settings& settings, const std::vector<Fact>& facts) {
     if (const double n = fact(facts, facts::interior_nodes); n == n) return static_cast<int>(n);
@@ -19,7 +18,7 @@ int modes_used(const Scene& scene, const Settings& settings, const std::vector<F
 }  // namespace
 
 double fact(const std::vector<Fact>& facts, const std::string& name) {
-    double worst = nan;
+    double worst = store::nan;
     for (const Fact& f : facts) {
         if (f.name == name) return f.value;
         if (!f.name.starts_with("string.") || !f.name.ends_with("." + name)) continue;
@@ -33,21 +32,21 @@ Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& sett
     const bool continuous = d.clock == Clock::continuous;
     s.scheme = d.name;
     s.scene = scene.name;
-    s.rate = continuous ? nan : settings.sample_rate;
+    s.rate = continuous ? store::nan : settings.sample_rate;
     s.modes = modes_used(scene, settings, run.facts);
     s.dofs = run.dofs;
     s.steps = run.steps;
     s.rows = run.trace.rows;
     s.duration = run.trace.rows > 1 ? (run.trace.rows - 1) / run.trace.tap_rate : 0;
     s.wall_seconds = run.wall_seconds;
-    s.ns_per_step = run.steps > 0 ? run.wall_seconds * 1e9 / run.steps : nan;
-    s.times_real_time = run.wall_seconds > 0 ? s.duration / run.wall_seconds : nan;
+    s.ns_per_step = run.steps > 0 ? run.wall_seconds * 1e9 / run.steps : store::nan;
+    s.times_real_time = run.wall_seconds > 0 ? s.duration / run.wall_seconds : store::nan;
     s.status = run.status;
     const EnergyBalance balance = energy_balance(run.trace);
     // A scheme that promises no balance may leave its columns empty: zeros that "close" say nothing.
     const bool silent = d.balance == Balance::none && !(balance.largest_stored > 0);
-    s.energy_residual_per_step = silent ? nan : balance.step;
-    s.energy_residual_accumulated = silent ? nan : balance.accumulated;
+    s.energy_residual_per_step = silent ? store::nan : balance.step;
+    s.energy_residual_accumulated = silent ? store::nan : balance.accumulated;
     s.smallest_contact_force = fact(run.facts, facts::smallest_contact_force);
     s.deepest_penetration = fact(run.facts, facts::deepest_penetration);
     for (const Fact& f : run.facts)

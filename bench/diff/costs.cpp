@@ -65,7 +65,7 @@ Clock clock_of(const store::Table& a, const store::Table& b) {
 }
 
 // Of a series: worse, better or same.
-Turn turn_of(const Folder& a, const Folder& b, const std::vector<Ratio>& series, const Noise& noise, const Clock& clock) {
+Turn turn_of_costs(const Folder& a, const Folder& b, const std::vector<Ratio>& series, const Noise& noise, const Clock& clock) {
     const double change = median_of(series, [](const Ratio& r) { return r.change(); });
     const double beyond = noise.beyond(series.size());
     if (change < beyond && change > 1 / beyond) return Turn::same;
@@ -124,7 +124,7 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>
         d.notes.push_back(fmt::format("the clock was disturbed: costs that changed by less than {:.2f} times are not told apart", beyond));
     for (const auto& [name, cells] : series) {
         d.compared += static_cast<int>(cells.size());
-        const Turn turn = turn_of(a, b, cells, noise, clock);
+        const Turn turn = turn_of_costs(a, b, cells, noise, clock);
         if (turn == Turn::same) continue;
         const double change = median_of(cells, [](const Ratio& r) { return r.change(); });
         const std::string detail = few ? fmt::format("{:.2f} times, the machine's doing or the scheme's", change)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/compare.hpp"
@@ -122,8 +121,7 @@ Tried run_trial(const Trial& t, Truths& truths, const compare::ProgressOf& progr
         tried.figures = figures_of(*t.scheme, scene, t.settings, r, truth.name.empty() ? nullptr : &truth.trace);
         tried.judgement = judge(tried.figures);
     } catch (const Refusal& e) {
-        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-        tried.figures = {{}, nan, nan, nan, nan, t.scheme->balance};
+        tried.figures = {{}, store::nan, store::nan, store::nan, store::nan, t.scheme->balance};
         tried.judgement = {Verdict::refused, e.what(), 0};
     }
     return tried;

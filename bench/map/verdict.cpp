@@ -10,13 +10,13 @@
 #include "analysis/energy.hpp"
 #include "analysis/error.hpp"
 #include "bench/compare/summary.hpp"
+#include "bench/store/records.hpp"
 
 namespace jvari::bench::map {
 
 namespace {
 constexpr std::array all = {Verdict::sound,          Verdict::unjudged,      Verdict::inaccurate, Verdict::adhesive,
                             Verdict::energy_gaining, Verdict::not_converged, Verdict::diverged,   Verdict::refused};
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double listening_points[] = {0.3, 0.437};  // of the length: no low mode has a node at both
 
 double largest(std::span<const double> values) {  // infinite where a value is not finite
@@ -73,7 +73,7 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& sett
     f.balance = d.balance;
     const EnergyGain energy = energy_gain(run.trace);
     f.energy_gain = energy.largest;
-    f.displacement = f.pull = f.error = nan;
+    f.displacement = f.pull = f.error = store::nan;
     const double least = compare::fact(run.facts, facts::smallest_contact_force);
     for (int k = 0; k < run.trace.taps(); ++k) {
         const Tap& tap = scene.taps[k];
@@ -82,7 +82,7 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& sett
             const double most = largest(run.trace.column(k));
             const double part = std::isinf(most)    ? most
                                 : energy.budget > 0 ? most / std::sqrt(energy.budget * s.length / (2 * s.tension))
-                                                    : nan;
+                                                    : store::nan;
             f.displacement = std::fmax(f.displacement, part);
         } else if (tap.quantity == Quantity::bridge_force && !std::isnan(least)) {
             // a row is the mean over its steps: one step may have pushed as many times harder

@@ -47,10 +47,6 @@ double drawn_number(double x) {  // five digits: a hundredth of a pixel
     return std::stod(fmt::format("{:.5g}", x));
 }
 
-void add_once(std::vector<std::string>& names, const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
 Json wrapped(const std::string& text, std::size_t length) {
     Json lines = Json::array();
     std::string line;

@@ -64,7 +64,7 @@ store::Table read_cells(const fs::path& folder) {
     return cells;
 }
 
-std::string problem_of(const store::Table& t, std::size_t row, const std::vector<std::string>& keys, const std::string& scene) {
+std::string named_problem(const store::Table& t, std::size_t row, const std::vector<std::string>& keys, const std::string& scene) {
     std::string problem = t.column("scene") < 0 ? scene : t.at(row, "scene");
     for (const std::string& key : keys)
         if (key != "map" && !t.at(row, key).empty()) problem += fmt::format(", {} = {}", key, t.at(row, key));
@@ -77,7 +77,7 @@ void name_rows(store::Table& t, const std::string& scene) {
     std::map<std::string, std::set<std::string>> modes;  // of a scheme on a problem at a rate
     const auto place = [&](std::size_t i) { return problems[i] + "|" + names[i] + "|" + t.at(i, "rate"); };
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        problems.push_back(problem_of(t, i, keys, scene));
+        problems.push_back(named_problem(t, i, keys, scene));
         names.push_back(store::variant_name(t.at(i, "scheme"), t.at(i, "options")));
         modes[place(i)].insert(t.at(i, "modes"));
     }
@@ -155,7 +155,7 @@ std::vector<std::string> distinct(const store::Table& t, const std::string& colu
 }
 
 namespace {
-std::string file_part(const std::string& text) {
+std::string plain_part(const std::string& text) {
     std::string part;
     bool between = false;
     for (const char c : text) {
@@ -169,8 +169,8 @@ std::string file_part(const std::string& text) {
 }  // namespace
 
 std::string file_part(const std::string& text, const std::vector<std::string>& all) {
-    const std::string part = file_part(text);
-    const auto meets = [&](const std::string& other) { return other != text && file_part(other) == part; };
+    const std::string part = plain_part(text);
+    const auto meets = [&](const std::string& other) { return other != text && plain_part(other) == part; };
     if (std::none_of(all.begin(), all.end(), meets)) return part;
     return part.substr(0, longest_part - 17) + "-" + store::hash_of(text).substr(0, 16);
 }

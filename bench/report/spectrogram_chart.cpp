@@ -8,6 +8,10 @@
 
 namespace jvari::bench::report {
 
+void add_once(std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr int range = 800;  // [0.1 dB]
@@ -20,7 +24,7 @@ struct Steps {
     int frames = 1, rows = 1;  // merged to one
 };
 
-enum class Shown { level, difference };
+enum class Layer { level, difference };
 struct Tile {
     std::size_t panel;
     double from, to, low, high;  // [s], [kHz]
@@ -37,16 +41,16 @@ int stepped(const suite::Levels& l, int frame, int row, const Steps& s, int top)
     return -((-below + s.level / 2) / s.level) * s.level;
 }
 
-std::vector<Tile> tiles_of(const std::vector<Panel>& panels, int top, const Steps& s, Shown shown) {
+std::vector<Tile> tiles_of(const std::vector<Panel>& panels, int top, const Steps& s, Layer layer) {
     std::vector<Tile> tiles;
-    const int background = shown == Shown::level ? -range : 0;
+    const int background = layer == Layer::level ? -range : 0;
     for (std::size_t p = 0; p < panels.size(); ++p) {
         const suite::Levels& l = panels[p].levels;
         const suite::Levels* against = panels[p].against ? &*panels[p].against : nullptr;
-        if (shown == Shown::difference && !against) continue;
+        if (layer == Layer::difference && !against) continue;
         const auto level_at = [&](int m, int row) {
             const int own = stepped(l, m, row, s, top);
-            if (shown == Shown::level) return own;
+            if (layer == Layer::level) return own;
             return m < against->frames && row < against->rows ? own - stepped(*against, m, row, s, top) : background;
         };
         for (int row = 0; row < l.rows; row += s.rows) {
@@ -62,10 +66,6 @@ std::vector<Tile> tiles_of(const std::vector<Panel>& panels, int top, const Step
         }
     }
     return tiles;
-}
-
-void add_once(std::vector<std::string>& names, const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
 struct Frame {
@@ -138,13 +138,13 @@ std::string spectrogram_spec(const std::string& title, const std::string& subtit
         frames = std::max(frames, l.frames);
     }
     Steps steps;
-    std::vector<Tile> tiles = tiles_of(panels, top, steps, Shown::level), differences = tiles_of(panels, top, steps, Shown::difference);
+    std::vector<Tile> tiles = tiles_of(panels, top, steps, Layer::level), differences = tiles_of(panels, top, steps, Layer::difference);
     for (int round = 0; static_cast<int>(tiles.size() + differences.size()) > most && round < 12; ++round) {
         if (steps.level < 50) steps.level = steps.level == 20 ? 40 : 50;
         else if (round % 2 == 0) steps.frames *= 2;
         else steps.rows *= 2;
-        tiles = tiles_of(panels, top, steps, Shown::level);
-        differences = tiles_of(panels, top, steps, Shown::difference);
+        tiles = tiles_of(panels, top, steps, Layer::level);
+        differences = tiles_of(panels, top, steps, Layer::difference);
     }
     // Panel by panel, not by facet: those come in an order of their own when it is not that of the alphabet.
     std::vector<Json> values(panels.size(), Json::array());

@@ -2,6 +2,7 @@
 // because it begins with = + - @ and is no number, has an apostrophe in front in the file; so has one that begins with an apostrophe.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@ namespace jvari::bench::store {
 // A number as the shortest text that reads back as itself; "" for NaN, "inf" for an infinity.
 std::string text_of(double);
 double number_of(const std::string&);  // NaN for "" and for what is no number
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Options = std::vector<std::pair<std::string, std::string>>;                 // of a scheme: name, value
 std::string options_text(const Options&);                                         // "control=none tolerance=1e-9"

@@ -16,7 +16,6 @@
 namespace jvari::bench::store {
 
 namespace {
-constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
 
 void write_csv(const std::filesystem::path& path, const Trace& trace) {
     std::ofstream stream(path, std::ios::binary);

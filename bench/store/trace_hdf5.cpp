@@ -11,7 +11,6 @@
 namespace jvari::bench::store {
 
 namespace {
-constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
 
 void must(herr_t status) {
     if (status < 0) throw std::runtime_error(errno == ENOSPC || errno == EFBIG || errno == EDQUOT ? std::strerror(errno) : "HDF5 refuses");

@@ -12,6 +12,8 @@
 
 namespace jvari::bench::store {
 
+inline constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
+
 // Throws std::runtime_error.
 void write_hdf5(const std::filesystem::path&, const std::vector<std::pair<std::string, std::string>>& attributes, const Scene&,
                 const Trace&);

@@ -6,7 +6,7 @@
 namespace jvari::bench::trim {
 
 namespace {
-constexpr int rounds = 5;
+constexpr int rounds_of_needs = 5;
 
 Model turned_round(Model m, int k) {
     const auto at = std::ranges::find(m.left_out, k);
@@ -50,7 +50,7 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
         n.error_in_trimmed = error_of(judge, turned_round(trimmed, k));
         needs.push_back(n);
     }
-    const std::vector<Spread> costs = judge.costs(timed, rounds);
+    const std::vector<Spread> costs = judge.costs(timed, rounds_of_needs);
     for (std::size_t k = 0; k < timed_needs.size(); ++k) {
         const double whole_cost = costs[0].median, other = costs[k + 1].median;
         needs[timed_needs[k]].saved = gone[k] ? 1 - whole_cost / other : 1 - other / whole_cost;

@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/outcome_name.hpp"
+#include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/store/whole.hpp"
 #include "scenes/scene_file.hpp"
@@ -17,7 +17,6 @@ namespace jvari::bench::trust {
 
 namespace {
 using Json = nlohmann::ordered_json;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int format = 3;  // of the file
 
 std::string window_name(std::size_t w) {
@@ -38,7 +37,7 @@ Certificate::ByWindow windows_of(const Json& j) {
     Certificate::ByWindow values;
     for (std::size_t w = 0; w < values.size(); ++w) {
         const auto found = j.find(window_name(w));
-        values[w] = found == j.end() || found->is_null() ? nan : found->get<double>();
+        values[w] = found == j.end() || found->is_null() ? store::nan : found->get<double>();
     }
     if (!j.contains("whole")) throw std::runtime_error("a tap without the whole window");
     return values;
@@ -93,7 +92,7 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
     for (const auto& [name, value] : j.at("options").items()) e.options.emplace_back(name, value);
     e.sample_rate = j.value("sample_rate_hz", 0.0);
     e.doubled = j.value("doubled", "");
-    e.wall_seconds = nan;
+    e.wall_seconds = store::nan;
     const std::string status = j.at("status");
     if (status == "refused") {
         e.reason = j.at("reason");
@@ -156,8 +155,9 @@ std::string json_of(const KeptCertificate& kept) {
 std::string cost_json_of(const KeptCertificate& kept) {
     Json entries = Json::array();
     for (const auto& e : kept.certificate.entries)
-        entries.push_back(
-            {{"reference", e.reference}, {"options", options_json(e.options)}, {"wall_seconds", e.reason.empty() ? e.wall_seconds : nan}});
+        entries.push_back({{"reference", e.reference},
+                           {"options", options_json(e.options)},
+                           {"wall_seconds", e.reason.empty() ? e.wall_seconds : store::nan}});
     return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", Json::parse(store::made_by())}}.dump(
                1) +
            "\n";

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <utility>
 
 #include "bench/store/records.hpp"
@@ -17,17 +16,16 @@ namespace jvari::bench::trust {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double slack = 1e-6;  // of an instant [s]: less than a row
 
 // The instant at which a window of the comparison ends, NaN where the run is shorter.
 std::array<double, 3> window_ends(double until) {
-    return {10e-3 <= until + slack ? 10e-3 : nan, 50e-3 <= until + slack ? 50e-3 : nan, until};
+    return {10e-3 <= until + slack ? 10e-3 : store::nan, 50e-3 <= until + slack ? 50e-3 : store::nan, until};
 }
 
 // The shortest window that is no shorter than `end`, of a run that lasted `reached`; NaN where there is none.
 double covering(const Certificate::ByWindow& values, double end, double reached) {
-    if (std::isnan(end) || end > reached + slack) return nan;
+    if (std::isnan(end) || end > reached + slack) return store::nan;
     if (end > reached - slack) return values.back();
     for (std::size_t w = 0; w + 1 < values.size(); ++w)
         if (end <= agreement_windows[w] + slack && agreement_windows[w] <= reached + slack) return values[w];
@@ -46,7 +44,7 @@ struct Evidence {
 }  // namespace
 
 double Trust::in_model(std::size_t tap, std::size_t window) const {
-    return tap < figure.size() ? figure[tap][window] : nan;
+    return tap < figure.size() ? figure[tap][window] : store::nan;
 }
 
 double Trust::of_scene(std::size_t tap, std::size_t window) const {
@@ -86,7 +84,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
     }
     std::sort(independent.begin(), independent.end(), [](const Evidence& a, const Evidence& b) { return a.other < b.other; });  // authority
 
-    t.figure.assign(c.taps.size(), {nan, nan, nan});
+    t.figure.assign(c.taps.size(), {store::nan, store::nan, store::nan});
     const auto ends = window_ends(until);
     std::vector<std::string> names;
     const auto named = [&names](const Evidence& e) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 using Json = nlohmann::ordered_json;
-constexpr int format = 2;                  // of the file: a checksum, a line of JSON, the columns as this machine holds them
+constexpr int file_format = 2;             // of the file: a checksum, a line of JSON, the columns as this machine holds them
 constexpr long most_values = 1L << 26;     // of all columns: half a gigabyte
 constexpr std::size_t checksum_size = 32;  // hexadecimal digits
 }  // namespace
@@ -33,7 +33,7 @@ fs::path kept_runs_folder() {
 }
 
 std::string run_key(const Descriptor& reference, const Scene& scene, const Settings& s) {
-    return store::hash_of(Json{format, store::run_identity(), reference.name, scene_hash(scene), store::text_of(s.sample_rate),
+    return store::hash_of(Json{file_format, store::run_identity(), reference.name, scene_hash(scene), store::text_of(s.sample_rate),
                                store::text_of(s.tap_rate), s.modes, s.options}
                               .dump());
 }

@@ -4,20 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/pareto.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/store/records.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::compare {
 
 namespace {
 using Json = nlohmann::ordered_json;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* cost_columns[] = {"cost_s_per_s",
                                         "cost_lower",
                                         "cost_upper",
@@ -37,7 +36,7 @@ constexpr const char* cost_columns[] = {"cost_s_per_s",
                                         "pareto"};
 
 double error_in(const Cell& cell, int tap, int measure) {
-    return cell.errors.empty() ? nan : cell.errors[tap][measure];
+    return cell.errors.empty() ? store::nan : cell.errors[tap][measure];
 }
 
 // error_l2_50ms: error_in_model_l2_50ms; third_octave_db: third_octave_db_in_model.
@@ -90,25 +89,25 @@ void add_row(store::Table& table, const Comparison& c, const Cell& cell, const s
     const Summary& s = cell.summary;
     const bool ran = !cell.refused, failed = ran && s.status.outcome != Outcome::ok;
     row.text("scheme", cell.scheme->name);
-    row.number("rate", cell.scheme->clock == Clock::continuous ? nan : cell.settings.sample_rate);
+    row.number("rate", cell.scheme->clock == Clock::continuous ? store::nan : cell.settings.sample_rate);
     row.count("modes", cell.modes(), cell.modes() > 0);
     row.text("status", status_of(cell));
     row.text("flags", ran ? flags_of(s) : "");
     for (std::size_t k = 0; k < measures().size(); ++k)
         row.number(measures()[k].column, error_in(cell, c.headline.tap(measures()[k]), static_cast<int>(k)));
-    const double seconds = ran && s.duration > 0 ? s.duration : nan, wall = ran ? cell.wall.median : nan;
+    const double seconds = ran && s.duration > 0 ? s.duration : store::nan, wall = ran ? cell.wall.median : store::nan;
     row.number("cost_s_per_s", wall / seconds);
-    row.number("cost_lower", ran ? cell.wall.lower / seconds : nan);
-    row.number("cost_upper", ran ? cell.wall.upper / seconds : nan);
-    row.number("processor_s_per_s", ran ? cell.processor.median / seconds : nan);
-    row.number("processor_lower", ran ? cell.processor.lower / seconds : nan);
-    row.number("processor_upper", ran ? cell.processor.upper / seconds : nan);
+    row.number("cost_lower", ran ? cell.wall.lower / seconds : store::nan);
+    row.number("cost_upper", ran ? cell.wall.upper / seconds : store::nan);
+    row.number("processor_s_per_s", ran ? cell.processor.median / seconds : store::nan);
+    row.number("processor_lower", ran ? cell.processor.lower / seconds : store::nan);
+    row.number("processor_upper", ran ? cell.processor.upper / seconds : store::nan);
     row.number("wall_seconds", wall);
-    row.number("wall_seconds_lower", ran ? cell.wall.lower : nan);
-    row.number("wall_seconds_upper", ran ? cell.wall.upper : nan);
-    row.number("ns_per_step", s.steps > 0 ? wall * 1e9 / s.steps : nan);
+    row.number("wall_seconds_lower", ran ? cell.wall.lower : store::nan);
+    row.number("wall_seconds_upper", ran ? cell.wall.upper : store::nan);
+    row.number("ns_per_step", s.steps > 0 ? wall * 1e9 / s.steps : store::nan);
     row.number("times_real_time", seconds / wall);
-    row.number("worst_block_of_deadline", ran ? cell.worst_block : nan);
+    row.number("worst_block_of_deadline", ran ? cell.worst_block : store::nan);
     row.count("repeats", cell.wall.count, ran);
     row.text("machine", ran ? cell.stamp.name : "");
     row.text("load", ran ? cell.stamp.load : "");
@@ -117,15 +116,15 @@ void add_row(store::Table& table, const Comparison& c, const Cell& cell, const s
     row.text("below_floor", ties_of(c, cell));
     for (std::size_t k = 0; k < measures().size(); ++k)
         if (measures()[k].less_is_better) row.number("floor_" + measures()[k].column, c.floor[c.headline.tap(measures()[k])][k]);
-    row.number("energy_residual_per_step", ran ? s.energy_residual_per_step : nan);
-    row.number("energy_residual_accumulated", ran ? s.energy_residual_accumulated : nan);
-    row.number(facts::smallest_contact_force.name, ran ? s.smallest_contact_force : nan);
-    row.number(facts::deepest_penetration.name, ran ? s.deepest_penetration : nan);
+    row.number("energy_residual_per_step", ran ? s.energy_residual_per_step : store::nan);
+    row.number("energy_residual_accumulated", ran ? s.energy_residual_accumulated : store::nan);
+    row.number(facts::smallest_contact_force.name, ran ? s.smallest_contact_force : store::nan);
+    row.number(facts::deepest_penetration.name, ran ? s.deepest_penetration : store::nan);
     row.count("dofs", s.dofs, ran);
     row.count("state_bytes", 8L * s.dofs, ran);
     row.count("steps", s.steps, ran);
     row.count("failed_step", s.status.step, failed);
-    row.number("failed_at_s", failed ? s.duration : nan);
+    row.number("failed_at_s", failed ? s.duration : store::nan);
     for (const std::string& name : facts) row.number("fact_" + name, fact(s.facts, name));
     for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap)
         for (std::size_t k = 0; k < measures().size(); ++k)
@@ -146,7 +145,7 @@ void add_row(store::Table& table, const Comparison& c, const Cell& cell, const s
     row.count("reference_modes", c.reference_settings.modes, c.reference_settings.modes > 0);
     row.number("reference_horizon_s", horizon_of(c.floor, c.headline));
     row.text("reference_doubling", c.truth);
-    const auto own = [&](std::size_t tap, std::size_t k) { return cell.in_model.empty() ? nan : cell.in_model[tap][k]; };
+    const auto own = [&](std::size_t tap, std::size_t k) { return cell.in_model.empty() ? store::nan : cell.in_model[tap][k]; };
     for (std::size_t k = 0; k < measures().size(); ++k) row.number(in_model(measures()[k].column), own(c.headline.tap(measures()[k]), k));
     all_taps([&](int tap, const std::string& suffix) {
         for (std::size_t k = 0; k < measures().size(); ++k) row.number(in_model(measures()[k].column) + suffix, own(tap, k));

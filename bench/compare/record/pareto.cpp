@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bench/compare/bound.hpp"
+#include "bench/store/records.hpp"
 
 namespace jvari::bench::compare {
 
@@ -26,13 +26,12 @@ bool is_clock(const std::string& cost) {  // its quartiles are those of the cost
 }
 
 Point point_of(const store::Table& cells, std::size_t row, const std::string& error, const std::string& cost) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const Bound b = bound_of(cells, row, error);
     const bool known = trusted(cells, row) && b.says() != Bound::Says::unknown;
     const bool clock = is_clock(cost);
-    const double median = cells.number(row, "cost_s_per_s"), c = known ? cells.number(row, cost) : nan;
+    const double median = cells.number(row, "cost_s_per_s"), c = known ? cells.number(row, cost) : store::nan;
     return {c, clock ? c * cells.number(row, "cost_lower") / median : c, clock ? c * cells.number(row, "cost_upper") / median : c,
-            std::isnan(b.error) ? nan : std::fmax(b.error, std::fmax(b.floor, b.certificate)),
+            std::isnan(b.error) ? store::nan : std::fmax(b.error, std::fmax(b.floor, b.certificate)),
             std::isnan(b.certificate) ? 0 : b.certificate};
 }
 }  // namespace

@@ -86,7 +86,7 @@ bool FileLock::take() {
     file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ < 0) return errno != EEXIST;
     const std::string who = process_name();
-    if (write(file_, who.data(), who.size()) < 0) errno = 0;  // a full disk: an empty one counts as gone once nobody touches it
+    if (::write(file_, who.data(), who.size()) < 0) errno = 0;  // a full disk: an empty one counts as gone once nobody touches it
     return true;
 }
 
