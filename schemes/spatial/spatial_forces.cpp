@@ -97,10 +97,7 @@ void SpatialForces::begin_in_series() noexcept {
     }
     s.start.begin(s.a.data());
     s.start.solve(s.a.data(), s.b.data(), force.data());
-    for (std::size_t z = 0; z < reads; ++z) {
-        coming[z] = free[z];
-        for (std::size_t c = 0; c < reads; ++c) coming[z] += 0.5 * s.theta[z * reads + c] * force[c];
-    }
+    move(s.theta, 0.5);
     s.step.follow(s.start);
 }
 
@@ -114,10 +111,7 @@ Outcome SpatialForces::solve_in_series(long n) noexcept {
         if (!std::isfinite(free[z])) return Outcome::diverged;
     }
     const bool converged = s.step.solve(s.a.data(), s.b.data(), force.data());
-    for (std::size_t z = 0; z < reads; ++z) {
-        coming[z] = free[z];
-        for (std::size_t c = 0; c < reads; ++c) coming[z] += s.theta[z * reads + c] * force[c];
-    }
+    move(s.theta, 1);
     return converged ? Outcome::ok : Outcome::not_converged;
 }
 
@@ -177,12 +171,16 @@ void SpatialForces::shift() noexcept {
 }
 
 void SpatialForces::put(const double* points, double body, double share) noexcept {
+    std::copy_n(points, now.size() - 1, force.begin());
+    force[now.size() - 1] = body;
+    move(theta_, share);
+}
+
+void SpatialForces::move(const std::vector<double>& theta, double share) noexcept {
     const std::size_t reads = now.size();
-    std::copy_n(points, reads - 1, force.begin());
-    force[reads - 1] = body;
     for (std::size_t z = 0; z < reads; ++z) {
         coming[z] = free[z];
-        for (std::size_t c = 0; c < reads; ++c) coming[z] += share * theta_[z * reads + c] * force[c];
+        for (std::size_t c = 0; c < reads; ++c) coming[z] += share * theta[z * reads + c] * force[c];
     }
 }
 

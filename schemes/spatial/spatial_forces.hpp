@@ -76,7 +76,8 @@ private:
     };
     void begin_in_series() noexcept;
     Outcome solve_in_series(long n) noexcept;
-    double pluck_at(long n) const;  // [N]
+    void move(const std::vector<double>& theta, double share) noexcept;  // every read by the forces: `coming`
+    double pluck_at(long n) const;                                       // [N]
     double pluck_on(std::size_t z, long n) const { return series_->missing.pluck.empty() ? 0 : series_->missing.pluck[z] * pluck_at(n); }
     std::optional<Series> series_;
     std::vector<double> theta_;  // on a moving body: of all reads [m/N]
