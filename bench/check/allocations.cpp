@@ -27,10 +27,12 @@ static const bool installed = __sanitizer_install_malloc_and_free_hooks(on_mallo
 static const bool installed = true;
 // glibc's own allocator under its public alias; operator new and the aligned forms come through here too.
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier): glibc's own names
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
+// NOLINTEND(bugprone-reserved-identifier)
 void* malloc(std::size_t n) {
     return ++allocations, __libc_malloc(n);
 }

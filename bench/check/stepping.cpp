@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 
 #include "bench/check/allocations.hpp"
@@ -17,7 +19,7 @@ std::string apart(const Trace& a, const Trace& b) {
     for (int k = 0; k < a.taps(); ++k)
         if (std::memcmp(a.column(k).data(), b.column(k).data(), a.rows * sizeof(double)) != 0) {
             long n = 0;
-            while (std::memcmp(&a.column(k)[n], &b.column(k)[n], sizeof(double)) == 0) ++n;
+            while (std::bit_cast<std::uint64_t>(a.column(k)[n]) == std::bit_cast<std::uint64_t>(b.column(k)[n])) ++n;
             return fmt::format("tap {} in row {}: {:.17g} in place of {:.17g}", a.names[k], n, b.column(k)[n], a.column(k)[n]);
         }
     return "";

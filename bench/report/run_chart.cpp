@@ -44,9 +44,9 @@ Json waveform(const std::string& title, const std::string& unit, std::span<const
     const long rows = static_cast<long>(x.size()), count = std::min(rows, most_points);
     Json values = Json::array();
     for (long k = 0; k < count; ++k) {
-        const auto [least, most] = std::minmax_element(x.begin() + k * rows / count, x.begin() + (k + 1) * rows / count);
-        values.push_back(
-            {{"t", shortened(static_cast<double>(k * rows / count) / rate)}, {"a", shortened(*least)}, {"b", shortened(*most)}});
+        const long from = k * rows / count;
+        const auto [least, most] = std::minmax_element(x.begin() + from, x.begin() + (k + 1) * rows / count);
+        values.push_back({{"t", shortened(static_cast<double>(from) / rate)}, {"a", shortened(*least)}, {"b", shortened(*most)}});
     }
     const bool whole = count == rows;
     Json encoding{{"x", axis("t", "time [s]", {{"nice", false}})}, {"y", axis("a", unit)}};

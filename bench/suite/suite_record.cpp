@@ -155,7 +155,7 @@ store::Table rows_of(const std::string& facet, const SuitePlan& plan, const std:
     store::Table t = cells.only(names);
     t.rows.clear();
     for (const SuiteRecord& r : records)
-        if (const auto own = r.rows.find(facet); own != r.rows.end() && own->second.columns.size() > 0) {
+        if (const auto own = r.rows.find(facet); own != r.rows.end() && !own->second.columns.empty()) {
             t.columns.insert(t.columns.end(), own->second.columns.begin(), own->second.columns.end());
             break;
         }

@@ -18,6 +18,7 @@
 // that are cut off, and keeps nothing of a blow shorter than a step. (The rule at midpoints would lose nothing, and alternate for ever.)
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -95,12 +96,12 @@ private:
     int levels_ = 1;
     double theta_bb_ = 0, moved_ = 0, begun_ = 0, Y_[2] = {};  // Y_: of the thread at the two levels, less its height [m]
 
-    struct Several {                      // contacts: what is in series with them
-        std::vector<double> C;            // points x points [m/N]
-        std::vector<double> P[2];         // at the two levels [N]
-        std::vector<double> older, free;  // of Y [m]
-        double lost = 0;                  // in the last step [J]
-        double thread_moved = 0;          // in it [m]
+    struct Several {                           // contacts: what is in series with them
+        std::vector<double> C;                 // points x points [m/N]
+        std::array<std::vector<double>, 2> P;  // at the two levels [N]
+        std::vector<double> older, free;       // of Y [m]
+        double lost = 0;                       // in the last step [J]
+        double thread_moved = 0;               // in it [m]
 
         double yield(int a, const std::vector<double>& force) const {
             double sum = 0;
