@@ -37,7 +37,7 @@ constexpr std::uint32_t layout_hash(std::initializer_list<std::size_t> numbers, 
 // NOLINTEND
 
 // Raised by hand where what changes is not in a layout: the virtual functions of Scheme, the meaning of a field.
-constexpr std::size_t interface_version = 3;
+constexpr std::size_t interface_version = 4;
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push

@@ -85,8 +85,12 @@ public:
     // supplied and dissipated energy are sums over the same interval. Allocates nothing.
     virtual Status advance(const Block& out) noexcept = 0;
 
-    // Advances all of these, one of which is this, to the last bit as advance() does one after the other. A scheme that has several strings
-    // under way at once where that is faster says so here.
+    // Told once, before the first step, of those that it is stepped with from now on: all are reset together, and advanced by advance_all
+    // of this one alone. What that needs is allocated here.
+    virtual void meet(std::span<Scheme* const>) {}
+
+    // Advances those met, in that order, this among them, each by as many rows. But for rounding they move as by advance(), whatever the
+    // block. A scheme that has several strings under way at once where that is faster says so here.
     virtual void advance_all(std::span<Lane> all) noexcept {
         for (Lane& lane : all) lane.status = lane.scheme->advance(lane.out);
     }

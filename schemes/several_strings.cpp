@@ -26,6 +26,9 @@ public:
         tap_.resize(rows_at_a_time * taps);
         energy_.resize(3 * rows_at_a_time * strings_.size());
         lanes_.resize(strings_.size());
+        std::vector<Scheme*> all;
+        for (const OneOfSeveral& s : strings_) all.push_back(s.scheme.get());
+        all.front()->meet(all);
     }
 
     void reset() noexcept override {

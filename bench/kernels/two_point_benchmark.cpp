@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -69,7 +70,8 @@ void step(benchmark::State& state) {
 }
 // The same with what is missing of the string's compliance in series, and the explicit form that it makes possible with the modes that are
 // stable there. Their errors are in docs/compliance-matching.md: there is no plain form to take them against.
-void matched(benchmark::State& state, const std::string& name, int modes, decltype(Settings::options) options) {
+using Words = decltype(Settings::options);
+void matched(benchmark::State& state, const std::string& name, int modes, Words options) {
     const Scene scene = three_taps();
     Settings s = settings();
     s.modes = modes;
@@ -79,30 +81,31 @@ void matched(benchmark::State& state, const std::string& name, int modes, declty
     time_rows(state, *scheme);
 }
 BENCHMARK(step<fused>)->Name("two_point/fused");
-using Words = decltype(Settings::options);
 BENCHMARK_CAPTURE(matched, two_point, "modal_two_point", 133, Words{{"compliance", "matched"}});
 BENCHMARK_CAPTURE(matched, strang_40_modes, "modal_strang", 40, Words{});
 BENCHMARK_CAPTURE(matched, strang_of_order_4_40_modes, "modal_strang", 40, Words{{"order", "4"}});
 BENCHMARK(step<plain<double>>)->Name("two_point/plain_eigen");
 
-// Four strings of different pitch, and four times those, as runs of one and as one scene. Counter `error`: the bridge force of all over
-// 0.2 s against long double, relative to the largest; the pairs have the same because they have the same bits.
-Scene strings(int count) {
+// Strings as runs of one and as one scene: four of different pitch, four times those, and an ensemble of sixteen that differ in how they
+// are plucked alone. Counter `error`: the bridge force of all over 0.2 s against long double, relative to the largest.
+enum class Strings { four_pitches, ensemble };
+Scene strings(Strings kind, int count) {
     Scene scene = three_taps();
     const String c3 = scene.strings.front();
     scene.strings.clear();
     for (int k = 0; k < count; ++k) {
-        scene.strings.push_back(c3);
-        scene.strings.back().tension *= 1 - 0.06 * (k % 4);
+        String& s = scene.strings.emplace_back(c3);
+        if (kind == Strings::ensemble) s.pluck->amplitude *= 1 - 0.06 * (k % 4);
+        else s.tension *= 1 - 0.06 * (k % 4);
     }
     for (Tap& tap : scene.taps) tap.string.reset();  // of all strings
     scene.duration = 0.2;
     return scene;
 }
 
-void several(benchmark::State& state, bool together) {
+void several(benchmark::State& state, Strings kind, bool together) {
     const int count = static_cast<int>(state.range(0));
-    const Scene scene = strings(count);
+    const Scene scene = strings(kind, count);
     std::vector<Scene> parts = together ? std::vector<Scene>{scene} : std::vector<Scene>{};
     for (int k = 0; !together && k < count; ++k) parts.push_back(alone(scene, k));
     std::vector<std::unique_ptr<Scheme>> schemes;
@@ -116,13 +119,13 @@ void several(benchmark::State& state, bool together) {
         add(got, run(*schemes.back(), part, settings()).trace.column(1));
         schemes.back()->reset();
     }
-    static const std::vector<double> of_four = [&] {
-        std::vector<double> sum;
+    static std::map<Strings, std::vector<double>> truths;
+    if (!truths.contains(kind)) {
+        std::vector<double>& sum = truths[kind];
         for (int k = 0; k < 4; ++k)
             add(sum, run(*plain<long double>(alone(scene, k), settings()), alone(scene, k), settings()).trace.column(1));
-        return sum;
-    }();
-    for (int k = 0; k < count; k += 4) add(want, of_four);
+    }
+    for (int k = 0; k < count; k += 4) add(want, truths[kind]);
     double largest = 0, difference = 0;
     for (std::size_t n = 0; n < want.size(); ++n) {
         largest = std::max(largest, std::abs(want[n]));
@@ -141,8 +144,10 @@ void several(benchmark::State& state, bool together) {
                                                               benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["error"] = difference / largest;
 }
-BENCHMARK_CAPTURE(several, one_by_one, false)->Arg(4)->Arg(16);
-BENCHMARK_CAPTURE(several, together, true)->Arg(4)->Arg(16);
+BENCHMARK_CAPTURE(several, one_by_one, Strings::four_pitches, false)->Arg(4)->Arg(16);
+BENCHMARK_CAPTURE(several, together, Strings::four_pitches, true)->Arg(4)->Arg(16);
+BENCHMARK_CAPTURE(several, ensemble_one_by_one, Strings::ensemble, false)->Arg(16);
+BENCHMARK_CAPTURE(several, ensemble_together, Strings::ensemble, true)->Arg(16);
 
 // What a scene listens to is what it pays for: all four taps at every step, against one displacement at 1/64 of them.
 void taps(benchmark::State& state, bool all) {

@@ -23,6 +23,7 @@
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal/modal_two_point_points.hpp"
+#include "schemes/modal/two_point_company.hpp"
 #include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
@@ -150,13 +151,11 @@ public:
                 case Quantity::driving_force: taps_.push_back({From::driving}); break;
             }
         }
-        m_.taps = taps_.data();
-        const auto from_modes =
-            std::find_if(taps_.begin(), taps_.end(), [](const TwoPointTap& t) { return t.from == TwoPointTap::From::modes; });
-        if (from_modes != taps_.end()) put(TwoPointColumn::read, m_.read = from_modes->on_y);
+        m_.taps = taps_;
         if (matched) put_in_series(descriptor, scene, modes, A);
         const ContactKind kind = !g_b_ ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
-        kernel_ = two_point_kernel(kind, g_c_ != nullptr, matched ? Compliance::matched : Compliance::own);
+        sociable_ = kind == ContactKind::linear && !matched;
+        advance_ = two_point_kernel(kind, g_c_ != nullptr, matched ? Compliance::matched : Compliance::own);
         ModalTwoPoint::reset();
     }
 
@@ -170,18 +169,27 @@ public:
         m_.y_c = g_c_ ? two_point_dot(g_c_, y0_, m_.size) : 0;
         m_.u_c = g_c_ ? two_point_dot(g_c_, u0_, m_.size) : 0;
         m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.least_force = m_.depth = m_.iterations = m_.iterations_most = 0;
-        m_.read_at = -1;
         m_.status = {};
     }
-    Status advance(const Block& out) noexcept override { return kernel_.one(m_, out); }
-    void advance_all(std::span<Lane> all) noexcept override {
-        while (!all.empty()) {
-            std::size_t n = 1;
-            while (n < std::min<std::size_t>(all.size(), two_point_together) && together(all.first(n + 1))) ++n;
-            if (n == 1) all[0].status = all[0].scheme->advance(all[0].out);
-            else advance_some(all.first(n));
-            all = all.subspan(n);
+    Status advance(const Block& out) noexcept override { return advance_(m_, out); }
+    void meet(std::span<Scheme* const> all) override {
+        std::vector<TwoPoint*> strings;
+        for (Scheme* s : all) {
+            auto* one = dynamic_cast<ModalTwoPoint*>(s);
+            strings.push_back(one && one->sociable_ ? &one->m_ : nullptr);
         }
+        companies_ = companies_of(strings);
+        std::vector<bool> accompanied(all.size(), false);
+        for (const auto& company : companies_)
+            for (const auto& member : company->members()) accompanied[member.place] = true;
+        alone_.clear();
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (!accompanied[k]) alone_.push_back(k);
+    }
+    void advance_all(std::span<Lane> all) noexcept override {
+        if (companies_.empty()) return Scheme::advance_all(all);
+        for (const std::size_t k : alone_) all[k].status = all[k].scheme->advance(all[k].out);
+        for (const auto& company : companies_) company->advance(all);
     }
     int dofs() const override { return 2 * m_.modes; }
     std::vector<FreeMode> free_modes() const override { return free_; }
@@ -201,29 +209,6 @@ public:
     }
 
 private:
-    static bool together(std::span<const Lane> lanes) {  // in one kernel: neither profiles nor other rates, and all in the nearest cache
-        const auto* first = dynamic_cast<const ModalTwoPoint*>(lanes.front().scheme);
-        std::size_t bytes = 0;
-        for (const Lane& lane : lanes) {
-            const auto* one = dynamic_cast<const ModalTwoPoint*>(lane.scheme);
-            if (!one || !one->kernel_.together || one->kernel_.together != first->kernel_.together || lane.out.energy ||
-                one->m_.steps_per_row != first->m_.steps_per_row || lane.out.rows != lanes.front().out.rows)
-                return false;
-            bytes += one->stream_.size() * sizeof(double);
-        }
-        return bytes <= first_level_cache();
-    }
-    static void advance_some(std::span<Lane> lanes) {
-        std::array<TwoPoint*, two_point_together> strings;
-        std::array<Block, two_point_together> blocks;
-        for (std::size_t i = 0; i < lanes.size(); ++i) {
-            strings[i] = &static_cast<ModalTwoPoint*>(lanes[i].scheme)->m_;
-            blocks[i] = lanes[i].out;
-            lanes[i].status = {};
-        }
-        static_cast<ModalTwoPoint*>(lanes[0].scheme)->kernel_.together({strings.data(), lanes.size()}, blocks.data());
-    }
-
     // Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y = tanh(s dt/2) on the discrete mode
     // z = exp(s dt), where the true motion has s dt/2.
     static double start_phase_offset(double omega0, double sigma, double A, double B) {
@@ -271,7 +256,10 @@ private:
     TwoPoint m_;
     double Y_c0_ = 0;  // of the thread at t = 0 less h_c [m], where C is in series
     std::vector<double> pluck_now_;
-    TwoPointKernel kernel_;
+    TwoPointAdvance advance_ = nullptr;
+    bool sociable_ = false;                                    // may go in company
+    std::vector<std::unique_ptr<TwoPointCompany>> companies_;  // of those that this one met
+    std::vector<std::size_t> alone_;                           // among them
     double offset_ = 0;
     double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
     std::vector<FreeMode> free_;

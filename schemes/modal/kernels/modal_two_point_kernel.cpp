@@ -2,13 +2,11 @@
 // Presence of contact, thread and pluck is a template argument: an absent part costs nothing. So is what stands in series with the points.
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 
-#include <unistd.h>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schemes/modal/kernels/modal_two_point_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
-#include "schemes/modal/kernels/modal_two_point_lanes-inl.hpp"
+#include "schemes/modal/kernels/modal_two_point_pass-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
@@ -187,7 +185,7 @@ HWY_INLINE void forces_now(const TwoPoint& m, double (&force)[3]) {
 HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
     const double steps = m.steps_per_row;
     switch (tap.from) {
-        case TwoPointTap::From::modes: return tap.on_y == m.read && m.read_at == m.step ? m.heard : dot(tap.on_y, m, Column::y);
+        case TwoPointTap::From::modes: return dot(tap.on_y, m, Column::y);
         case TwoPointTap::From::modes_and_increment: return dot(tap.on_y, m, Column::y) + dot(tap.on_u, m, Column::u);
         case TwoPointTap::From::bridge: return m.impulse_b / steps;
         case TwoPointTap::From::thread: return m.impulse_c / steps;
@@ -222,57 +220,17 @@ Status advance(TwoPoint& m, const Block& out) {
     return m.status;
 }
 
-template <bool thread, bool read>
-void advance_pairs(std::span<TwoPoint* const> strings, const Block* out) {
-    using Pair = TwoPointPair<thread, read>;
-    const auto string = [strings](std::size_t i) { return i < strings.size() ? strings[i] : nullptr; };
-    const bool three = strings.size() > 2;
-    Pair first(string(0), three ? string(1) : nullptr), second(string(three ? 2 : 1), string(3));
-    first.solve();
-    for (int row = 0; row < out->rows; ++row) {
-        for (std::size_t i = 0; i < strings.size(); ++i) write<ContactKind::linear, thread, Compliance::own>(*strings[i], out[i], row);
-        for (long left = strings.front()->steps_per_row; left > 0; left -= steps_between_questions) {
-            for (long n = std::min(left, steps_between_questions); n > 0; --n) {
-                first.step(second);
-                second.step(first);
-            }
-            if (left > steps_between_questions && out->stopped()) return;
-        }
-    }
-    first.leave();
-    second.leave();
-}
-
-// A tap is read in the passes where each ends a row and each string has one.
-template <bool thread>
-void advance_together(std::span<TwoPoint* const> strings, const Block* out) {
-    bool read = strings.front()->steps_per_row == 1;
-    for (const TwoPoint* m : strings) read = read && m->read;
-    if (read) advance_pairs<thread, true>(strings, out);
-    else advance_pairs<thread, false>(strings, out);
-}
-
-template <ContactKind kind, bool thread, Compliance compliance>
-constexpr TwoPointTogether together = nullptr;
-#if HWY_TARGET != HWY_SCALAR  // a pair is a vector of two
-template <bool thread>
-constexpr TwoPointTogether together<ContactKind::linear, thread, Compliance::own> = advance_together<thread>;
-#endif
-
-template <ContactKind kind, bool thread, Compliance compliance>
-constexpr TwoPointKernel kernel = {advance<kind, thread, compliance>, together<kind, thread, compliance>};
-
 template <Compliance compliance>
-TwoPointKernel choose_for(ContactKind kind, bool thread) {
+TwoPointAdvance choose_for(ContactKind kind, bool thread) {
     using enum ContactKind;
     switch (kind) {
-        case none: return thread ? kernel<none, true, compliance> : kernel<none, false, compliance>;
-        case linear: return thread ? kernel<linear, true, compliance> : kernel<linear, false, compliance>;
-        case power: return thread ? kernel<power, true, compliance> : kernel<power, false, compliance>;
+        case none: return thread ? advance<none, true, compliance> : advance<none, false, compliance>;
+        case linear: return thread ? advance<linear, true, compliance> : advance<linear, false, compliance>;
+        case power: return thread ? advance<power, true, compliance> : advance<power, false, compliance>;
     }
     return {};
 }
-TwoPointKernel choose(ContactKind kind, bool thread, Compliance compliance) {
+TwoPointAdvance choose(ContactKind kind, bool thread, Compliance compliance) {
     return compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread);
 }
 
@@ -289,12 +247,8 @@ namespace jvari {
 HWY_EXPORT(choose);
 HWY_EXPORT(plain_dot);
 
-TwoPointKernel two_point_kernel(ContactKind kind, bool thread, Compliance compliance) {
+TwoPointAdvance two_point_kernel(ContactKind kind, bool thread, Compliance compliance) {
     return HWY_DYNAMIC_DISPATCH(choose)(kind, thread, compliance);
-}
-std::size_t first_level_cache() {
-    static const long bytes = sysconf(_SC_LEVEL1_DCACHE_SIZE);
-    return bytes > 0 ? bytes : 32768;
 }
 double two_point_dot(const double* w, const double* x, int size) {
     return HWY_DYNAMIC_DISPATCH(plain_dot)(w, x, size);

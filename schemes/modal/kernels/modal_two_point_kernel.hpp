@@ -35,8 +35,8 @@ struct TwoPointSeries {
 };
 
 // The pass goes once through memory: a line of eight modes of each column, then the next eight. Lines of absent parts are never touched.
-enum class TwoPointColumn { y, u, c, loss, g_b, g_c, read };
-constexpr int two_point_line = 8, two_point_columns = 7;
+enum class TwoPointColumn { y, u, c, loss, g_b, g_c };
+constexpr int two_point_line = 8, two_point_columns = 6;
 constexpr std::ptrdiff_t two_point_at(TwoPointColumn column, std::ptrdiff_t mode) {
     return (mode / two_point_line * two_point_columns + static_cast<int>(column)) * two_point_line + mode % two_point_line;
 }
@@ -60,8 +60,7 @@ struct TwoPoint {
 
     TwoPointSeries series;
 
-    const TwoPointTap* taps = nullptr;
-    const double* read = nullptr;  // on_y of the first tap from the modes, which a pass can read on its way: TwoPointColumn::read
+    std::span<const TwoPointTap> taps;
     int steps_per_row = 1;
 
     // what changes from step to step
@@ -71,8 +70,6 @@ struct TwoPoint {
     double supplied = 0, dissipated = 0;         // since the last row [J]
     double least_force = 0, depth = 0;           // over the run
     double iterations = 0, iterations_most = 0;  // of the contact solver
-    long read_at = -1;                           // the step at which a pass read `heard`
-    double heard = 0;
     Status status;
 };
 
@@ -84,17 +81,7 @@ using TwoPointAdvance = Status (*)(TwoPoint&, const Block&);
 enum class ContactKind { none, linear, power };
 enum class Compliance { own, matched };  // the modes' own, or with C in series
 
-// The same for two to four strings at once, each into its own block, its energy not probed: the same bits in less time, where all fit in
-// the first-level cache. Rows and steps per row are those of the first. nullptr: not for these parts.
-constexpr int two_point_together = 4;
-using TwoPointTogether = void (*)(std::span<TwoPoint* const>, const Block*);
-std::size_t first_level_cache();  // of this machine [bytes]
-
-struct TwoPointKernel {
-    TwoPointAdvance one = nullptr;
-    TwoPointTogether together = nullptr;
-};
-TwoPointKernel two_point_kernel(ContactKind, bool thread, Compliance);
+TwoPointAdvance two_point_kernel(ContactKind, bool thread, Compliance);
 
 // Sum of w_i x_i over the padded modes, by the kernel's own instructions and order of summation.
 double two_point_dot(const double* w, const double* x, int size);

@@ -1,5 +1,4 @@
-// One pass over the modes of modal_two_point_kernel.hpp, and the sums over lanes that end it. One string and several that are stepped
-// together share both, so that a string has the same bits alone and in company. Compiled once per instruction set by Highway.
+// One pass over the modes of modal_two_point_kernel.hpp, and the sums over lanes that end it. Compiled once per instruction set by Highway.
 #if defined(JVARI_MODAL_TWO_POINT_PASS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_TWO_POINT_PASS
 #undef JVARI_MODAL_TWO_POINT_PASS
@@ -8,8 +7,6 @@
 #endif
 
 #include <hwy/highway.h>
-
-#include <type_traits>
 
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/kernels/vectors-inl.hpp"
@@ -55,9 +52,9 @@ HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
 #endif
 }
 
-// The dots of the next step, before the sum over lanes; zero where the part is absent. `read`: of the tap that is read with them.
+// The dots of the next step, before the sum over lanes; zero where the part is absent.
 struct Dots {
-    V y_b, u_b, y_c, u_c, read;
+    V y_b, u_b, y_c, u_c;
 };
 
 HWY_INLINE void take(TwoPoint& m, const Dots& next) {
@@ -90,22 +87,16 @@ HWY_INLINE V held(V v) {
     return v;
 }
 
-struct NothingBetween {
-    template <int part>
-    HWY_INLINE void at() const {}
-};
-constexpr int parts_of_pass = 3;
-
-// One pass: the update and the next dots. Two accumulators per dot hide the latency of adding. `between` is asked before each third.
-template <bool barrier, bool thread, bool pluck, bool read = false, class Between = NothingBetween>
-HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Between between = {}) {
+// One pass: the update and the next dots. Two accumulators per dot hide the latency of adding.
+template <bool barrier, bool thread, bool pluck>
+HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
     double* HWY_RESTRICT stream = m.stream;
     const double* HWY_RESTRICT ge = m.g_e;
-    V yb[2], yc[2], ub[2], uc[2], heard[2];
-    for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = heard[k] = hn::Zero(d);
+    V yb[2], yc[2], ub[2], uc[2];
+    for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
     const auto at = [&](int j, int k) HWY_ATTR __attribute__((always_inline)) {
         double* HWY_RESTRICT line = stream + (N == two_point_line ? j * two_point_columns : two_point_at(Column::y, j));
         const auto of = [&](Column q) HWY_ATTR __attribute__((always_inline)) {
@@ -135,27 +126,15 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e, Betw
             yc[k] = hn::MulAdd(g_c, y1, yc[k]);
             uc[k] = hn::MulAdd(g_c, u1, uc[k]);
         }
-        if constexpr (read) heard[k] = hn::MulAdd(hn::Load(d, of(Column::read)), y1, heard[k]);
     };
     int i = 0;
-    const auto until = [&](int end) HWY_ATTR __attribute__((always_inline)) {
-        for (; i + N < end; i += 2 * N) {
-            at(i, 0);
-            at(i + N, 1);
-        }
-    };
-    if constexpr (!std::is_same_v<Between, NothingBetween>) {
-        const int third = m.modes / parts_of_pass;
-        between.template at<0>();
-        until(third);
-        between.template at<1>();
-        until(2 * third);
-        between.template at<2>();
+    for (; i + N < m.modes; i += 2 * N) {
+        at(i, 0);
+        at(i + N, 1);
     }
-    until(m.modes);
     if (i < m.modes) at(i, 0);
     const auto both = [](const V(&v)[2]) { return hn::Add(v[0], v[1]); };
-    return {both(yb), both(ub), both(yc), both(uc), both(heard)};
+    return {both(yb), both(ub), both(yc), both(uc)};
 }
 
 }  // namespace HWY_NAMESPACE
