@@ -182,6 +182,7 @@ void expect_the_run_of_one_in_company(const Scene& base, const Settings& with, i
         taps.push_back(static_cast<int>(one.taps.size()));
     }
     std::vector<Scheme*> met;
+    met.reserve(company.size());
     for (const auto& scheme : company) met.push_back(scheme.get());
     met.front()->meet(met);
     const int all_rows = with.sample_rate > 1000 * with.tap_rate ? 6 : 330;
@@ -342,7 +343,7 @@ const Descriptor counting = {"counting",
                                  return std::make_unique<Counting>(fails, static_cast<int>(scene.taps.size()), steps_per_row(s));
                              }};
 
-Scene counted(std::vector<double> fails) {
+Scene counted(const std::vector<double>& fails) {
     Scene scene;
     scene.name = "counted";
     scene.duration = 200 / tap_rate;

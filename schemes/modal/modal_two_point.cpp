@@ -232,6 +232,7 @@ private:
     // docs/compliance-matching.md: the constants of the points' step, from C over barrier, thread and pluck.
     void put_in_series(const Descriptor& descriptor, const Scene& scene, const ModeBasis& modes, const std::vector<double>& A) {
         std::vector<double> own;
+        own.reserve(A.size());
         for (const double Ai : A) own.push_back(m_.dt * m_.dt / (4 * modes.mass * Ai));  // (42) with s = 0
         const MissingCompliance C = modal_compliance(descriptor, scene, modes, own);
         for (std::size_t k = 0; k < taps_.size(); ++k) taps_[k].on_force = C.taps[k];

@@ -17,9 +17,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128 && !HWY_HAVE_SCALABLE
+namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr long steps_between_sums = 64;  // of y_b and y_c over the modes
 
