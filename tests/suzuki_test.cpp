@@ -27,12 +27,7 @@ Trace exact(const Scene& scene) {
 double error(const Scene& scene, const Settings& settings, const Trace& truth, int tap) {
     const auto r = run(strang(), scene, settings);
     EXPECT_EQ(r.status.outcome, Outcome::ok);
-    double d = 0, n = 0;
-    for (long i = 0; i < truth.rows; ++i) {
-        d += std::pow(r.trace.column(tap)[i] - truth.column(tap)[i], 2);
-        n += std::pow(truth.column(tap)[i], 2);
-    }
-    return std::sqrt(d / n);
+    return relative_difference(r.trace.column(tap), truth.column(tap));
 }
 Scene short_release() {
     Scene scene = c3_release();
