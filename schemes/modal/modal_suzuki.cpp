@@ -94,24 +94,24 @@ private:
         double passed = 0;  // of dt
         for (int part = 0; part < parts; ++part) {
             const int kind = kinds[part];
+            const SeriesPoints& points = points_[kind];
             const double before = part == 0 ? 0.5 * lengths[0] : kick_before(part), kick = part == 0 && step_ > 0 ? kick_before(0) : before;
             impulse_.b += before * F_.b;  // the row's share: half of the kick at a row is the row's before
             impulse_.c += before * F_.c;
-            relax(kind, probed);
+            relax(points.relaxed(y_b_, y_c_, Y_, F_.b), probed);
             move(kind, kick, probed);
             passed += lengths[part];
             stand(pass_.y_b, pass_.y_c, part + 1 == parts ? begins + m_.dt : begins + passed * m_.dt, probed);
-            relax(kind, probed);
+            relax(points.relaxed(y_b_, y_c_, Y_), probed);
             act();
         }
         impulse_.b += 0.5 * lengths[parts - 1] * F_.b;
         impulse_.c += 0.5 * lengths[parts - 1] * F_.c;
         ++step_;
     }
-    void relax(int kind, bool probed) {  // half a part's time, the string held
-        const double before = probed ? points_[kind].energy(y_b_, y_c_, Y_) : 0;
-        Y_ = points_[kind].relaxed(y_b_, y_c_, Y_);
-        if (probed) dissipated_ += before - points_[kind].energy(y_b_, y_c_, Y_);
+    void relax(double Y, bool probed) {  // to what it is after half a part's time, the string held
+        if (probed) dissipated_ += points_[0].energy(y_b_, y_c_, Y_) - points_[0].energy(y_b_, y_c_, Y);
+        Y_ = Y;
     }
     void move(int kind, double kick, bool probed) {
         const Free& free = free_[kind];
