@@ -95,9 +95,10 @@ private:
         for (int part = 0; part < parts; ++part) {
             const int kind = kinds[part];
             const SeriesPoints& points = points_[kind];
-            const double before = part == 0 ? 0.5 * lengths[0] : kick_before(part), kick = part == 0 && step_ > 0 ? kick_before(0) : before;
-            impulse_.b += before * F_.b;  // the row's share: half of the kick at a row is the row's before
-            impulse_.c += before * F_.c;
+            const double kick = part == 0 && step_ == 0 ? 0.5 * lengths[0] : kick_before(part);
+            const double share = part == 0 ? 0.5 * lengths[0] : kick;  // of this row: half of the kick at a row is the row's before
+            impulse_.b += share * F_.b;
+            impulse_.c += share * F_.c;
             relax(points.relaxed(y_b_, y_c_, Y_, F_.b), probed);
             move(kind, kick, probed);
             passed += lengths[part];
