@@ -16,7 +16,9 @@ namespace {
 constexpr int parts = 5;
 const double outer = 1 / (4 - std::cbrt(4.0)), inner = 1 - 4 * outer;
 const std::array<double, parts> lengths{outer, outer, inner, outer, outer};  // of dt
-constexpr std::array<int, parts> kinds{0, 0, 1, 0, 0};
+bool backwards(int part) {
+    return lengths[part] < 0;
+}
 double kick_before(int part) {  // length of the kick that opens it: halves of two parts
     return 0.5 * (lengths[(part + parts - 1) % parts] + lengths[part]);
 }
@@ -45,9 +47,9 @@ public:
         const String& s = scene.strings.front();
         pluck_ = s.pluck;
         C_ = modal_compliance(descriptor, scene, ModeBasis(s, m_.count, 0), yielding());
-        for (const int kind : {0, 1}) {
-            points_[kind] = SeriesPoints(s.barriers.empty() ? nullptr : &m_.barrier, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C_);
-            points_[kind].set_time(0.5 * (kind ? inner : outer) * m_.dt);
+        for (const bool back : {false, true}) {
+            points_[back] = SeriesPoints(s.barriers.empty() ? nullptr : &m_.barrier, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C_);
+            points_[back].set_time(0.5 * (back ? inner : outer) * m_.dt);
         }
         pass_ = {m_.size, q_.data(), v_.data(), nullptr, nullptr, nullptr, nullptr, m_.g_b.data(), m_.g_c.data(), m_.g_e.data()};
         for (const bool plucked : {false, true}) passes_[plucked] = kick_pass(!m_.g_b.empty(), !m_.g_c.empty(), plucked);
@@ -93,14 +95,13 @@ private:
         const double begins = static_cast<double>(step_) * m_.dt;
         double passed = 0;  // of dt
         for (int part = 0; part < parts; ++part) {
-            const int kind = kinds[part];
-            const SeriesPoints& points = points_[kind];
+            const SeriesPoints& points = points_[backwards(part)];
             const double kick = part == 0 && step_ == 0 ? 0.5 * lengths[0] : kick_before(part);
             const double share = part == 0 ? 0.5 * lengths[0] : kick;  // of this row: half of the kick at a row is the row's before
             impulse_.b += share * F_.b;
             impulse_.c += share * F_.c;
             relax(points.relaxed(y_b_, y_c_, Y_, F_.b), probed);
-            move(kind, kick, probed);
+            move(free_[backwards(part)], kick, probed);
             passed += lengths[part];
             stand(pass_.y_b, pass_.y_c, part + 1 == parts ? begins + m_.dt : begins + passed * m_.dt, probed);
             relax(points.relaxed(y_b_, y_c_, Y_), probed);
@@ -114,8 +115,7 @@ private:
         if (probed) dissipated_ += points_[0].energy(y_b_, y_c_, Y_) - points_[0].energy(y_b_, y_c_, Y);
         Y_ = Y;
     }
-    void move(int kind, double kick, bool probed) {
-        const Free& free = free_[kind];
+    void move(const Free& free, double kick, bool probed) {
         pass_.a = free.a.data();
         pass_.b = free.b.data();
         pass_.c = free.c.data();
@@ -186,7 +186,7 @@ private:
         for (int i = 0; i < m_.count; ++i) {
             const auto step = [&](double q, double v, double F) {
                 for (int part = 0; part < parts; ++part) {
-                    const Free& free = free_[kinds[part]];
+                    const Free& free = free_[backwards(part)];
                     v += kick_before(part) * m_.dt / m_.mass * F;
                     const double moved = free.a[i] * q + free.b[i] * v;
                     v = free.c[i] * q + free.d[i] * v;
@@ -203,7 +203,7 @@ private:
 
     ModalString m_;
     std::optional<Pluck> pluck_;
-    std::array<Free, 2> free_;  // over an outer part, over the inner
+    std::array<Free, 2> free_;  // over an outer part, over the inner, which goes backwards
     std::array<SeriesPoints, 2> points_;
     MissingCompliance C_;
     ModalArray q_, v_;
