@@ -179,16 +179,6 @@ constexpr Option energy_option{
 constexpr Option explicit_options[] = {compliance_option, profile_points_option};
 constexpr Option impulse_invariant_options[] = {energy_option, profile_points_option};
 
-ModalArray impulse_gain(const ModalString& string) {
-    ModalArray gain;
-    const double dt = string.dt;
-    for (int i = 0; i < string.count; ++i) {
-        const double w = string.omega[i], wave = w > 0 ? std::sin(w * dt) / w : w < 0 ? std::sinh(w * dt) / w : dt;
-        gain.push_back(dt * std::exp(-string.sigma[i] * dt) * wave / string.mass);
-    }
-    return gain;
-}
-
 Made made_impulse_invariant(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const bool true_energy = choice_option(settings, energy_option) == "true";
     const auto inertia_of = [true_energy](const ModalString& string, const ModalArray& gain) {

@@ -9,7 +9,6 @@
 // No energy balance is promised; the stored energy is the true one, with what is in series.
 // Option `order` = 4 takes five such steps for one (modal_suzuki.hpp).
 // Leaves out: contact loss, several barriers, profiles, polarisation, the body.
-#include <cmath>
 #include <limits>
 
 #include "schemes/modal/modal_suzuki.hpp"
@@ -23,26 +22,16 @@ namespace {
 constexpr Option order_option{
     "order", "2", "2: one Strang step; 4: five in its place, the middle one backwards (Suzuki 1990), five times the work", {"2", "4"}};
 
-ModalArray gain_of(const ModalString& string) {
-    const double dt = string.dt;
-    ModalArray gain;
-    for (int i = 0; i < string.count; ++i) {
-        const double w = string.omega[i], wave = w > 0 ? std::sin(w * dt) / w : w < 0 ? std::sinh(w * dt) / w : dt;
-        gain.push_back(dt * std::exp(-string.sigma[i] * dt) * wave / string.mass);
-    }
-    return gain;
-}
-
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     ModalString string = modal_string(descriptor, scene, settings);
     if (choice_option(settings, order_option) == "4") return modal_suzuki(descriptor, scene, std::move(string));
-    const ModalArray gain = gain_of(string);
+    const ModalArray gain = impulse_gain(string);
     return explicit_in_series(descriptor, scene, std::move(string), gain);
 }
 
 double margin(const Scene& scene, const Settings& settings) {
     if (choice_option(settings, order_option) == "4") return std::numeric_limits<double>::quiet_NaN();
-    return series_margin(modal_strang, scene, settings, gain_of);
+    return series_margin(modal_strang, scene, settings, impulse_gain);
 }
 }  // namespace
 

@@ -31,6 +31,16 @@ PluckSteps pluck_steps(const Pluck& pluck, double dt) {
     return {static_cast<long>(first), static_cast<long>(last - first)};
 }
 
+double sine_over(double omega, double t) {
+    return omega > 0 ? std::sin(omega * t) / omega : omega < 0 ? std::sinh(omega * t) / omega : t;
+}
+
+ModalArray impulse_gain(const ModalString& m) {
+    ModalArray gain;
+    for (int i = 0; i < m.count; ++i) gain.push_back(m.dt * std::exp(-m.sigma[i] * m.dt) * sine_over(m.omega[i], m.dt) / m.mass);
+    return gain;
+}
+
 double modal_dot(const ModalArray& a, const ModalArray& b) {
     double sum = 0;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i] * b[i];

@@ -63,6 +63,10 @@ ModalString modal_string(const Descriptor&, const Scene&, const Settings&);
 ModalArray rest_increments(const ModalString&);
 std::vector<FreeMode> three_point_modes(const ModalString&);  // as those recursions have them
 
+// sin(omega t)/omega, omega as it stands in ModalString: sinh where overdamped, t at 0 [s].
+double sine_over(double omega, double t);
+ModalArray impulse_gain(const ModalString&);  // dt R sin(omega dt)/(m omega) of each mode [m/N]
+
 double modal_dot(const ModalArray&, const ModalArray&);
 double modal_dot_by_eights(const ModalArray&, const ModalArray&);  // eight partial sums: of padded arrays, and faster
 

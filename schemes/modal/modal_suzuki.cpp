@@ -28,9 +28,7 @@ struct Free {  // motion of each mode over some time: (q, v) -> (a q + b v, c q 
     Free(const ModalString& m, double t) {
         for (int i = 0; i < m.count; ++i) {
             const double w = m.omega[i], s = m.sigma[i], E = std::exp(-s * t), square = w >= 0 ? s * s + w * w : s * s - w * w;
-            const double C = w >= 0 ? std::cos(w * t) : std::cosh(w * t), S = w > 0   ? std::sin(w * t) / w
-                                                                              : w < 0 ? std::sinh(w * t) / w
-                                                                                      : t;
+            const double C = w >= 0 ? std::cos(w * t) : std::cosh(w * t), S = sine_over(w, t);
             a.push_back(E * (C + s * S));
             b.push_back(E * S);
             c.push_back(-E * square * S);
