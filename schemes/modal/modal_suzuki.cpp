@@ -23,15 +23,20 @@ double kick_before(int part) {  // length of the kick that opens it: halves of t
     return 0.5 * (lengths[(part + parts - 1) % parts] + lengths[part]);
 }
 
+double omega0_squared(const ModalString& m, int i) {  // without damping [rad^2/s^2]
+    const double w = m.omega[i], s = m.sigma[i];
+    return w >= 0 ? s * s + w * w : s * s - w * w;
+}
+
 struct Free {  // motion of each mode over some time: (q, v) -> (a q + b v, c q + d v)
     ModalArray a, b, c, d;
     Free(const ModalString& m, double t) {
         for (int i = 0; i < m.count; ++i) {
-            const double w = m.omega[i], s = m.sigma[i], E = std::exp(-s * t), square = w >= 0 ? s * s + w * w : s * s - w * w;
+            const double w = m.omega[i], s = m.sigma[i], E = std::exp(-s * t);
             const double C = w >= 0 ? std::cos(w * t) : std::cosh(w * t), S = sine_over(w, t);
             a.push_back(E * (C + s * S));
             b.push_back(E * S);
-            c.push_back(-E * square * S);
+            c.push_back(-E * omega0_squared(m, i) * S);
             d.push_back(E * (C - s * S));
         }
         for (ModalArray* all : {&a, &b, &c, &d}) all->resize(m.size);
@@ -155,8 +160,8 @@ private:
     Kicked now() const {
         Kicked k;
         for (int i = 0; i < m_.count; ++i) {
-            const double w = m_.omega[i], square = m_.sigma[i] * m_.sigma[i] + (w >= 0 ? w * w : -w * w), v = kicked(i);
-            k.energy += 0.5 * m_.mass * (v * v + square * q_[i] * q_[i]);
+            const double v = kicked(i);
+            k.energy += 0.5 * m_.mass * (v * v + omega0_squared(m_, i) * q_[i] * q_[i]);
             if (!m_.g_e.empty()) k.work += 0.5 * m_.mass * m_.g_e[i] * pass_.P_e * (v_[i] + v);
         }
         return k;
