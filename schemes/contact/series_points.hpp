@@ -74,6 +74,7 @@ struct SeriesPoints {
         Forces force;
         double Y_after = 0;
     };
+    // Always inlined: as a call it writes the two forces one by one, which are then read as a pair, and the processor waits.
     [[gnu::always_inline]] Instant instant(double y_b, double y_c, double Y, bool at_start) const {  // at_start: there is no time before it
         return law.law.alpha == 1 || !barrier ? linear_instant(y_b, y_c, Y, at_start) : power_instant(y_b, y_c, Y, at_start);
     }

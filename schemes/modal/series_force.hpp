@@ -25,6 +25,7 @@ struct SeriesForce {
         SeriesPoints::Forces force{};      // at the step
         double least_force = 0, most_force = 0;
 
+        // Always inlined, as SeriesPoints::instant is.
         [[gnu::always_inline]] void act(const SeriesPoints& p, const MissingCompliance& missing, double b, double c, double pluck,
                                         bool at_start) {
             F_e = pluck;
