@@ -1,5 +1,5 @@
 // jvari list: what exists, and which scheme represents which scene.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -82,7 +82,7 @@ std::string scenes_text(const Shelf& shelf) {
         std::vector<std::string> taps;
         for (const Tap& tap : scene.taps) taps.push_back(tap.name);
         text += fmt::format("  {:<{}}  {}\n  {:<{}}  {} s; taps {}; needs {}\n", name, width, scene.source, "", width, scene.duration,
-                            joined(taps), joined(compare::names_in(needed_by(scene))));
+                            fmt::join(taps, ", "), fmt::join(compare::names_in(needed_by(scene)), ", "));
     }
     for (const auto& [name, why] : shelf.unreadable) text += fmt::format("  {}  cannot be read: {}\n", name, why);
     return text;

@@ -1,17 +1,11 @@
 #include "bench/command/list_seam.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace jvari::bench::command {
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
-    return text;
-}
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -58,7 +52,7 @@ std::vector<std::string> words_of(const Option& o) {
 }
 
 std::string meaning_of(const Option& o) {
-    return o.words().empty() ? o.meaning : fmt::format("{}; one of {}", o.meaning, joined(words_of(o)));
+    return o.words().empty() ? o.meaning : fmt::format("{}; one of {}", o.meaning, fmt::join(o.words(), ", "));
 }
 }  // namespace
 
@@ -90,8 +84,8 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
 
         text += fmt::format("  {:<{}}  {}\n  {:<{}}  energy balance {}{}; represents {}\n", d->name, width, d->source, "", width,
                             name_of(d->balance), d->clock == Clock::continuous ? "; continuous time" : "",
-                            joined(compare::names_in(d->represents - not_quite)));
-        if (!not_quite.empty()) text += fmt::format("  {:<{}}  approximates {}\n", "", width, joined(approximations_of(*d, "")));
+                            fmt::join(compare::names_in(d->represents - not_quite), ", "));
+        if (!not_quite.empty()) text += fmt::format("  {:<{}}  approximates {}\n", "", width, fmt::join(approximations_of(*d, ""), ", "));
         if (!note.empty()) text += fmt::format("  {:<{}}  {}\n", "", width, note);
 
         body += fmt::format("| `{}` | ● | ● |", d->name);  // each string is a scheme of its own, a body filters what they give
@@ -101,7 +95,8 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
         }
         body += fmt::format(" {} | {} |\n", name_of(d->balance), d->source);
         if (!not_quite.empty() || !note.empty())
-            notes += fmt::format("- `{}`:{}{}\n", d->name, not_quite.empty() ? "" : " ◐ " + joined(approximations_of(*d, "`")) + ".",
+            notes += fmt::format("- `{}`:{}{}\n", d->name,
+                                 not_quite.empty() ? "" : fmt::format(" ◐ {}.", fmt::join(approximations_of(*d, "`"), ", ")),
                                  note.empty() ? "" : " " + note);
     }
     return {json.dump(), text + (list.empty() ? "  none\n" : ""),
@@ -116,10 +111,10 @@ Listing list_options(const compare::Catalogue& catalogue) {
         const Option& o = *l.option;
         json.push_back(
             {{"name", o.name}, {"default", o.fallback}, {"meaning", o.meaning}, {"choices", words_of(o)}, {"schemes", l.schemes}});
-        text += fmt::format("  {:<16}{:<10}{}\n  {:<26}{}\n", o.name, o.fallback, meaning_of(o), "", joined(l.schemes));
+        text += fmt::format("  {:<16}{:<10}{}\n  {:<26}{}\n", o.name, o.fallback, meaning_of(o), "", fmt::join(l.schemes, ", "));
         std::vector<std::string> quoted;
         for (const std::string& name : l.schemes) quoted.push_back("`" + name + "`");
-        markdown += fmt::format("| `{}` | {} | {} | {} |\n", o.name, o.fallback, meaning_of(o), joined(quoted));
+        markdown += fmt::format("| `{}` | {} | {} | {} |\n", o.name, o.fallback, meaning_of(o), fmt::join(quoted, ", "));
     }
     return {json.dump(), text, markdown};
 }

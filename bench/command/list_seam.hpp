@@ -16,6 +16,4 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
 Listing list_options(const compare::Catalogue&);
 Listing list_facts();
 
-std::string joined(const std::vector<std::string>& words);  // "a, b, c"
-
 }  // namespace jvari::bench::command
