@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr long steps_between_sums = 64;  // of y_b and y_c over the modes
 
-enum class Besides { nothing, read, pluck_and_ledger };  // what a pass does beside stepping
+enum class Besides { nothing, read, ledger };  // what a pass does beside stepping
 
 template <bool alike, bool thread>
 class Stepper {
@@ -135,9 +135,9 @@ private:
     static HWY_INLINE void step(Company& m, bool read, bool ledger) {
         if (m.step >= m.steady_until) look_for_plucks(m);
         if (m.step % steps_between_sums == 0) sum_at_points<of_y>(m, m.y_b, m.y_c);
-        if (m.plucked || ledger) pass<Besides::pluck_and_ledger>(m);
-        else if (read) pass<Besides::read>(m);
-        else pass<Besides::nothing>(m);
+        if (ledger) pass<Besides::ledger, true>(m);
+        else if (m.plucked) read ? pass<Besides::read, true>(m) : pass<Besides::nothing, true>(m);
+        else read ? pass<Besides::read, false>(m) : pass<Besides::nothing, false>(m);
         ++m.step;
     }
 
@@ -181,7 +181,7 @@ private:
     };
 
     // The points' scalar step: forces by (45)-(48), then what the points move.
-    template <bool pluck>
+    template <bool pluck, bool ledger>
     static HWY_INLINE void solve(Company& m, Forces& both, PerString& F_e) {
         for (int v = 0; v < vectors; ++v) {
             const W before_b = get(m.F_b, v), before_c = get(m.F_c, v);
@@ -207,7 +207,7 @@ private:
                 const W s_c = hn::MulAdd(theta_cc, F_c, hn::MulAdd(theta_bc, F_b, u_c));  // (44)
                 add(m.y_c, v, s_c);
                 add(m.impulse_c, v, F_c);
-                if constexpr (pluck) add(m.dissipated, v, get(m.lost_c, v) * s_c * s_c);
+                if constexpr (ledger) add(m.dissipated, v, get(m.lost_c, v) * s_c * s_c);
                 both.c[v] = before_c + F_c;
                 set(m.F_c, v, F_c);
             }
@@ -220,13 +220,13 @@ private:
         }
     }
 
-    template <Besides besides>
+    template <Besides besides, bool pluck>
     static HWY_INLINE void pass(Company& m) {
-        constexpr bool pluck = besides == Besides::pluck_and_ledger;
+        constexpr bool ledger = besides == Besides::ledger;
         PerString F_e;
         if constexpr (pluck) plucks_now(m, F_e);
         Forces both;
-        solve<pluck>(m, both, F_e);
+        solve<pluck, ledger>(m, both, F_e);
         const double *weights = m.weights.data(), *g_e = m.g_e.data(), *on_y = besides == Besides::read ? m.reads.front().on_y.data() : g_e;
         double* const all = m.state.data();
         Sum b, c, heard, lost, given;
@@ -248,7 +248,7 @@ private:
                 b.add(place, g_b.of(v), r1);
                 if constexpr (thread) c.add(place, g_c.of(v), r1);
                 if constexpr (besides == Besides::read) heard.add(place, listen.of(v), y1);
-                if constexpr (pluck) {
+                if constexpr (ledger) {
                     lost.add(place, loss.of(v) * s, s);
                     given.add(place, push.of(v), s);
                 }
@@ -259,7 +259,7 @@ private:
             set(m.r_b, v, b.of(v));
             if constexpr (thread) set(m.r_c, v, c.of(v));
             if constexpr (besides == Besides::read) set(m.reads.front().value, v, heard.of(v));
-            if constexpr (pluck) {
+            if constexpr (ledger) {
                 add(m.dissipated, v, number(0.5) * lost.of(v));  // (52), B/J = loss/2
                 add(m.supplied, v, get(F_e, v) * given.of(v));   // (51)
             }
