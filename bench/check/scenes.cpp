@@ -120,7 +120,8 @@ Scene string_at_rest() {
     return scene;
 }
 
-std::vector<Scene> contract_scenes() {
+namespace {
+std::vector<Scene> read_contract_scenes() {
     std::vector<Scene> scenes;
     for (const std::string& name : library_scenes()) scenes.push_back(read_scene(name));
     scenes.push_back(named(string_at_rest(), "rest"));
@@ -131,6 +132,12 @@ std::vector<Scene> contract_scenes() {
     scenes.back().strings.front().initial.reset();
     scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
     return shortened(scenes);
+}
+}  // namespace
+
+const std::vector<Scene>& contract_scenes() {
+    static const std::vector<Scene> scenes = read_contract_scenes();
+    return scenes;
 }
 
 std::vector<Scene> scenes_with(Feature feature) {

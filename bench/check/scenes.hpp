@@ -14,7 +14,7 @@ constexpr double contract_tap_rate = 44100;  // [Hz]
 constexpr int contract_modes = 40;
 constexpr long contract_rows = 200;
 
-std::vector<Scene> contract_scenes();  // the library and a few made here, each of contract_rows
+const std::vector<Scene>& contract_scenes();  // the library and a few made here, each of contract_rows; read once
 
 // Scenes that need a feature and listen to the motion: two that need little else, then those above, with it where they are without.
 std::vector<Scene> scenes_with(Feature);
