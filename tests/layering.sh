@@ -62,7 +62,7 @@ only libsamplerate 'samplerate' 'bench/sound/'
 only pybind11 'pybind11/' 'python/'
 forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp' ! -name '*-inl.hpp')  # -inl: part of a file of its own folder, compiled once for each set of instructions
-forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' $(find results -maxdepth 3 -name '*.json' -o -maxdepth 3 -name '*.toml')
+forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' $(find results -maxdepth 3 -path results/runs -prune -o \( -name '*.json' -o -name '*.toml' \) -print)
 lines=$(cat $product | wc -l)
 for room in $(for file in $product; do dirname "$file"; done | sort -u); do
     in_it=$(ls "$room"/*.hpp "$room"/*.cpp 2>/dev/null)
