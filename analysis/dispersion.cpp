@@ -4,7 +4,9 @@
 
 #include <gsl/gsl_sf_bessel.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -1,6 +1,6 @@
 #include "analysis/resonators.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

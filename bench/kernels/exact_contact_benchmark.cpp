@@ -9,7 +9,7 @@
 #include "scenes/scene_file.hpp"
 #include "schemes/run.hpp"
 #include "tests/c3.hpp"
-#include "tests/stepwise_contact.hpp"
+#include "tests/reference/stepwise_contact.hpp"
 
 namespace {
 using namespace jvari;

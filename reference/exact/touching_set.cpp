@@ -1,7 +1,8 @@
 #include "reference/exact/touching_set.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -54,7 +55,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     for (int a = 0; a < P; ++a)
         for (int b = 0; b < P; ++b) symmetric(a, b) = A[1](a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
     const Matrix even = (symmetric + symmetric.transpose()) / 2;
-    if (Eigen::SelfAdjointEigenSolver<Matrix>(even, Eigen::EigenvaluesOnly).eigenvalues()(0) < stiff * stiff || !A[0].isZero(0)) {
+    const bool all_stiff = Eigen::LLT<Matrix>(even - stiff * stiff * Matrix::Identity(P, P)).info() == Eigen::Success;
+    if (!all_stiff || !A[0].isZero(0)) {
         soften();
         return;
     }

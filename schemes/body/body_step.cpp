@@ -1,7 +1,7 @@
 // Source: body_step.hpp.
 #include "schemes/body/body_step.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 namespace jvari {
 

@@ -3,7 +3,6 @@
 // on panels that grow geometrically from every place where the integrand has a kink or a boundary layer of width 1/l.
 #include "schemes/contact/compliance.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "scenes/barrier.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/scheme.hpp"
+#include "schemes/symmetric.hpp"
 
 namespace jvari {
 
@@ -173,14 +173,18 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
         refuse_soft(who, one.bb, one.bc, one.cc);
         return m;
     }
-    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::Map<Matrix> C(m.C.data(), n, n);
-    const Eigen::SelfAdjointEigenSolver<Matrix> parts(0.5 * (C + C.transpose()));
-    const Eigen::VectorXd values = parts.eigenvalues();
-    m.excess = std::max(0.0, -values(0));
-    if (m.excess > values(n - 1)) refuse_soft(who, "contacts", m.excess);
-    const Matrix positive = parts.eigenvectors() * values.cwiseMax(0).asDiagonal() * parts.eigenvectors().transpose();
-    C = 0.5 * (positive + positive.transpose());  // symmetric to the last bit
+    std::vector<double> symmetric(m.C);
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b) symmetric[a * n + b] = 0.5 * (m.C[a * n + b] + m.C[b * n + a]);
+    const SymmetricParts parts = symmetric_parts(symmetric, n);
+    m.excess = std::max(0.0, -parts.value[0]);
+    if (m.excess > parts.value[n - 1]) refuse_soft(who, "contacts", m.excess);
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b <= a; ++b) {
+            double sum = 0;
+            for (int k = 0; k < n; ++k) sum += parts.vector[k * n + a] * std::max(parts.value[k], 0.0) * parts.vector[k * n + b];
+            m.C[a * n + b] = m.C[b * n + a] = sum;  // symmetric to the last bit
+        }
     return m;
 }
 

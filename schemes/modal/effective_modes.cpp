@@ -1,8 +1,10 @@
 #include "schemes/modal/effective_modes.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "schemes/symmetric.hpp"
 
 namespace jvari {
 
@@ -49,11 +51,12 @@ ModeBasis::ModeBasis(const String& s, int kept, int effective) : kept_(kept) {
         x = V.col(n - 1);  // the same space, better conditioned
     }
     const Eigen::MatrixXd basis = V.leftCols(n);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.transpose() * square.matrix().asDiagonal() * basis);
-    const Eigen::MatrixXd shapes = basis * ritz.eigenvectors();
+    const Eigen::MatrixXd projected = basis.transpose() * square.matrix().asDiagonal() * basis;
+    const SymmetricParts ritz = symmetric_parts({projected.data(), projected.data() + projected.size()}, n);
+    const Eigen::MatrixXd shapes = basis * Eigen::Map<const Eigen::MatrixXd>(ritz.vector.data(), n, n);
     const Eigen::VectorXd losses = tail(all_.sigma, kept);
     for (int k = 0; k < n; ++k) {
-        omega0.push_back(std::sqrt(ritz.eigenvalues()[k]));
+        omega0.push_back(std::sqrt(ritz.value[k]));
         sigma.push_back(shapes.col(k).array().square().matrix().dot(losses));
         shape_.emplace_back(shapes.col(k).data(), shapes.col(k).data() + left);
     }

@@ -1,0 +1,510 @@
+// Certificates as people meet them: the files, the cache, the figures that stand beside the errors of compare and suite.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/store/checksum.hpp"
+#include "bench/store/records.hpp"
+#include "bench/trust/certificate_file.hpp"
+#include "bench/trust/certificate_library.hpp"
+#include "reference/oversampled.hpp"
+#include "reference/references.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/command_line.hpp"
+
+namespace jvari::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void write(const fs::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+Scene short_scene(const std::string& name, double duration) {
+    Scene scene = read_scene(name);
+    scene.duration = duration;
+    return scene;
+}
+
+bench::trust::KeptCertificate made(const Scene& scene, const CertifySettings& settings) {
+    bench::trust::KeptCertificate kept = bench::trust::planned_certificate(scene, settings);
+    kept.certificate = certify(scene, settings);
+    return kept;
+}
+
+// ---- The file
+
+TEST(CertificateFile, ReadsBackToWhatItWasWrittenFrom) {
+    const Scratch scratch;
+    const bench::trust::KeptCertificate kept = made(short_scene("tanpura_c3_release", 3e-3), {20, 44100, 8 * 44100.0, {}, {}});
+    const fs::path path = scratch / "a.json";
+    write(path, bench::trust::json_of(kept));
+    write(bench::trust::cost_path(path), bench::trust::cost_json_of(kept));
+    std::string why;
+    auto back = bench::trust::read_certificate(path, why);
+    ASSERT_TRUE(back) << why;
+    EXPECT_EQ(json_of(*back), json_of(kept));
+    EXPECT_TRUE(std::isnan(back->certificate.entries[0].wall_seconds));
+    bench::trust::read_costs(path, *back);
+    ASSERT_EQ(back->certificate.entries.size(), 6u);  // the last has twice the modes
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(back->certificate.entries[i].wall_seconds, kept.certificate.entries[i].wall_seconds);
+    EXPECT_EQ(back->certificate.entries[4].estimate[1].back(), kept.certificate.entries[4].estimate[1].back());
+    EXPECT_EQ(back->certificate.pairs[3].taps[2].until, kept.certificate.pairs[3].taps[2].until);
+}
+
+TEST(CertificateFile, KeepsTheTwoKindsOfNumbersApartAndRepeatsToTheLastDigit) {
+    const Scene scene = short_scene("free_string", 5e-3);
+    const bench::trust::KeptCertificate first = made(scene, {10, 44100, 0, {}, {}}), second = made(scene, {10, 44100, 0, {}, {}});
+    EXPECT_EQ(json_of(first), json_of(second));
+    for (const char* clock : {"wall", "date", "cpu", "commit"}) {
+        EXPECT_EQ(json_of(first).find(clock), std::string::npos) << clock;
+        EXPECT_NE(cost_json_of(first).find(clock), std::string::npos) << clock;
+    }
+    EXPECT_EQ(cost_json_of(first).find("l2"), std::string::npos);
+}
+
+TEST(CertificateFile, HasAKeyOfAllThatItDependsOnAndAHashOfTheSceneWhateverItsDuration) {
+    const Scene scene = short_scene("free_string", 5e-3);
+    const CertifySettings settings{10, 44100, 0, {}, {}};
+    const bench::trust::KeptCertificate kept = bench::trust::planned_certificate(scene, settings);
+    const auto differs = [&](const Scene& s, const CertifySettings& c) { return bench::trust::planned_certificate(s, c).key != kept.key; };
+    EXPECT_FALSE(differs(scene, settings));
+    EXPECT_TRUE(differs(short_scene("free_string", 6e-3), settings));
+    EXPECT_TRUE(differs(scene, {11, 44100, 0, {}, {}}));
+    EXPECT_TRUE(differs(scene, {10, 88200, 0, {}, {}}));
+    EXPECT_TRUE(differs(scene, {10, 44100, 441000, {}, {}}));
+    Scene tighter = scene;
+    tighter.strings[0].tension *= 1.01;
+    EXPECT_TRUE(differs(tighter, settings));
+    EXPECT_NE(bench::trust::timeless_hash(tighter), bench::trust::timeless_hash(scene));
+    EXPECT_EQ(bench::trust::timeless_hash(short_scene("free_string", 6e-3)), kept.scene_hash);
+    bench::store::Machine other = bench::store::machine();
+    EXPECT_EQ(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(other)).key, kept.key);
+    other.commit = other.version = "another";  // a word of the documentation, say
+    EXPECT_EQ(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(other)).key, kept.key);
+    for (std::string bench::store::Machine::*what : {&bench::store::Machine::run_sources, &bench::store::Machine::compiler,
+                                                     &bench::store::Machine::flags, &bench::store::Machine::vectors}) {
+        bench::store::Machine changed = bench::store::machine();
+        changed.*what += "x";
+        EXPECT_NE(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(changed)).key, kept.key);
+    }
+}
+
+TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherFormatIsNotBelieved) {
+    const Scratch scratch;
+    const fs::path path = scratch / "a.json";
+    const std::string text = bench::trust::json_of(made(short_scene("free_string", 5e-3), {10, 44100, 0, {}, {}}));
+    std::string why;
+    EXPECT_FALSE(bench::trust::read_certificate(path, why));
+    const auto refused = [&](const std::string& content) {
+        write(path, content);
+        return !bench::trust::read_certificate(path, why);
+    };
+    EXPECT_FALSE(refused(text)) << why;
+    EXPECT_TRUE(refused(text.substr(0, text.size() / 2)));
+    EXPECT_TRUE(refused(""));
+    EXPECT_TRUE(refused("[1, 2]"));
+    std::string altered = text;
+    altered.replace(text.find("\"modes\": 10"), 11, "\"modes\": 11");
+    EXPECT_TRUE(refused(altered));
+    EXPECT_NE(why.find("checksum"), std::string::npos) << why;
+
+    const auto with_checksum = [&](const char* key, const Json& value) {
+        Json j = Json::parse(text);
+        j.erase("checksum");
+        j[key] = value;
+        return bench::store::sealed(j.dump());
+    };
+    EXPECT_FALSE(refused(with_checksum("scene", "another"))) << why;
+    EXPECT_TRUE(refused(with_checksum("format", 2)));
+    EXPECT_NE(why.find("format"), std::string::npos) << why;
+    EXPECT_FALSE(refused(with_checksum("program", "jvari 0.0.0"))) << why;
+    EXPECT_FALSE(of_this_program(*bench::trust::read_certificate(path, why)));
+    EXPECT_FALSE(refused(text));
+    EXPECT_TRUE(of_this_program(*bench::trust::read_certificate(path, why)));
+    EXPECT_TRUE(refused(with_checksum("entries", Json::array())));
+    EXPECT_TRUE(refused(with_checksum("noise_floor", Json::object())));
+    EXPECT_TRUE(refused(with_checksum("taps", {"nut", "elsewhere"})));
+
+    const std::string deep = "{\"x\": " + std::string(300000, '[') + std::string(300000, ']');
+    EXPECT_TRUE(refused(deep + ", \"checksum\": \"0\"}"));
+    EXPECT_NE(why.find("checksum"), std::string::npos) << why;
+    EXPECT_TRUE(refused(bench::store::sealed(deep + "}")));
+    EXPECT_NE(why.find("deeper"), std::string::npos) << why;
+    EXPECT_TRUE(refused(std::string(300000, '[')));
+}
+
+// ---- The verb
+
+struct Verb {  // jvari certify of a small scene, its file in a folder of its own
+    Scratch scratch;
+    std::string file = scratch / "c.json";
+    Json run(const std::string& more = "", int code = 0) {
+        last = jvari(scratch, "certify free_string --modes 10 --json --out " + file + " --duration " + duration + " " + more);
+        EXPECT_EQ(last.code, code) << last.err;
+        return Json::parse(last.out);
+    }
+    void alter() {  // one figure, and the checksum with it: only a file that is read and not made again still has it
+        Json j = Json::parse(content(file));
+        j.erase("checksum");
+        j["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] = 0.125;
+        write(file, bench::store::sealed(j.dump()));
+    }
+    void alter(const char* key, const char* value) {
+        Json j = Json::parse(content(file));
+        j.erase("checksum");
+        j[key] = value;
+        write(file, bench::store::sealed(j.dump()));
+    }
+    bool altered() const { return Json::parse(content(file))["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] == 0.125; }
+    std::string duration = "0.02";
+    Outcome last{};
+};
+
+TEST(CertifyCommand, RunsTheReferencesOnceAndThenReadsTheFile) {
+    Verb verb;
+    const Json first = verb.run();
+    EXPECT_EQ(first["cached"], false);
+    EXPECT_EQ(first["status"], "ok");
+    EXPECT_EQ(first["certificate"], Json::parse(content(verb.file)));
+    EXPECT_EQ(first["wall_seconds"].size(), 6u);
+    EXPECT_EQ(verb.scratch.files(), 2);
+    verb.alter();
+    const Json second = verb.run();
+    EXPECT_EQ(second["cached"], true);
+    EXPECT_TRUE(verb.altered());
+    EXPECT_EQ(second["wall_seconds"], first["wall_seconds"]);
+    EXPECT_EQ(second["certificate"]["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"], 0.125);
+    EXPECT_EQ(verb.run("--again")["cached"], false);
+    EXPECT_FALSE(verb.altered());
+}
+
+TEST(CertifyCommand, MakesABrokenOrForeignFileAgainAndSaysSo) {
+    Verb verb;
+    const Json first = verb.run();
+    fs::resize_file(verb.file, 200);
+    EXPECT_EQ(verb.run()["cached"], false);
+    EXPECT_NE(verb.last.err.find("made again"), std::string::npos) << verb.last.err;
+    EXPECT_EQ(Json::parse(content(verb.file)), first["certificate"]);
+    for (const char* other : {"--tap-rate 22050", "--set string.0.tension=34", "--oversampled-rate 705600"}) {
+        EXPECT_EQ(verb.run(other)["cached"], false) << other;
+        EXPECT_NE(verb.last.err.find("another scene or setting"), std::string::npos) << verb.last.err;
+        EXPECT_EQ(verb.run(other)["cached"], true) << other;
+    }
+    verb.alter("program", "jvari 0.0.0");
+    verb.alter("key", "0");
+    EXPECT_EQ(verb.run("--oversampled-rate 705600")["cached"], false);
+    EXPECT_NE(verb.last.err.find("another program"), std::string::npos) << verb.last.err;
+    fs::remove(verb.file);
+    EXPECT_EQ(verb.run("--oversampled-rate 705600")["cached"], false);
+    fs::remove(bench::trust::cost_path(verb.file));
+    EXPECT_TRUE(verb.run("--oversampled-rate 705600")["wall_seconds"][0].is_null());  // read, without its costs
+}
+
+TEST(CertifyCommand, KeepsACertificateThatCoversMore) {
+    Verb verb;
+    verb.run("--oversampled-rate 705600");
+    const std::string kept = content(verb.file);
+    const auto refused = [&](const std::string& more) {
+        verb.run(more, 2);
+        EXPECT_NE(verb.last.err.find("covers more of this scene"), std::string::npos) << verb.last.err;
+        EXPECT_EQ(content(verb.file), kept) << more;
+    };
+    refused("");         // fewer runs of the same length
+    refused("--again");  // nor where it is asked for once more
+    verb.duration = "0.01";
+    refused("--oversampled-rate 705600");  // shorter
+    verb.duration = "0.03";
+    EXPECT_EQ(verb.run()["cached"], false);  // longer: says something that the other does not
+}
+
+TEST(CertifyCommand, WritesToTheFolderOfCertificatesAndLeavesTheScenesOwnToItWhereSetChangesIt) {
+    const Scratch scratch;
+    const std::string there = "cd " + scratch.path.string() + " &&";
+    for (const char* set : {"", " --set string.0.tension=34", " --reference exact_contact"})
+        EXPECT_EQ(jvari(scratch, std::string("certify free_string --modes 5 --duration 0.005") + set, there).code, 0);
+    int certificates = 0;
+    for (const auto& entry : fs::directory_iterator(scratch.path / "results/certificates"))
+        certificates += entry.path().string().find(".cost.json") == std::string::npos;
+    EXPECT_EQ(certificates, 3);
+    EXPECT_TRUE(fs::exists(scratch.path / "results/certificates/free_string-exact_contact.json"));
+    EXPECT_TRUE(fs::exists(scratch.path / "results/certificates/free_string.json"));
+    // and compare finds it there, as far as it reaches
+    const Json json = Json::parse(
+        jvari(scratch, "compare free_string --modes 5 --schemes modal_two_point --rates 44100 --duration 0.005 --repeats 1 --json", there)
+            .out);
+    EXPECT_EQ(json["manifest"]["reference"]["certificate"]["file"], "free_string.json");
+    EXPECT_GT(json["cells"][0]["certificate_l2_whole"].get<double>(), 0);
+}
+
+TEST(CertifyCommand, RefusesWhatItCannotDoAsTheOtherVerbsDo) {
+    const Scratch scratch;
+    const std::pair<const char*, const char*> cases[] = {
+        {"certify", "scene"},
+        {"certify free_strin", "did you mean \"free_string\""},
+        {"certify free_string --modes 0", "whole number > 0"},
+        {"certify free_string --tap-rate x", "number > 0"},
+        {"certify free_string --duration 1e9", "memory"},
+        {"certify free_string --out a.txt", ".json"},
+        {"certify free_string --out a.cost.json", ".json"},
+        {"certify free_string --out nowhere/a.json", "no folder"},
+        {"certify free_string --set tension", "KEY.PATH=VALUE"},
+    };
+    for (const auto& [arguments, expected] : cases) {
+        const Outcome o = jvari(scratch, arguments);
+        EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+        EXPECT_NE(o.err.find(expected), std::string::npos) << arguments << "\n" << o.err;
+    }
+    EXPECT_NE(jvari(scratch, "certify --help").out.find("Example: jvari certify"), std::string::npos);
+    const Outcome nobody = jvari(scratch,
+                                 "certify sitar_c5_two_planes --set string.0.damping.law=polynomial --set "
+                                 "string.0.damping.sigma0=1 --set string.0.damping.sigma1=0.01 --out " +
+                                     (scratch / "a.json"));
+    EXPECT_EQ(nobody.code, 3) << nobody.err;
+    EXPECT_EQ(scratch.files(), 0);
+}
+
+// ---- The figures
+
+Agreement all(double x) {
+    Agreement a;
+    for (std::size_t w = 0; w < a.relative_l2.size(); ++w) a.relative_l2[w] = x * static_cast<double>(w + 1);
+    return a;
+}
+
+bench::trust::KeptCertificate by_hand() {  // one tap, 0.1 s; pair (i, j) differs by 10^-(i + 3 j) times 1, 2, 3 ... in the windows
+    bench::trust::KeptCertificate kept;
+    Certificate& c = kept.certificate;
+    c.taps = {"nut"};
+    c.duration = 0.1;
+    const auto entry = [&c](const char* name, Certificate::Options options, double rate = 0) {
+        c.entries.push_back({name, std::move(options), rate, {}, 0.1, 0, {}, {}, {}});
+    };
+    entry("one", {});
+    entry("one", {{"window", "0.5"}});
+    entry("two", {{"rtol", "1e-12"}});
+    entry("two", {});
+    entry("oversampled three", {}, 1e6);
+    for (int i = 0; i < 5; ++i)
+        for (int j = 0; j < i; ++j) c.pairs.push_back({i, j, {all(std::pow(10, -i - 3 * j))}});
+    return kept;
+}
+
+TEST(Trust, IsTheDifferenceFromTheNextReferenceInOrderOfAuthority) {
+    const bench::trust::KeptCertificate kept = by_hand();
+    const bench::trust::Trust one = bench::trust::trust_of(kept, "one", {}, 0.1);
+    EXPECT_EQ(one.against, "two rtol=1e-12");
+    EXPECT_DOUBLE_EQ(one.in_model(0, 0), 1e-2);      // entries 2 and 0, 10 ms
+    EXPECT_DOUBLE_EQ(one.in_model(0, 1), 3 * 1e-2);  // 50 ms is the third window
+    EXPECT_DOUBLE_EQ(one.in_model(0, 2), 7 * 1e-2);  // the whole
+    const bench::trust::Trust two = bench::trust::trust_of(kept, "two", {}, 0.1);
+    EXPECT_EQ(two.against, "one");
+    EXPECT_DOUBLE_EQ(two.in_model(0, 0), 1e-3);  // entries 3 and 0
+    const bench::trust::Trust coarse = bench::trust::trust_of(kept, "one", {{"window", "0.5"}}, 0.1);
+    EXPECT_DOUBLE_EQ(coarse.in_model(0, 0), 1e-5);  // entries 2 and 1
+    EXPECT_FALSE(trust_of(kept, "two", {{"rtol", "1e-3"}}, 0.1).any());
+    EXPECT_FALSE(trust_of(kept, "four", {}, 0.1).any());
+}
+
+TEST(Trust, OfTheSceneHasWhatDoublingModesAndPointsChanges) {
+    bench::trust::KeptCertificate kept = by_hand();
+    Certificate& c = kept.certificate;
+    const auto all = [](double figure) {
+        Agreement a;
+        a.relative_l2.fill(figure);
+        return a;
+    };
+    const double in_model = bench::trust::trust_of(kept, "two", {}, 0.1).of_scene(0, 0);
+    for (const auto& [what, figure] : {std::pair{"modes", 2e-2}, std::pair{"points", 3e-3}}) {
+        c.entries.push_back({"one", {}, 0, {}, 0.1, 0, {}, {}, what});
+        c.pairs.push_back({static_cast<int>(c.entries.size()) - 1, 0, {all(figure)}});
+    }
+    for (const char* name : {"one", "two"}) {  // they share the model, whichever was doubled
+        const bench::trust::Trust t = bench::trust::trust_of(kept, name, {}, 0.1);
+        EXPECT_EQ(t.doubled, "modes and points");
+        EXPECT_DOUBLE_EQ(t.of_scene(0, 0), t.in_model(0, 0) + and_further_ones * (2e-2 + 3e-3)) << name;
+    }
+    const bench::trust::Trust two = bench::trust::trust_of(kept, "two", {}, 0.1);
+    EXPECT_EQ(two.against, "one");
+    EXPECT_DOUBLE_EQ(two.in_model(0, 0), in_model);  // what is of another model says nothing of the solution of this one
+    c.entries.back().reached = 0.02;                 // it failed there: of more nothing is known
+    EXPECT_TRUE(std::isnan(bench::trust::trust_of(kept, "one", {}, 0.1).of_scene(0, 2)));
+    EXPECT_FALSE(std::isnan(bench::trust::trust_of(kept, "one", {}, 0.1).of_scene(0, 0)));
+}
+
+TEST(Trust, OfAReferenceThatStandsAloneIsItsLargestDifferenceFromItself) {
+    bench::trust::KeptCertificate kept = by_hand();
+    for (auto& e : kept.certificate.entries)
+        if (e.sample_rate == 0) e.reference = "two";
+    kept.certificate.entries[0].options = {{"method", "adams"}};
+    const bench::trust::Trust t = bench::trust::trust_of(kept, "two", {}, 0.1);
+    EXPECT_DOUBLE_EQ(t.in_model(0, 0), 1e-3);  // of 1e-3, 1e-6, 1e-9; the oversampled scheme is left aside
+    EXPECT_EQ(t.against, "two method=adams, two window=0.5, two rtol=1e-12");
+}
+
+TEST(Trust, ReachesAsFarAsTheCertificateAndTakesTheShortestWindowThatHolds) {
+    bench::trust::KeptCertificate kept = by_hand();
+    const auto at = [&kept](double until, std::size_t window) {
+        return bench::trust::trust_of(kept, "one", {}, until).of_scene(0, window);
+    };
+    EXPECT_DOUBLE_EQ(at(0.015, 2), 2e-2);                             // the window of 20 ms
+    EXPECT_TRUE(std::isnan(at(0.015, 1)));                            // there are no 50 ms to compare
+    EXPECT_DOUBLE_EQ(at(0.06, 2), 4e-2);                              // 100 ms
+    EXPECT_TRUE(std::isnan(at(0.2, 2)));                              // longer than the certificate
+    EXPECT_DOUBLE_EQ(at(0.2, 1), 3e-2);                               // which still covers its first 50 ms
+    for (int e : {2, 3}) kept.certificate.entries[e].reached = 0.03;  // the other reference failed there
+    EXPECT_DOUBLE_EQ(at(0.1, 0), 1e-2);
+    EXPECT_DOUBLE_EQ(at(0.1, 1), 3e-1);    // so this rests on entry 1
+    EXPECT_DOUBLE_EQ(at(0.025, 2), 7e-2);  // what there is of entry 2: the whole of its 30 ms
+}
+
+TEST(CommittedCertificates, ThereIsOneForEverySceneOfTheLibraryWithAllThatRepresentsIt) {  // else: results/certificates/make
+    for (const std::string& name : library_scenes()) {
+        const Scene scene = read_scene(name);
+        std::string why;
+        const auto kept = bench::trust::read_certificate(fs::path(JVARI_COMMITTED_CERTIFICATES) / (name + ".json"), why);
+        ASSERT_TRUE(kept) << name << ": " << why;
+        EXPECT_EQ(kept->scene_hash, bench::trust::timeless_hash(scene)) << name;
+        EXPECT_EQ(kept->certificate.modes, modes_for(scene, {})) << name;
+        for (const auto& planned : certificate_plan(scene).entries)
+            EXPECT_TRUE(std::any_of(kept->certificate.entries.begin(), kept->certificate.entries.end(),
+                                    [&](const auto& e) {
+                                        return e.reference == planned.reference && e.options == planned.options &&
+                                               e.doubled == planned.doubled;
+                                    }))
+                << name << ": " << planned.reference;
+        if (const Descriptor* reference = best_reference(scene)) {
+            EXPECT_GT(trust_of(*kept, reference->name, {}, 10e-3).of_scene(0, 0), 0) << name;
+        } else {
+            EXPECT_EQ(kept->certificate.entries.back().reference.rfind("oversampled ", 0), 0u) << name;
+        }
+    }
+}
+
+// ---- Beside the errors
+
+struct Shelf : Scratch {  // a library of certificates with one in it
+    std::string environment = "JVARI_CERTIFICATES=" + path.string();
+    void put(bench::trust::KeptCertificate kept, double figure) {
+        for (auto& p : kept.certificate.pairs)
+            for (Agreement& tap : p.taps) tap.relative_l2.fill(kept.certificate.entries[p.first].doubled.empty() ? figure : 0);
+        write(path / (kept.certificate.scene + ".json"), bench::trust::json_of(kept));
+    }
+};
+
+const std::string small_compare =
+    "compare free_string --modes 10 --schemes modal_two_point --rates 44100,88200 --duration 0.06 --repeats 1 ";
+
+TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateTogether) {
+    Shelf shelf;
+    const bench::trust::KeptCertificate kept = made(short_scene("free_string", 0.07), {133, 44100, 0, {}, {}});
+    shelf.put(kept, 0.25);
+    const std::string out = shelf / "out";
+    const Outcome o = jvari(shelf, small_compare + "--out " + out, shelf.environment);
+    ASSERT_EQ(o.code, 0) << o.err;
+    const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
+    const double certain = cells.number(0, "certificate_l2_50ms");  // and to what doubling the modes changed
+    EXPECT_NE(o.out.find(fmt::format("\u2264{:.2e}", cells.number(0, "error_l2_50ms") + certain)), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find("within 10 %    not known"), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find("certain to the figures of the first line, by exact_contact and by doubling its modes (free_string.json)"),
+              std::string::npos)
+        << o.out;
+    EXPECT_EQ(o.err.find("jvari certify"), std::string::npos) << o.err;
+    for (const char* file : {"/cells.csv", "/errors.csv"}) {
+        const bench::store::Table t = bench::store::read_csv(content(out + file));
+        for (std::size_t i = 0; i < 2; ++i) {
+            for (const char* column : {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole", "certificate_l2_10ms_nut",
+                                       "certificate_l2_whole_y03"})
+                EXPECT_NEAR(t.number(i, column), 0.255, 0.005) << column;
+            EXPECT_LT(t.number(i, "error_l2_50ms"), 0.25);  // as it was measured
+        }
+        EXPECT_EQ(t.columns[t.column("certificate_l2_10ms") - 1], "reason");  // what was there before keeps its place
+        EXPECT_EQ(t.columns.back(), "certificate_in_model_l2_whole_y03");
+    }
+    EXPECT_EQ(bench::store::read_csv(content(out + "/cost.csv")).column("certificate_l2_10ms"), -1);
+    const Json certificate = Json::parse(content(out + "/manifest.json"))["reference"]["certificate"];
+    EXPECT_EQ(certificate["file"], "free_string.json");
+    EXPECT_EQ(certificate["key"], kept.key);
+    EXPECT_NEAR(certificate["figures"]["certificate_l2_50ms_y03"].get<double>(), 0.255, 0.005);
+
+    shelf.put(kept, 1e-9);
+    const Outcome fine = jvari(shelf, small_compare, shelf.environment);
+    EXPECT_EQ(fine.out.find("\u2264"), std::string::npos) << fine.out;
+}
+
+TEST(ComparedWithACertificate, ItMustBeOfThatSceneAndThisTapRateWhateverTheModesOfTheCells) {
+    Shelf shelf;
+    const auto missing = [&shelf](const std::string& arguments) {
+        const Outcome o = jvari(shelf, arguments + " --json", shelf.environment);
+        const Json json = Json::parse(o.out);
+        const bool none = json["manifest"]["reference"]["certificate"].contains("missing");
+        EXPECT_EQ(none, o.err.find("no certificate of this scene at these settings") != std::string::npos) << o.err;
+        EXPECT_EQ(none, json["cells"][0]["certificate_l2_10ms"].get<double>() < 0.25);
+        EXPECT_EQ(none, o.err.find("jvari certify free_string --") != std::string::npos) << o.err;
+        return none;
+    };
+    EXPECT_TRUE(missing(small_compare));
+    shelf.put(made(short_scene("free_string", 0.07), {133, 44100, 0, {}, {}}), 0.25);
+    EXPECT_FALSE(missing(small_compare));
+    EXPECT_FALSE(missing(small_compare + "--reference exact_contact"));
+    EXPECT_TRUE(missing(small_compare + "--set string.0.tension=34"));
+    EXPECT_TRUE(missing(small_compare + "--tap-rate 22050"));
+    EXPECT_FALSE(missing("compare free_string --modes 11 --schemes modal_two_point --rates 44100 --duration 0.06 --repeats 1"));
+    fs::resize_file(shelf.path / "free_string.json", 300);
+    EXPECT_TRUE(missing(small_compare));
+}
+
+TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
+    const Scratch scratch;
+    const std::string out = scratch / "out";
+    const Outcome o = jvari(scratch, "compare sitar_c5_two_planes --rates 44100,88200 --duration 0.02 --repeats 1 --out " + out);
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.out.find("against oversampled sitar_waveguide at 352800 Hz"), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find("no reference represents scene sitar_c5_two_planes"), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find("Richardson's rule from 88200, 176400 and 352800 Hz"), std::string::npos) << o.out;
+    const Json reference = Json::parse(content(out + "/manifest.json"))["reference"];
+    EXPECT_EQ(reference["name"], "oversampled sitar_waveguide");
+    EXPECT_NE(reference["note"].get<std::string>().find("stands in"), std::string::npos);
+
+    const Scene scene = short_scene("sitar_c5_two_planes", 0.02);
+    const Oversampled own = oversampled(*stand_ins(scene).front(), scene, {88200, 44100, 0, {}}, 4);
+    const bench::store::Table t = bench::store::read_csv(content(out + "/cells.csv"));
+    for (std::size_t tap = 0; tap < scene.taps.size(); ++tap) {
+        EXPECT_EQ(t.number(0, "certificate_l2_10ms_" + scene.taps[tap].name), own.estimates[tap].front().error);
+        EXPECT_EQ(t.number(0, "certificate_l2_whole_" + scene.taps[tap].name), own.estimates[tap].back().error);
+        EXPECT_EQ(t.at(0, "certificate_l2_50ms_" + scene.taps[tap].name), "");
+    }
+}
+
+TEST(ComparedWithAStandIn, ASchemeThatWasAskedForEstimatesItsOwnErrorToo) {
+    const Scratch scratch;
+    const Json json = Json::parse(jvari(scratch, small_compare + "--reference modal_two_point --json").out);
+    EXPECT_EQ(json["reference"], "oversampled modal_two_point");
+    EXPECT_EQ(json["manifest"]["reference"]["rate"], 4 * 88200);
+    EXPECT_EQ(json["manifest"]["reference"]["note"], "");
+    EXPECT_GT(json["cells"][0]["certificate_l2_50ms"].get<double>(), 0);
+}
+
+TEST(SuiteWithACertificate, EveryRowHasTheFiguresLast) {
+    Shelf shelf;
+    shelf.put(made(short_scene("free_string", 0.02), {10, 44100, 0, {}, {}}), 0.25);
+    write(shelf.path / "a.toml",
+          "[[cells]]\nscenes = [\"free_string\", \"sitar_c5_two_planes\"]\nschemes = [\"modal_two_point\", \"sitar_waveguide\"]\n"
+          "rates = [44100]\nmodes = 10\nduration = 0.02\n");
+    const std::string out = shelf / "out";
+    const Outcome o = jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(content(out + "/report.html").find("certificate_l2_whole"), std::string::npos);  // what the page makes of it: tests/browser
+    const bench::store::Table t = bench::store::read_csv(content(out + "/errors.csv"));
+    ASSERT_EQ(t.rows.size(), 4u);
+    EXPECT_EQ(t.number(0, "certificate_l2_whole"), 0.25);
+    EXPECT_EQ(t.at(3, "reference"), "oversampled sitar_waveguide");
+    EXPECT_GT(t.number(3, "certificate_l2_whole"), 0);
+    EXPECT_LT(t.column("reason"), t.column("certificate_l2_10ms"));
+}
+
+}  // namespace
+}  // namespace jvari::test

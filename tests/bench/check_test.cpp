@@ -1,0 +1,65 @@
+// jvari check: what it says and writes. That it finds each broken promise by its name is asked by tests/contract_plugins/check.sh.
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/command_line.hpp"
+
+namespace jvari::test {
+namespace {
+
+using Json = nlohmann::json;
+
+int count(const std::string& text, const std::string& word) {
+    int n = 0;
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+    return n;
+}
+
+TEST(Check, ASchemeOfTheTreeKeepsWhatItPromises) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "check modal_two_point --json --quiet");
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+    const Json j = Json::parse(o.out);
+    EXPECT_EQ(j["status"], "kept");
+    int kept = 0, allocations = 0, claims = 0;
+    for (const Json& a : j["schemes"][0]["answers"]) {
+        kept += a["answer"] == "kept";
+        allocations += a["answer"] == "kept" && a["promise"] == "AllocatesNothingWhileStepping";
+        claims += a["answer"] == "kept" && (a["promise"] == "ConvergesToTheReference" || a["promise"] == "StaysSoundOverAMap" ||
+                                            a["promise"] == "PartialsAreWhereItsOwnRelationSays");
+    }
+    EXPECT_GT(kept, 100);
+    EXPECT_GT(allocations, 5);
+    EXPECT_EQ(claims, 3);
+}
+
+TEST(Check, WritesWhatContinuousIntegrationReads) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "check --plugin " JVARI_GIVES_NAN " --json --quiet --junit " + (scratch / "check.xml"));
+    EXPECT_EQ(o.code, 4) << o.err;
+    const Json scheme = Json::parse(o.out)["schemes"][0];
+    EXPECT_EQ(scheme["broken"], Json({"GivesNumbersToTheLastRow"}));
+    const std::string xml = content(scratch / "check.xml");
+    std::smatch found;
+    ASSERT_TRUE(
+        std::regex_search(xml, found, std::regex("<testsuite name=\"gives_nan\" tests=\"(\\d+)\" failures=\"(\\d+)\" skipped=\"(\\d+)\"")))
+        << xml.substr(0, 500);
+    EXPECT_EQ(std::stoul(found[1]), scheme["answers"].size());
+    EXPECT_EQ(count(xml, "<testcase "), std::stoi(found[1]));
+    EXPECT_EQ(count(xml, "<failure "), std::stoi(found[2]));
+    EXPECT_EQ(count(xml, "<skipped "), std::stoi(found[3]));
+    EXPECT_GT(std::stoi(found[2]), 0);
+}
+
+TEST(Check, WantsASchemeThatThereIs) {
+    const Scratch scratch;
+    EXPECT_EQ(jvari(scratch, "check").code, 2);
+    const Outcome o = jvari(scratch, "check modal_two_pont");
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("modal_two_point"), std::string::npos) << o.err;
+    EXPECT_EQ(jvari(scratch, "check --plugin " + (scratch / "none.so")).code, 2);
+    EXPECT_EQ(jvari(scratch, "check modal_two_point --junit /nowhere/check.xml").code, 2);
+}
+
+}  // namespace
+}  // namespace jvari::test

@@ -1,0 +1,534 @@
+// The command line's contract: exit codes, what stands on which stream, and files that are whole or absent.
+#include "tests/command_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/report/identity.hpp"
+#include "bench/report/vega.hpp"
+#include "bench/store/checksum.hpp"
+#include "bench/store/records.hpp"
+#include "scenes/schema.hpp"
+
+namespace jvari::test {
+namespace {
+
+const std::string plugin = std::string(" --plugin ") + JVARI_STUMBLING_PLUGIN;
+
+TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
+    const Scratch scratch;
+    const std::pair<const char*, const char*> cases[] = {
+        {"", "subcommand"},
+        {"rum", "did you mean \"run\""},
+        {"run", "scene"},
+        {"run free_string", "--scheme"},
+        {"run free_string --scheme modal_two_pont", "did you mean \"modal_two_point\""},
+        {"run free_strin --scheme modal_two_point", "did you mean \"free_string\""},
+        {"run nowhere/at_all.toml --scheme modal_two_point", "nowhere/at_all.toml"},
+        {"run free_string --scheme modal_two_point --rate -1", "number > 0"},
+        {"run free_string --scheme modal_two_point --rate nan", "number > 0"},
+        {"run free_string --scheme modal_two_point --rate inf", "number > 0"},
+        {"run free_string --scheme modal_two_point --rate 44100x", "number > 0"},
+        {"run free_string --scheme modal_two_point --duration 0", "number > 0"},
+        {"run free_string --scheme modal_two_point --duration nan", "number > 0"},
+        {"run free_string --scheme modal_two_point --duration 1e12", "memory"},
+        {"run free_string --scheme modal_two_point --tap-rate -5", "number > 0"},
+        {"run free_string --scheme modal_two_point --tap-rate 30000", "whole multiple"},
+        {"run free_string --scheme modal_two_point --modes 0", "whole number > 0"},
+        {"run free_string --scheme modal_two_point --modes 1.5", "whole number > 0"},
+        {"run free_string --scheme modal_two_point --set tension", "KEY.PATH=VALUE"},
+        {"run free_string --scheme modal_two_point --set string.0.tensoin=1", "tension"},
+        {"run free_string --scheme modal_two_point --set string.0.tension=-3", "tension"},
+        {"run free_string --scheme modal_two_point --option none=1", "unknown option none"},
+        {"run free_string --scheme modal_two_point --option none", "NAME=VALUE"},
+        {"run free_string --scheme modal_two_point --option other:a=1", "this run is of modal_two_point"},
+        {"run free_string --scheme modal_two_point --out trace.mp3", ".csv, .wav, .flac or .h5"},
+        {"run free_string --scheme modal_two_point --out nowhere/trace.csv", "no folder"},
+        {"run free_string --scheme modal_two_point --out /tmp", "extension"},
+        {"run free_string --scheme modal_two_point --wav-format pcm16", "--out FILE.wav"},
+        {"run free_string --scheme modal_two_point --wav-format mp3 --out a.wav", "pcm24"},
+        {"run free_string --scheme modal_two_point --frobnicate", "--frobnicate"},
+        {"run free_string --scheme modal_two_point --plugin nowhere.so", "nowhere.so"},
+        {"list everything", "schemes"},
+        {"list scenes --markdown", "list schemes"},
+        {"compare free_string --rates 44100,-1", "number > 0"},
+        {"compare free_string --rates 44100,48000", "--tap-rate"},
+        {"compare free_string --schemes modal_two_pont", "did you mean"},
+        {"compare free_string --reference exact_liner", "did you mean \"exact_linear\""},
+        {"compare free_string --option none=1 --duration 0.01", "no compared scheme has it"},
+        {"compare free_string --repeats 0", "whole number > 0"},
+        {"compare free_string --jobs 0", "whole number > 0"},
+        {"compare free_string --out /proc/nowhere", "/proc/nowhere"},
+        {"report nowhere", "nowhere/cells.csv"},
+    };
+    for (const auto& [arguments, expected] : cases) {
+        const Outcome o = jvari(scratch, arguments);
+        EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+        EXPECT_EQ(o.out, "") << arguments;
+        EXPECT_NE(o.err.find(expected), std::string::npos) << arguments << "\n" << o.err;
+    }
+}
+
+TEST(CommandLine, HelpTeachesWithExamplesAndEndsWith0) {
+    const Scratch scratch;
+    for (const char* arguments : {"--help", "run --help", "compare --help", "list --help", "report --help"}) {
+        const Outcome o = jvari(scratch, arguments);
+        EXPECT_EQ(o.code, 0) << arguments;
+        EXPECT_NE(o.out.find("Example"), std::string::npos) << arguments;
+    }
+    EXPECT_EQ(jvari(scratch, "--version").code, 0);
+}
+
+TEST(CommandLine, ARefusalEndsWith3AndNamesWhatIsMissing) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "run sitar_parabola --scheme modal_strang --json");
+    EXPECT_EQ(o.code, 3);
+    EXPECT_NE(o.err.find("profile barrier"), std::string::npos) << o.err;
+    const auto json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json.at("status"), "refused");
+}
+
+TEST(CommandLine, AFailedRunEndsWith4AndWhatWasWrittenSoFarStaysValid) {
+    const Scratch scratch;
+    const Outcome o =
+        jvari(scratch, "run free_string --scheme stumbling --option fail_at=0.1 --json --out " + (scratch / "t.csv") + plugin);
+    EXPECT_EQ(o.code, 4) << o.err;
+    const auto json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json.at("status"), "diverged");
+    EXPECT_EQ(json.at("step"), 4410);
+    const bench::store::Table t = bench::store::read_csv(content(scratch / "t.csv"));
+    EXPECT_EQ(static_cast<long>(t.rows.size()), json.at("rows").get<long>());
+    EXPECT_EQ(json.at("rows"), 4411);
+    EXPECT_EQ(json.at("facts").at("stumbles"), 1);
+    EXPECT_EQ(json.at("smallest_contact_force"), -0.5);
+    EXPECT_TRUE(json.at("deepest_penetration").is_null());
+    EXPECT_EQ(scratch.files(), 1) << "a file was left half-written";
+}
+
+TEST(CommandLine, RunReportsEveryKeyOfTheContract) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.01 --json --quiet");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    const auto json = nlohmann::json::parse(o.out);
+    for (const char* key :
+         {"scheme", "scene", "rate", "modes", "dofs", "steps", "rows", "wall_seconds", "ns_per_step", "times_real_time", "status",
+          "energy_residual_per_step", "energy_residual_accumulated", "smallest_contact_force", "deepest_penetration", "facts"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json.at("rows"), 442);
+    EXPECT_EQ(json.at("modes"), 133);
+    EXPECT_TRUE(json.at("energy_residual_per_step").is_null());
+    const auto probed =
+        nlohmann::json::parse(jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.01 --json --energy").out);
+    EXPECT_LT(probed.at("energy_residual_accumulated").get<double>(), 1e-11);
+    EXPECT_GE(probed.at("energy_residual_accumulated").get<double>(), 0);
+}
+
+TEST(CommandLine, TapRateIs44100OrTheRateWhereThatIsNoMultiple) {
+    const Scratch scratch;
+    const auto rows = [&scratch](const std::string& arguments) {
+        return nlohmann::json::parse(jvari(scratch, "run free_string --duration 0.01 --json --modes 20 " + arguments).out)
+            .at("rows")
+            .get<long>();
+    };
+    EXPECT_EQ(rows("--scheme modal_two_point"), 442);
+    EXPECT_EQ(rows("--scheme modal_two_point --rate 88200"), 442);
+    EXPECT_EQ(rows("--scheme modal_two_point --rate 48000"), 481);
+    EXPECT_EQ(rows("--scheme modal_two_point --rate 48000 --tap-rate 24000"), 241);
+    EXPECT_EQ(rows("--scheme exact_linear"), 442);
+}
+
+TEST(CommandLine, TheTraceAsCsvHasItsColumnsItsTimesAndReadsBackExactly) {
+    const Scratch scratch;
+    ASSERT_EQ(jvari(scratch, "run free_string --scheme stumbling --energy --duration 0.01 --out " + (scratch / "t.csv") + plugin).code, 0);
+    const bench::store::Table t = bench::store::read_csv(content(scratch / "t.csv"));
+    const std::vector<std::string> columns{"time_s", "nut", "y03", "energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
+    EXPECT_EQ(t.columns, columns);
+    ASSERT_EQ(t.rows.size(), 442u);
+    for (std::size_t n : {0u, 1u, 7u, 441u}) {
+        EXPECT_EQ(t.number(n, "time_s"), n / 44100.0);
+        EXPECT_EQ(t.number(n, "y03"), 2 * t.number(n, "nut"));
+        EXPECT_EQ(t.number(n, "energy_stored_J"), 1);
+    }
+    const double y = std::cos(200 * M_PI * (7 / 44100.0)) * std::exp(-3 * (7 / 44100.0)) * (1 + 100 / 44100.0);
+    EXPECT_EQ(t.number(7, "nut"), y);
+}
+
+TEST(CommandLine, WavAndHdf5AreWrittenWholeAndAWavSaysHowLoudItIs) {
+    const Scratch scratch;
+    const std::string run = "run free_string --scheme stumbling --duration 0.1" + plugin + " --out ";
+    ASSERT_EQ(jvari(scratch, run + (scratch / "t.wav")).code, 0);
+    EXPECT_EQ(std::filesystem::file_size(scratch / "t.wav") / (4411 * 3), 1u);  // one channel, 24 bits, and a header
+    EXPECT_EQ(content(scratch / "t.wav").substr(0, 4), "RIFF");
+    const Outcome pcm = jvari(scratch, run + (scratch / "p.wav") + " --wav-format pcm16");
+    EXPECT_NE(pcm.out.find("peak -1.0 dB"), std::string::npos) << pcm.out;
+    EXPECT_EQ(std::filesystem::file_size(scratch / "p.wav") / (4411 * 2), 1u);
+    ASSERT_EQ(jvari(scratch, run + (scratch / "t.h5")).code, 0);
+    EXPECT_EQ(content(scratch / "t.h5").substr(1, 3), "HDF");
+    EXPECT_EQ(scratch.files(), 3);
+}
+
+TEST(CommandLine, ListShowsWhatExistsAndWhichSchemeRepresentsWhichScene) {
+    const Scratch scratch;
+    const auto json = nlohmann::json::parse(jvari(scratch, "list --json" + plugin).out);
+    for (const char* key : {"schemes", "references", "scenes", "taps", "suites", "matrix"}) EXPECT_TRUE(json.contains(key)) << key;
+    bool seen = false;
+    for (const auto& entry : json.at("matrix"))
+        if (entry.at("scheme") == "stumbling" && entry.at("scene") == "tanpura_c3") {
+            seen = true;
+            EXPECT_FALSE(entry.at("represents").get<bool>());
+            EXPECT_EQ(entry.at("missing"), nlohmann::json::array({"thread"}));
+        }
+    EXPECT_TRUE(seen);
+    EXPECT_NE(jvari(scratch, "list schemes --markdown").out.find("| `modal_two_point` |"), std::string::npos);
+    EXPECT_EQ(jvari(scratch, "list schemes --markdown").out.find("modal_two_pointt"), std::string::npos);
+}
+
+TEST(CommandLine, ListShowsOptionsAndFactsAsTextAsJsonAndAsATable) {
+    const Scratch scratch;
+    const auto options = nlohmann::json::parse(jvari(scratch, "list options --json" + plugin).out).at("options");
+    const auto of_stumbling =
+        std::find_if(options.begin(), options.end(), [](const auto& o) { return o.at("schemes") == nlohmann::json::array({"stumbling"}); });
+    ASSERT_NE(of_stumbling, options.end());
+    EXPECT_EQ(of_stumbling->at("name"), "fail_at");
+    EXPECT_EQ(of_stumbling->at("default"), "1e9");
+    EXPECT_EQ(of_stumbling->at("meaning"), "when the run diverges [s]");
+    EXPECT_NE(jvari(scratch, "list options --markdown" + plugin).out.find("| `fail_at` | 1e9 | when the run diverges [s] | `stumbling` |"),
+              std::string::npos);
+    EXPECT_NE(jvari(scratch, "list options").out.find("levels"), std::string::npos);
+    const std::string row = "| `smallest_contact_force` | N | ";
+    EXPECT_NE(jvari(scratch, "list facts --markdown").out.find(row), std::string::npos);
+    EXPECT_NE(jvari(scratch, "list facts").out.find("smallest_contact_force"), std::string::npos);
+    const auto schemes = nlohmann::json::parse(jvari(scratch, "list schemes --json").out).at("schemes");
+    const auto fdm = std::find_if(schemes.begin(), schemes.end(), [](const auto& d) { return d.at("name") == "sitar_fdm"; });
+    ASSERT_NE(fdm, schemes.end());
+    EXPECT_NE(fdm->at("approximates").dump().find("rigid_barrier"), std::string::npos);
+}
+
+TEST(CommandLine, APluginCompiledWithoutOptimisationIsWarnedOf) {
+    const Scratch scratch;
+    const std::string run = "run free_string --scheme stumbling --duration 0.01";
+    const Outcome slow = jvari(scratch, run + " --plugin " + JVARI_UNOPTIMISED_PLUGIN);
+    EXPECT_EQ(slow.code, 0) << slow.err;
+    EXPECT_NE(slow.err.find("compiled without optimisation"), std::string::npos) << slow.err;
+    EXPECT_EQ(jvari(scratch, run + plugin).err.find("compiled without optimisation"), std::string::npos);
+}
+
+TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
+    const Scratch scratch;
+    const std::string out = scratch / "cmp";
+    const Outcome o = jvari(
+        scratch,
+        "compare free_string --schemes stumbling,modal_two_point --rates 44100,88200,176400 --duration 0.06 --repeats 2 --json --out " +
+            out + plugin);
+    ASSERT_EQ(o.code, 0) << o.err;
+    const auto json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json.at("cells").size(), 6u);
+    EXPECT_EQ(json.at("reference"), "exact_linear");
+    const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
+    ASSERT_EQ(cells.rows.size(), 6u);
+    EXPECT_EQ(cells.at(2, "status"), "refused");
+    EXPECT_EQ(cells.at(2, "reason"), "stumbling has no rates above 150 kHz, only walks");
+    EXPECT_EQ(cells.at(2, "error_l2_10ms"), "");
+    for (std::size_t i = 3; i < 6; ++i) {
+        EXPECT_LT(cells.number(i, "error_l2_50ms"), 0.1);
+        EXPECT_EQ(cells.number(i, "error_l2_50ms"), cells.number(i, "error_l2_50ms_nut"));
+        EXPECT_EQ(cells.number(i, "modes"), 133);
+        EXPECT_GT(cells.number(i, "cost_s_per_s"), 0);
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (cells.at(i, "status") == "refused") continue;
+        EXPECT_LE(cells.number(i, "cost_lower"), cells.number(i, "cost_s_per_s")) << i;
+        EXPECT_LE(cells.number(i, "cost_s_per_s"), cells.number(i, "cost_upper")) << i;
+        EXPECT_LE(cells.number(i, "wall_seconds_lower"), cells.number(i, "wall_seconds")) << i;
+        EXPECT_LE(cells.number(i, "wall_seconds"), cells.number(i, "wall_seconds_upper")) << i;
+    }
+    const bench::store::Table errors = bench::store::read_csv(content(out + "/errors.csv")),
+                              cost = bench::store::read_csv(content(out + "/cost.csv"));
+    for (const char* clock : {"wall_seconds", "processor_s_per_s", "ns_per_step", "times_real_time", "cost_s_per_s", "pareto"}) {
+        EXPECT_LT(errors.column(clock), 0) << clock;
+        EXPECT_GE(cost.column(clock), 0) << clock;
+    }
+    for (const std::string& name : cost.columns) EXPECT_EQ(name.find("error"), std::string::npos) << name;
+    const auto manifest = nlohmann::json::parse(content(out + "/manifest.json"));
+    for (const char* key : {"commit", "compiler", "flags", "cpu", "date", "scene", "reference", "noise_floor"})
+        EXPECT_TRUE(manifest.contains(key)) << key;
+    EXPECT_EQ(manifest.at("scene").at("hash").get<std::string>().size(), 16u);
+    ASSERT_EQ(manifest.at("plugins").size(), 1u);
+    EXPECT_EQ(manifest.at("plugins").at(0).at("file"), JVARI_STUMBLING_PLUGIN);
+    EXPECT_EQ(manifest.at("plugins").at(0).at("hash"), bench::store::hash_of(content(JVARI_STUMBLING_PLUGIN)));
+    EXPECT_EQ(manifest.at("plugins").at(0).at("flags").get<std::string>().substr(0, 9), "optimised");
+
+    const std::string page = content(out + "/report.html");
+    EXPECT_NE(page.find("free_string"), std::string::npos);
+    EXPECT_EQ(page.find("<script src"), std::string::npos);
+    EXPECT_EQ(page.find("<link"), std::string::npos);
+    std::filesystem::remove(out + "/report.html");
+    ASSERT_EQ(jvari(scratch, "report " + out).code, 0);
+    EXPECT_EQ(content(out + "/report.html"), page);
+}
+
+TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigitOneByOneAndSideBySide) {
+    const Scratch scratch;
+    const std::string arguments =
+        "compare tanpura_c3_release --schemes modal_two_point,modal_quadratised,finite_difference_explicit --rates 44100,176400 "
+        "--duration 0.06 --repeats 1 --reference-modes 266";
+    const auto to = [&](const char* folder, const char* jobs) {  // the reference is made each time
+        return jvari(scratch, arguments + jobs + " --out " + (scratch / folder), "JVARI_NODE_MODULES=/nowhere JVARI_CACHE=").code;
+    };
+    ASSERT_EQ(to("a", " --jobs 1"), 0);
+    ASSERT_EQ(to("b", " --jobs 4"), 0);
+    ASSERT_EQ(to("c", ""), 0);
+    for (const char* file : {"errors.csv", "convergence.csv", "sounds.csv"})
+        for (const char* folder : {"b/", "c/"})
+            EXPECT_EQ(content(scratch / (std::string("a/") + file)), content(scratch / (folder + std::string(file)))) << folder << file;
+
+    const bench::store::Table errors = bench::store::read_csv(content(scratch / "a/errors.csv"));
+    EXPECT_EQ(errors.at(0, "third_octave_db"), errors.at(0, "third_octave_db_bridge"));
+    EXPECT_NE(errors.at(0, "third_octave_db"), errors.at(0, "third_octave_db_nut"));
+    EXPECT_EQ(errors.at(0, "stft_db"), errors.at(0, "stft_db_nut"));
+    // against an independent exact solution of 133 modes the nut force was found wrong by 6.8e-2 and 4.1e-3 over 50 ms
+    EXPECT_NEAR(errors.number(0, "error_in_model_l2_50ms"), 6.8e-2, 0.2 * 6.8e-2);
+    EXPECT_NEAR(errors.number(1, "error_in_model_l2_50ms"), 4.1e-3, 0.2 * 4.1e-3);
+    EXPECT_EQ(errors.number(0, "reference_modes"), 266);
+    EXPECT_GT(errors.number(1, "error_l2_50ms"), 2e-2);  // for the string is cut off at half of these
+    const auto floor = nlohmann::json::parse(content(scratch / "a/manifest.json")).at("noise_floor");
+    EXPECT_NEAR(floor.at("error_l2_10ms").get<double>(), 1e-12, 5e-13);  // a scaled start scales the whole run until contact spreads it
+}
+
+TEST(CommandLine, ComparedSchemesThatFailOrRefuseAreRowsAndDecideTheExitCodeOnlyTogether) {
+    const Scratch scratch;
+    const std::string common = "compare free_string --duration 0.06 --repeats 1 --rates 44100 --json" + plugin;
+    const auto failed = jvari(scratch, common + " --schemes stumbling --option stumbling:fail_at=0.03");
+    EXPECT_EQ(failed.code, 4) << failed.err;
+    const auto cell = nlohmann::json::parse(failed.out).at("cells").at(0);
+    EXPECT_EQ(cell.at("status"), "diverged");
+    EXPECT_EQ(cell.at("failed_step"), 1323);
+    EXPECT_TRUE(cell.at("error_l2_50ms").is_null());  // infinite
+    EXPECT_GT(cell.at("error_l2_10ms").get<double>(), 0);
+    const auto one_of_two =
+        jvari(scratch, common + " --schemes stumbling,modal_two_point --option fail_at=0.03");  // the other does not know it
+    EXPECT_EQ(one_of_two.code, 0) << one_of_two.err;
+    EXPECT_EQ(jvari(scratch, "compare tanpura_c3 --schemes stumbling --duration 0.01 --rates 44100 --repeats 1" + plugin).code, 3);
+}
+
+std::string bad_plugin(int kind) {
+    return std::string(" --plugin ") + JVARI_BAD_PLUGINS + std::to_string(kind) + ".so";
+}
+
+TEST(BadPlugin, ATableThatIsNoneIsASentence) {
+    const Scratch scratch;
+    const char* const says[] = {"",
+                                "says that it has 3 schemes and shows none",
+                                "says that it has -1 schemes",
+                                "has no name for its scheme 0",
+                                "has no source for its scheme bad_sourceless",
+                                "has nothing that makes its scheme bad_makeless"};
+    for (int kind = 1; kind <= 5; ++kind) {
+        const Outcome o = jvari(scratch, "list schemes" + bad_plugin(kind));
+        EXPECT_EQ(o.code, 2) << kind;
+        EXPECT_NE(o.err.find(says[kind]), std::string::npos) << o.err;
+    }
+}
+
+TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
+    const Scratch scratch;
+    const char* const names[] = {
+        "bad_throws", "bad_throws_a_number", "bad_makes_nothing", "bad_facts", "bad_facts_of_a_number", "bad_outcome", "bad_step"};
+    std::string schemes = "modal_two_point";
+    for (const std::string name : names) {
+        const Outcome o = jvari(scratch, "run free_string --duration 0.01 --scheme " + name + bad_plugin(0));
+        EXPECT_EQ(o.code, 4) << name;
+        EXPECT_GT(o.err.size(), 20u) << name;
+        schemes += "," + name;
+    }
+    const std::string out = scratch / "cmp";
+    const Outcome o = jvari(scratch, "compare free_string --duration 0.01 --repeats 1 --rates 44100 --json --schemes " + schemes +
+                                         " --out " + out + bad_plugin(0));
+    ASSERT_EQ(o.code, 0) << o.err;
+    const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
+    ASSERT_EQ(cells.rows.size(), 8u);
+    EXPECT_EQ(cells.at(0, "status"), "ok");
+    EXPECT_EQ(cells.at(1, "reason"), "not made today");
+    for (std::size_t i = 1; i < 8; ++i) EXPECT_GT(cells.at(i, "reason").size(), 10u) << i;
+}
+
+TEST(CommandLine, AReferenceThatFailsOnItsWayIsARowOfEveryVerb) {
+    const Scratch scratch;
+    const std::string failing = " --set string.0.barrier.0.stiffness=1e300 --duration 0.002";
+    const Outcome ran = jvari(scratch, "run tanpura_c3_release --scheme sundials --energy" + failing);
+    EXPECT_EQ(ran.code, 4) << ran.err;
+    EXPECT_EQ(ran.err.find("-92233"), std::string::npos) << ran.err;
+    const Outcome certified = jvari(scratch, "certify tanpura_c3_release --modes 20 --out " + (scratch / "c.json") + failing);
+    EXPECT_TRUE(certified.code == 0 || certified.code == 4) << certified.code << certified.err;
+    const Outcome compared =
+        jvari(scratch, "compare tanpura_c3_release --schemes sundials,modal_two_point --rates 44100 --repeats 1" + failing, "JVARI_CACHE=");
+    EXPECT_TRUE(compared.code == 0 || compared.code == 4) << compared.code << compared.err;
+}
+
+TEST(CommandLine, AStringWithoutAModeIsRefusedByWhatCarriesModes) {
+    const Scratch scratch;
+    const std::string taut = " --set string.0.tension=1e9 --duration 0.001";  // the first mode at 720 kHz
+    for (const char* scheme : {"modal_two_point", "modal_spatial_newton", "modal_quadratised", "modal_explicit_penalty", "exact_linear"}) {
+        const Outcome o = jvari(scratch, "run free_string --scheme " + std::string(scheme) + taut);
+        EXPECT_EQ(o.code, 3) << scheme << o.err;
+    }
+}
+
+TEST(CommandLine, WithoutNodePackagesTheTablesStillComeAndALineSaysWhatIsMissing) {
+    const Scratch scratch;
+    const std::string out = scratch / "cmp";
+    const Outcome o = jvari(scratch, "compare free_string --schemes modal_two_point --rates 44100 --duration 0.01 --repeats 1 --out " + out,
+                            "JVARI_NODE_MODULES=/nowhere");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("npm ci"), std::string::npos) << o.err;
+    EXPECT_TRUE(std::filesystem::exists(out + "/report.html"));
+    EXPECT_FALSE(std::filesystem::exists(out + "/work_precision.svg"));
+    EXPECT_NE(content(out + "/report.html").find("npm ci"), std::string::npos);
+}
+
+// ---- A scene of one's own
+
+TEST(NewScene, EachInstrumentsSceneIsExplainedAndRunsAsItStands) {
+    const Scratch scratch;
+    for (const std::string instrument : {"guitar", "tanpura", "sitar", "bass", "piano"}) {
+        const Outcome o = shell(scratch, "$J new " + instrument + " my_" + instrument + " && $J run my_" + instrument +
+                                             ".toml --scheme finite_difference_theta --duration 0.002 --json");
+        ASSERT_EQ(o.code, 0) << instrument << o.err;
+        EXPECT_EQ(o.err, "") << instrument;  // no string is silent
+        const std::string text = content(scratch / ("my_" + instrument + ".toml"));
+        EXPECT_NE(text.find("\nname = \"my_" + instrument + "\"\n"), std::string::npos) << instrument;
+        EXPECT_NE(text.find("x = 0  o"), std::string::npos) << instrument << " has no sketch";
+        for (const char* law : damping_names) EXPECT_NE(text.find("law = \"" + std::string(law) + "\""), std::string::npos) << law;
+        for (const char* quantity : quantity_names) EXPECT_NE(text.find('"' + std::string(quantity) + '"'), std::string::npos) << quantity;
+        for (const char* curve : curve_names) EXPECT_NE(text.find('"' + std::string(curve) + '"'), std::string::npos) << curve;
+    }
+}
+
+TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {
+    const Scratch scratch;
+    std::ofstream(scratch / "mine.toml") << "mine";
+    const Outcome there = shell(scratch, "$J new guitar mine");
+    EXPECT_EQ(there.code, 2);
+    EXPECT_NE(there.err.find("mine.toml is there already"), std::string::npos) << there.err;
+    EXPECT_EQ(content(scratch / "mine.toml"), "mine");
+    for (const char* name : {"a/b", "../a", "''", "'a b'"}) EXPECT_EQ(shell(scratch, std::string("$J new guitar ") + name).code, 2) << name;
+    EXPECT_NE(shell(scratch, "$J new gitar a").err.find("did you mean \"guitar\""), std::string::npos);
+    EXPECT_EQ(scratch.files(), 1);
+}
+
+TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
+    const Scratch scratch;
+    std::ofstream(scratch / "silent.toml")
+        << "name = \"silent\"\nduration = 0.01\n[[string]]\nlength = 1\nlinear_density = 1e-3\ntension = 40\n"
+           "[[tap]]\nname = \"nut\"\nquantity = \"nut_force\"\n";
+    const Outcome silent = jvari(scratch, "run " + (scratch / "silent.toml") + " --scheme modal_two_point");
+    EXPECT_NE(silent.err.find("string 0 of silent stays silent"), std::string::npos) << silent.err;
+    const Outcome late = jvari(scratch, "run tanpura_drone --scheme finite_difference_explicit --duration 0.01");
+    EXPECT_NE(late.err.find("string 1 of tanpura_drone stays silent: its pluck begins at 1.2 s"), std::string::npos) << late.err;
+    EXPECT_EQ(late.err.find("string 0"), std::string::npos);
+    EXPECT_EQ(jvari(scratch, "run tanpura_c3 --scheme modal_two_point --duration 0.01").err, "");
+    const std::string sympathetic = "run sitar_sympathetic --scheme modal_two_point --duration 0.01";
+    EXPECT_EQ(jvari(scratch, sympathetic).err, "") << "its bridge shakes the strings that nobody plucks";
+    const Outcome still = jvari(scratch, sympathetic + " --set string.0.initial.amplitude=0");
+    EXPECT_NE(still.err.find("string 2 of sitar_sympathetic stays silent"), std::string::npos) << still.err;
+}
+
+TEST(Quiet, SaysNothingButErrors) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "run free_string --scheme modal_two_point --duration 0.01 --quiet");
+    EXPECT_EQ(o.code, 0);
+    EXPECT_EQ(o.out + o.err, "");
+    EXPECT_NE(jvari(scratch, "run free_string --scheme none --quiet").err, "");
+}
+
+TEST(Controls, TakePartWhereTheyAreAskedFor) {
+    const Scratch scratch;
+    const std::string compare = "compare tanpura_c3_release --rates 44100 --modes 5 --duration 0.002 --repeats 1 --json";
+    const auto schemes = [&](const std::string& more) {
+        std::set<std::string> names;
+        const auto said = nlohmann::json::parse(jvari(scratch, compare + more).out);
+        for (const auto& cell : said.at("cells")) names.insert(cell.at("scheme"));
+        return names;
+    };
+    const auto without = schemes(""), with = schemes(" --controls");
+    for (const char* name : {"modal_two_point_trapezoidal", "modal_quadratised_two_point_raw", "modal_quadratised_three_point_raw",
+                             "modal_quadratised_two_point_constrained", "modal_quadratised_three_point_constrained",
+                             "modal_explicit_penalty", "modal_impulse_invariant"}) {
+        EXPECT_FALSE(without.contains(name)) << name;
+        EXPECT_TRUE(with.contains(name)) << name;
+    }
+    EXPECT_EQ(with.size(), without.size() + 7);
+    EXPECT_EQ(schemes(" --schemes modal_two_point_trapezoidal").size(), 1u);
+}
+
+TEST(Plot, DrawsTheRunOnOnePicture) {
+    const Scratch scratch;
+    const std::string run = "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --plot ";
+    const Outcome wrong = jvari(scratch, run + (scratch / "a.png"));
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_NE(wrong.err.find(".svg or .html"), std::string::npos) << wrong.err;
+    EXPECT_EQ(jvari(scratch, run + (scratch / "a.svg"), "JVARI_NODE_MODULES=/nowhere").code, 2);  // said before the run
+    EXPECT_EQ(scratch.files(), 0);
+    if (!bench::report::find_vega().missing.empty()) GTEST_SKIP() << bench::report::find_vega().missing;
+    for (const char* file : {"a.svg", "a.html"}) {
+        const Outcome o = jvari(scratch, run + (scratch / file));
+        ASSERT_EQ(o.code, 0) << o.err;
+        const std::string text = content(scratch / file);
+        for (const char* panel :
+             {"nut (nut_force)", "bridge (bridge_force)", "spectrum of nut", "spectrogram of nut", "energy ledger", "contact: "})
+            EXPECT_NE(text.find(panel), std::string::npos) << file << ": " << panel;
+    }
+    EXPECT_EQ(scratch.files(), 2);
+    for (const char* scheme : {"modal_two_point", "modal_quadratised"}) {  // in its hue and no other
+        ASSERT_EQ(
+            jvari(scratch, std::string("run tanpura_c3_release --duration 0.02 --scheme ") + scheme + " --plot " + (scratch / "a.svg"))
+                .code,
+            0);
+        const std::string text = content(scratch / "a.svg"), own = bench::report::identities_of({scheme}).front().colour;
+        for (const bench::report::Family& f : bench::report::families())
+            EXPECT_EQ(text.find(std::string("\"") + f.light) != std::string::npos, f.light == own) << scheme << " in the hue of " << f.name;
+    }
+}
+
+TEST(ResultsFolder, OfAnotherSceneIsRefusedAndWhatIsForeignIsNamed) {
+    const Scratch scratch;
+    const std::string more = " --schemes modal_two_point --rates 44100 --modes 5 --duration 0.002 --repeats 1 --out r";
+    ASSERT_EQ(shell(scratch, "$J compare free_string" + more).code, 0);
+    const Outcome again = shell(scratch, "touch r/notes.txt && $J compare free_string" + more);
+    EXPECT_EQ(again.code, 0);
+    EXPECT_NE(again.err.find("r holds what is not of a comparison: notes.txt"), std::string::npos) << again.err;
+    const Outcome other = shell(scratch, "$J compare tanpura_c3_release" + more);
+    EXPECT_EQ(other.code, 2);
+    EXPECT_NE(other.err.find("holds the comparison of free_string"), std::string::npos) << other.err;
+    std::ofstream(scratch / "s.toml") << "name = \"s\"\n[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nmodes = 5\n"
+                                         "rates = [44100]\nduration = 0.002\n";
+    EXPECT_EQ(shell(scratch, "$J suite s.toml --out r").code, 2);
+    EXPECT_EQ(nlohmann::json::parse(content(scratch / "r/manifest.json")).at("scene").at("name"), "free_string");
+}
+
+TEST(SuiteFiles, ScenesAreLookedForBesideTheSuite) {
+    const Scratch scratch;
+    const Outcome o = shell(scratch,
+                            "mkdir study && cd study && $J new guitar mine --quiet && cd .. && "
+                            "printf '[[cells]]\\nscenes = [\"mine.toml\"]\\nschemes = [\"modal_two_point\"]\\nmodes = 5\\n"
+                            "rates = [44100]\\nduration = 0.002\\n' >study/s.toml && $J suite study/s.toml --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(nlohmann::json::parse(o.out).at("cells").at(0).at("scene"), "mine");
+}
+
+TEST(Colour, IsForTerminalsThatWantIt) {
+    const Scratch scratch;
+    const auto on_terminal = [&](const std::string& environment) {
+        return shell(scratch, "script -qec '" + environment + " $J run free_string --scheme none' /dev/null").out;
+    };
+    if (shell(scratch, "command -v script").code != 0) GTEST_SKIP() << "script (util-linux) is missing";
+    EXPECT_NE(on_terminal("TERM=xterm").find("\033[31m"), std::string::npos);
+    EXPECT_EQ(on_terminal("TERM=xterm NO_COLOR=1").find("\033["), std::string::npos);
+    EXPECT_EQ(jvari(scratch, "run free_string --scheme none", "TERM=xterm").err.find("\033["), std::string::npos);
+}
+
+}  // namespace
+}  // namespace jvari::test

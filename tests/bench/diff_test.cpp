@@ -1,0 +1,193 @@
+// jvari diff: what was planted is found, and nothing is found where nothing was.
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "bench/diff/difference.hpp"
+#include "bench/store/usage.hpp"
+#include "tests/command_line.hpp"
+
+namespace jvari::test {
+namespace {
+
+using bench::diff::Difference;
+using bench::diff::Folder;
+using bench::diff::Turn;
+
+constexpr int schemes = 8, rates = 4;
+
+// Costs as a clock gives them: a true one of each cell, times the machine's drift, times a disturbance of the cell and a smaller one of
+// each of its five samples.
+Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1, const std::string& cpu = "one") {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    Folder f;
+    f.name = "made up";
+    f.made.cpu = cpu;
+    f.cells.columns = {"scene",  "scheme",        "options",      "rate",       "modes",
+                       "status", "error_l2_50ms", "cost_s_per_s", "cost_lower", "cost_upper"};
+    for (int s = 0; s < schemes; ++s)
+        for (int r = 0; r < rates; ++r) {
+            std::vector<double> samples;
+            const double cell = std::exp(disturbance * normal(random));
+            for (int k = 0; k < 5; ++k)
+                samples.push_back((s + 1) * 1e-3 * (1 << r) * drift * (s == slow ? 1.3 : 1) * cell *
+                                  std::exp(0.3 * disturbance * normal(random)));
+            std::sort(samples.begin(), samples.end());
+            const auto text = [](double x) { return bench::store::text_of(x); };
+            f.cells.rows.push_back({"string", "scheme_" + std::to_string(s), "", std::to_string(44100 << r), "40", "ok", "0.01",
+                                    text(samples[2]), text(samples[1]), text(samples[3])});
+        }
+    return f;
+}
+
+TEST(Costs, ASchemeThatIsThirtyPerCentSlowerIsFoundWhateverTheMachinesDrift) {
+    for (const double drift : {1.0, 1.4, 0.7}) {
+        const Difference d = difference(timed(1, 0.02), timed(2, 0.02, drift, 3));
+        EXPECT_EQ(d.count(Turn::worse), rates) << drift;
+        EXPECT_EQ(d.count(Turn::better), 0) << drift;
+        for (const auto& f : d.findings) EXPECT_NE(f.row.find("scheme_3"), std::string::npos) << f.row;
+    }
+    EXPECT_EQ(difference(timed(2, 0.02, 1, 3), timed(1, 0.02)).count(Turn::better), rates);
+}
+
+TEST(Costs, TwoRunsOfOneProgramAreSilentOnAQuietAndOnABusyMachine) {
+    for (const double disturbance : {0.01, 0.1, 0.6})
+        for (unsigned repeat = 0; repeat < 10; ++repeat) {
+            const Difference d = difference(timed(2 * repeat, disturbance), timed(2 * repeat + 1, disturbance, 1.1));
+            EXPECT_TRUE(d.findings.empty()) << disturbance << " " << repeat << " " << d.findings.front().row;
+        }
+}
+
+TEST(Costs, OfTwoMachinesAreNotComparedAndItIsSaid) {
+    const Difference d = difference(timed(1, 0.02), timed(2, 0.02, 1, 3, "another"));
+    EXPECT_TRUE(d.findings.empty());
+    ASSERT_EQ(d.notes.size(), 1u);
+    EXPECT_NE(d.notes[0].find("two machines"), std::string::npos);
+}
+
+TEST(Costs, OfASingleSchemeAreNotToldFromTheMachines) {
+    Folder a = timed(1, 0.02), b = timed(2, 0.02, 1.3);
+    a.cells.rows.resize(rates), b.cells.rows.resize(rates);
+    const Difference d = difference(a, b);
+    EXPECT_EQ(d.count(Turn::worse), 0);
+    EXPECT_EQ(d.count(Turn::moved), rates);
+}
+
+// ---- Errors and outcomes.
+
+Folder cell(const std::string& status, const std::string& flags, double error, double floor, double certificate) {
+    const auto text = [](double x) { return bench::store::text_of(x); };
+    Folder f;
+    f.name = "made up";
+    f.cells.columns = {"scheme", "rate", "status", "flags", "error_l2_50ms", "floor_error_l2_50ms", "certificate_l2_50ms"};
+    f.cells.rows = {{"a", "44100", status, flags, text(error), text(floor), text(certificate)}};
+    return f;
+}
+Turn turn_between(const Folder& a, const Folder& b) {
+    const Difference d = difference(a, b);
+    EXPECT_LE(d.findings.size(), 1u);
+    return d.findings.empty() ? Turn::same : d.findings[0].turn;
+}
+
+TEST(Errors, GetWorseBeyondNoiseAndCertificatesAlone) {
+    const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05 + 9e-10, 1e-12, 1e-3)), Turn::same);    // a thousand floors
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05 + 1.2e-9, 1e-12, 1e-3)), Turn::moved);  // beyond them, not beyond the certificates
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.0519, 1e-12, 1e-3)), Turn::moved);
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.0521, 1e-12, 1e-3)), Turn::worse);
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.0479, 1e-12, 1e-3)), Turn::better);
+    EXPECT_EQ(turn_between(was, cell("ok", "", INFINITY, 1e-12, 1e-3)), Turn::worse);
+}
+
+TEST(Outcomes, ThatFailAreWorseAndFlagsToo) {
+    const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    EXPECT_EQ(turn_between(was, cell("diverged", "", 0.05, 1e-12, 1e-3)), Turn::worse);
+    EXPECT_EQ(turn_between(cell("diverged", "", 0.05, 1e-12, 1e-3), was), Turn::better);
+    EXPECT_EQ(turn_between(was, cell("ok", "adhesion", 0.05, 1e-12, 1e-3)), Turn::worse);
+}
+
+TEST(Outcomes, OfMapsAreComparedPointByPoint) {
+    Folder a, b;
+    a.maps.columns = b.maps.columns = {"map", "scene", "scheme", "x_key", "x", "y_key", "y", "outcome"};
+    a.maps.rows = {{"m", "s", "a", "rate", "1", "", "", "sound"}, {"m", "s", "a", "rate", "2", "", "", "sound"}};
+    b.maps.rows = {{"m", "s", "a", "rate", "1", "", "", "diverged"}, {"m", "s", "a", "rate", "3", "", "", "sound"}};
+    const Difference d = difference(a, b);
+    ASSERT_EQ(d.findings.size(), 1u);
+    EXPECT_EQ(d.findings[0].turn, Turn::worse);
+    EXPECT_EQ(d.points.before.size(), 1u);
+    EXPECT_EQ(d.points.after.size(), 1u);
+}
+
+TEST(Folders, WithNothingInCommonAreRefused) {
+    Folder a = cell("ok", "", 0.05, 0, 0), b = a;
+    b.cells.rows[0][0] = "b";
+    EXPECT_THROW(difference(a, b), bench::store::UsageError);
+}
+
+// ---- The program.
+
+TEST(Diff, FindsAPluginThatIsTwoPerCentOffAndNothingElse) {
+    const Scratch scratch;
+    const std::string compare =
+        "$J compare free_string --schemes honest,modal_two_point --rates 44100,88200 --duration 0.05 --repeats 1 --quiet ";
+    const Outcome o = shell(scratch, compare + "--plugin " JVARI_HONEST " --out a >/dev/null || exit 9\n" +  //
+                                         compare + "--plugin " JVARI_LOUD " --out b >/dev/null || exit 9\n" + compare +
+                                         "--plugin " JVARI_HONEST
+                                         " --out c >/dev/null || exit 9\n"
+                                         "$J diff a c --json >same.json; test $? = 0 || exit 8\n"
+                                         "$J diff b a >/dev/null; test $? = 0 || exit 7\n"
+                                         "$J diff a b --json");
+    EXPECT_EQ(o.code, 4) << o.err;
+    const auto j = nlohmann::json::parse(o.out), same = nlohmann::json::parse(content(scratch / "same.json"));
+    EXPECT_EQ(same["worse"], 0);
+    for (const auto& f : same["findings"])
+        EXPECT_EQ(f["column"], "processor_s_per_s") << f;  // two schemes: not told from the machine's doing
+    EXPECT_GT(j["worse"], 2);
+    bool seen = false;
+    for (const auto& f : j["findings"]) {
+        if (f["column"] == "processor_s_per_s") continue;
+        EXPECT_EQ(f["row"].get<std::string>().rfind("honest", 0), 0u) << f;
+        seen = seen || (f["column"] == "error_l2_50ms" && f["turn"] == "worse");
+    }
+    EXPECT_TRUE(seen);
+}
+
+TEST(Diff, RefusesBadFolders) {
+    const Scratch scratch;
+    const Outcome missing = jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " + (scratch / "none"));
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_NE(missing.err.find("no such folder"), std::string::npos) << missing.err;
+    EXPECT_EQ(shell(scratch, "mkdir empty; $J diff empty empty").code, 2);
+    EXPECT_EQ(shell(scratch, "mkdir x; echo '{}' >x/manifest.json; printf 'a,b\\n1\\n' >x/cells.csv; $J diff x x").code, 2);
+    EXPECT_EQ(shell(scratch, "$J diff x").code, 2);
+    EXPECT_EQ(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/stability").code, 2);
+    EXPECT_EQ(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/smoke").code, 0);
+}
+
+TEST(Diff, HistoryComparesEachCommitWithTheOneBefore) {
+    const Scratch scratch;
+    const Outcome o =
+        shell(scratch,
+              "mkdir -p r/x; cd r; git init -q .; git config user.name n; git config user.email e@e\n"
+              "commit() { git add -A; git commit -qm \"$1\"; }\n"
+              "echo '{}' >x/manifest.json; printf 'scheme,rate,status,error_l2_50ms\\na,1,ok,0.1\\n' >x/errors.csv; commit first\n"
+              "printf 'scheme,rate,status,error_l2_50ms\\na,1,ok,0.2\\n' >x/errors.csv; commit worse\n"
+              "printf 'scheme,rate,status,error_l2_50ms\\na,1,ok,0.2\\nb,1,ok,0.1\\n' >x/errors.csv; commit more\n"
+              "echo y >y; commit other\n"
+              "$J diff --history x --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    const auto steps = nlohmann::json::parse(o.out)["history"];
+    ASSERT_EQ(steps.size(), 3u);
+    EXPECT_EQ(steps[0]["subject"], "first");
+    EXPECT_EQ(steps[1]["worse"], 1);
+    EXPECT_EQ(steps[2]["worse"], 0);
+    EXPECT_EQ(steps[2]["cells_new"], 1);
+    const Outcome outside = shell(scratch, "mkdir z; $J diff --history z");
+    EXPECT_EQ(outside.code, 2);
+    EXPECT_NE(outside.err.find("git"), std::string::npos) << outside.err;
+}
+
+}  // namespace
+}  // namespace jvari::test

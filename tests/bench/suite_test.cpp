@@ -1,0 +1,506 @@
+// Suites: what a file spreads out to, and that a suite which was stopped ends like one that was not.
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "bench/compare/record/compare_record.hpp"
+#include "bench/report/spectrogram_chart.hpp"
+#include "bench/store/checksum.hpp"
+#include "bench/store/machine.hpp"
+#include "bench/suite/suite_run.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/command_line.hpp"
+#include "tests/suite_text.hpp"
+
+namespace jvari::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- The file
+
+TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string", "sitar_c5_decay"]
+        schemes = ["modal_two_point", "sitar_fdm"]
+        rates = [44100, 88200, 176400]
+        modes = [5, 10]
+        reference_modes = "cell"
+        duration = 0.01
+        sweep = { "string.0.tension" = [30, 31.5], "tap.0.name" = ["a"] }
+        [[cells]]
+        scenes = "free_string"
+        schemes = ["modal_two_point", "sitar_fdm"]
+        rates = [44100, 88200, 176400]
+        modes = 5
+        duration = 0.01
+        sweep = { "string.0.tension" = [30], "tap.0.name" = ["a"] }
+    )",
+                                                                "a.toml");
+    const auto points = bench::suite::points_of(suite);
+    ASSERT_EQ(points.size(), 2u * 2 * 2 + 1);
+    EXPECT_EQ(points[1].request.set, (std::vector<std::string>{"string.0.tension=31.5", "tap.0.name=\"a\""}));
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    EXPECT_EQ(plan.cells.size(), 2u * 2 * 2 * 2 * 3);  // the second set repeats six cells of the first
+    std::set<std::string> ids;
+    for (const bench::suite::PlannedCell& c : plan.cells) ids.insert(c.id);
+    EXPECT_EQ(ids.size(), plan.cells.size());
+    EXPECT_EQ(plan.points[1].scene.strings[0].tension, 31.5);
+    EXPECT_EQ(plan.points[0].scene.duration, 0.01);
+}
+
+TEST(SuiteFile, TheTruthDoesNotShrinkWithTheModesThatVary) {
+    const auto truth = [](const std::string& more) {
+        return bench::suite::parse_suite("[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\n" + more,
+                                         "a.toml")
+            .sets[0]
+            .reference_modes;
+    };
+    EXPECT_EQ(truth("modes = [5, 10]\n"), 0);  // doubled until nothing moves
+    EXPECT_EQ(truth("modes = [5, 10]\nreference_modes = 64\n"), 64);
+    EXPECT_EQ(truth("modes = [5, 10]\nreference_modes = \"cell\"\n"), std::nullopt);
+    EXPECT_EQ(truth("modes = 5\n"), std::nullopt);
+    EXPECT_EQ(truth(""), std::nullopt);
+    EXPECT_NE(refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n").find("a whole number, 0 or more, or \"cell\""),
+              std::string::npos)
+        << refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n");
+}
+
+TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+        [[cells]]
+        scenes = ["sitar_c5_ideal"]
+        schemes = ["sitar_waveguide", "sitar_fdm"]
+        rates = [44100]
+        options = { "sitar_waveguide:length" = ["integer", "fractional"] }
+        measure = ["spectrogram"]
+    )",
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    ASSERT_EQ(plan.cells.size(), 3u);  // sitar_fdm is the same at both points, and no reference differs
+    EXPECT_EQ(bench::store::options_text(plan.cells[0].cell.settings.options), "length=integer");
+    EXPECT_EQ(bench::store::options_text(plan.cells[2].cell.settings.options), "length=fractional");
+}
+
+TEST(SuiteFile, DotsAreCountedInKeysAlone) {
+    const auto suite = [](const std::string& more) { return "[[cells]]\nscenes = [\"b\"]\n" + more + "\n"; };
+    std::string numbers, dots;
+    for (int k = 1; k <= 80; ++k) numbers += (k > 1 ? ", " : "") + std::to_string(k) + ".5", dots += ".a";
+    const std::string full(80, '.');
+    const std::string sound[] = {suite("rates = [" + numbers + "]"), suite("sweep = { \"string.0.tension\" = [" + numbers + "] }"),
+                                 "source = \"" + full + "\"\n" + suite(""),
+                                 "source = '''\n" + full + " it's \n'''  # " + full + "\n" + suite("")};
+    for (const std::string& text : sound) EXPECT_EQ(refusal_of(text), "read");
+    const std::string keys[] = {"a" + dots + " = 1",
+                                "[a" + dots + "]",
+                                "x = { a" + dots + " = 1 }",
+                                "x = [{ b = \"\", a" + dots + " = 1 }]",
+                                "x = \"\"\"it's\"\"\"\"\na" + dots + " = '\"'",
+                                "x = '''\"'''\na" + dots + " = 1 # \"",
+                                "\",\"" + dots + ".\",\"" + dots + " = 1",
+                                "x = \"\\\"\"\na" + dots + " = 1",
+                                "x = 'a\\'\na" + dots + " = 1"};
+    for (const std::string& key : keys)
+        EXPECT_NE(refusal_of(suite(key)).find("found a key with more than 64 dots"), std::string::npos) << key << "\n"
+                                                                                                        << refusal_of(suite(key));
+}
+
+TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {
+    EXPECT_EQ(refusal_of("nmae = \"a\"\n[[cells]]\nscenes = [\"b\"]").rfind("a.toml:1: unknown key \"nmae\"; did you mean \"name\"?", 0),
+              0u);
+    const std::pair<const char*, const char*> cases[] = {
+        {"[[cells]]\nscenes = [\"b\"]\nraets = [1]", "a.toml:3: cells.0: unknown key \"raets\"; did you mean \"rates\"?"},
+        {"name = \"a\"", "[[cells]]"},
+        {"[[cells]]\nrates = [1]", "scenes is missing"},
+        {"[[cells]]\nscenes = []", "a.toml:2: cells.0.scenes: found an array, expected at least one value"},
+        {"[[cells]]\nscenes = [\"b\", 3]", "a.toml:2: cells.0.scenes.1: found 3, expected a text"},
+        {"[[cells]]\nscenes = [\"b\"]\nrates = [-1]", "a.toml:3: cells.0.rates.0: found -1, expected a number > 0"},
+        {"[[cells]]\nscenes = [\"b\"]\nmodes = 1.5", "a.toml:3: cells.0.modes: found 1.5, expected a whole number > 0"},
+        {"[[cells]]\nscenes = [\"b\"]\nsweep = { x = 3 }", "expected an array"},
+        {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"eror\"]", "unknown measure"},
+        {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"cost\"]", "no speed without an error"},
+        {"[[cells]]\nscenes = [\"b\"", "no TOML"},
+    };
+    for (const auto& [text, expected] : cases) EXPECT_NE(refusal_of(text).find(expected), std::string::npos) << refusal_of(text);
+}
+
+TEST(SuiteFile, EverySuiteOfTheLibraryCanBePlanned) {
+    for (const std::string& name : bench::suite::library_suites()) {
+        const bench::suite::Suite suite = bench::suite::read_suite(name);
+        EXPECT_FALSE(plan_of(suite, bench::compare::Catalogue(), {}).cells.empty() && suite.maps.empty()) << name;
+    }
+    EXPECT_EQ(plan_of(bench::suite::read_suite("paper-deshmukh"), bench::compare::Catalogue(), {}).cells.size(),
+              16u);  // eight variants, two schemes
+}
+
+// ---- Running
+
+std::atomic<int> makes = 0;
+const Descriptor& original() {
+    static const bench::compare::Catalogue catalogue;
+    return catalogue.find("modal_two_point");
+}
+std::unique_ptr<Scheme> counted(const Descriptor&, const Scene& scene, const Settings& settings) {
+    ++makes;
+    return make_scheme(original(), scene, settings);
+}
+
+class Slow : public Scheme {  // 2 ms of work for each block
+public:
+    void reset() noexcept override {}
+    Status advance(const Block& out) noexcept override {
+        const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
+        while (std::chrono::steady_clock::now() < until) {
+        }
+        for (int k = 0; k < out.taps; ++k) std::fill_n(out.tap + k * out.stride, out.rows, 0.0);
+        for (int k = 0; out.energy && k < 3; ++k) std::fill_n(out.energy + k * out.stride, out.rows, 0.0);
+        return {};
+    }
+    int dofs() const override { return 0; }
+};
+
+struct Workshop {  // the schemes of the program, and three for the tests
+    Descriptor counting{original()}, slow{original()}, unwilling{original()}, stumbling{original()};
+    bench::compare::Catalogue catalogue;
+    bench::store::Listener listener;
+    Workshop() {
+        counting.name = "counting";
+        counting.make = counted;
+        slow.name = "slow";
+        slow.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return std::make_unique<Slow>(); };
+        unwilling.name = "unwilling";
+        unwilling.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+            throw Refusal("it is not willing");
+        };
+        stumbling.name = "throwing";
+        stumbling.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+            throw std::runtime_error("out of luck");
+        };
+        for (const Descriptor* d : {&counting, &slow, &unwilling, &stumbling}) catalogue.schemes.push_back(d);
+    }
+};
+
+constexpr const char* counting_suite = R"(
+    [[cells]]
+    scenes = ["free_string", "tanpura_c3"]
+    schemes = ["counting"]
+    rates = [44100, 88200]
+    modes = [10]
+    duration = 0.06
+    repeats = 2
+    sweep = { "string.0.tension" = [30, 33] }
+    measure = ["errors", "cost", "spectrogram"]
+)";
+
+TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
+    const Scratch scratch;
+    const Workshop w;
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    ASSERT_EQ(plan.cells.size(), 8u);
+    makes = 0;
+    const bench::suite::SuiteRun first = bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
+    EXPECT_EQ(first.ran, 8);
+    EXPECT_EQ(first.timed, 8);
+    EXPECT_EQ(makes, 8 * (1 + 2));  // each once for its errors and twice for the clock
+    const bench::suite::SuiteRun second = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
+    EXPECT_EQ(makes, 8 * (1 + 2));
+    EXPECT_EQ(second.read_back, 8);
+    EXPECT_EQ(second.ran + second.timed, 0);
+    EXPECT_EQ(csv(table_of(plan, second.records)), csv(table_of(plan, first.records)));  // clock columns too
+    EXPECT_EQ(second.records[0].levels.level, first.records[0].levels.level);
+    EXPECT_EQ(scratch.files(), 8 + 8);  // numbers and clocks
+
+    const bench::store::Table t = bench::suite::table_of(plan, first.records);
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        EXPECT_EQ(t.at(i, "status"), "ok") << t.at(i, "reason");
+        EXPECT_GT(t.number(i, "error_l2_whole"), 0);
+        EXPECT_GT(t.number(i, "cost_s_per_s"), 0);
+        EXPECT_EQ(t.at(i, "string.0.tension"), i % 4 < 2 ? "30" : "33");
+        EXPECT_FALSE(t.at(i, "reference").empty());
+    }
+}
+
+TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone) {
+    const Scratch scratch;
+    const Workshop w;
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const std::string whole = bench::store::csv(
+        bench::compare::errors_only(bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.listener).records)));
+    bench::suite::run_suite(plan, scratch.path, false, 3, w.listener);
+    fs::remove(scratch.path / (plan.cells[1].id + ".json"));
+    fs::remove(scratch.path / (plan.cells[6].id + ".json"));
+    fs::resize_file(scratch.path / (plan.cells[3].id + ".json"), 100);  // not ours: files appear whole
+    fs::copy_file(scratch.path / (plan.cells[5].id + ".json"), scratch.path / (plan.cells[4].id + ".json"),
+                  fs::copy_options::overwrite_existing);  // another cell's
+    makes = 0;
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 3, w.listener);
+    EXPECT_EQ(resumed.ran, 4);
+    EXPECT_EQ(makes, 4);  // their clocks are there
+    EXPECT_EQ(bench::store::csv(bench::compare::errors_only(table_of(plan, resumed.records))), whole);
+}
+
+TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
+    const Scratch scratch;
+    const Workshop w;
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const std::string whole = bench::store::csv(bench::compare::errors_only(
+        bench::suite::table_of(plan, bench::suite::run_suite(plan, scratch.path, false, 2, w.listener).records)));
+    const std::string path = scratch / (plan.cells[2].id + ".json"), kept = content(path);
+    const auto ran_with = [&](const std::string& text) {
+        std::ofstream(path, std::ios::binary) << text;
+        const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
+        EXPECT_EQ(bench::store::csv(bench::compare::errors_only(table_of(plan, resumed.records))), whole);
+        return resumed.ran;
+    };
+    EXPECT_EQ(ran_with(kept), 0);
+    std::string altered = kept;
+    const auto digit = altered.find_first_of("123456789", altered.find("error_l2_50ms") + 20);
+    altered[digit] = altered[digit] == '1' ? '2' : '1';
+    EXPECT_EQ(ran_with(altered), 1);
+    EXPECT_EQ(ran_with(kept.substr(0, kept.find(",\n \"checksum")) + "}\n"), 1);  // as versions without checksums wrote it
+}
+
+TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures, be the checksum right
+    const Scratch scratch;
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string"]
+        schemes = ["modal_two_point"]
+        rates = [44100]
+        duration = 0.01
+        measure = ["errors", "sound"]
+    )",
+                                                                "a.toml");
+    const Workshop w;
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::suite::run_suite(plan, scratch.path, false, 1, w.listener);
+    const std::string path = scratch / (plan.cells[0].id + ".json");
+    auto json = nlohmann::ordered_json::parse(bench::store::unsealed(content(path)));
+    json["rows"]["sound"]["rows"][0] = nlohmann::ordered_json::array();
+    std::ofstream(path) << bench::store::sealed(json.dump());
+    EXPECT_EQ(run_suite(plan, scratch.path, true, 1, w.listener).ran, 1);
+}
+
+TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
+    const Scratch scratch;
+    const Workshop w;
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
+    const std::string another = "0123456-another";
+    const auto recorded_by_another = [&](int cell, const std::string& what) {  // a file of this cell's name, of another program
+        const fs::path path = scratch.path / (plan.cells[cell].id + ".json");
+        std::string text = bench::store::unsealed(content(path));
+        const std::string own = nlohmann::json(what).dump();
+        const auto at = text.find(own, text.find("\"program\""));
+        ASSERT_NE(at, std::string::npos) << what;
+        std::ofstream(path) << bench::store::sealed(text.replace(at, own.size(), nlohmann::json(another).dump()));
+    };
+    recorded_by_another(1, bench::store::machine().cell_sources);
+    recorded_by_another(2, bench::store::machine().build);
+    recorded_by_another(5, bench::store::machine().compiler);
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
+    EXPECT_EQ(resumed.ran, 3);
+    EXPECT_EQ(resumed.read_back, 5);
+}
+
+TEST(SuiteRun, TheIdentityOfAProgramIsWhatItsNumbersDependOn) {
+    using bench::store::Machine;
+    const Scratch scratch;
+    const std::string own = bench::store::program_identity({});
+    EXPECT_EQ(own, bench::store::program_identity({}));
+    for (std::string Machine::*part : {&Machine::cell_sources, &Machine::compiler, &Machine::flags, &Machine::build, &Machine::vectors}) {
+        Machine other = bench::store::machine();
+        other.*part += "x";
+        EXPECT_NE(program_identity({}, other), own);
+        EXPECT_EQ(run_identity(other) == bench::store::run_identity(), part == &Machine::cell_sources);
+    }
+    Machine reworded = bench::store::machine();  // another commit, of the documentation
+    reworded.commit += "x";
+    EXPECT_EQ(program_identity({}, reworded), own);
+    Machine other_run = bench::store::machine();
+    other_run.run_sources += "x";
+    EXPECT_NE(run_identity(other_run), bench::store::run_identity());
+    std::ofstream(scratch / "plugin") << "a";
+    const std::string with_plugin = bench::store::program_identity({scratch / "plugin"});
+    EXPECT_NE(with_plugin, own);
+    std::ofstream(scratch / "plugin") << "b";
+    EXPECT_NE(bench::store::program_identity({scratch / "plugin"}), with_plugin);
+}
+
+TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
+    const Scratch scratch;
+    const Workshop w;
+    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
+    EXPECT_TRUE(fs::remove(scratch.path / clock_file(plan.cells[2], bench::store::stamp_now())));
+    makes = 0;
+    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
+    EXPECT_EQ(resumed.ran, 0);
+    EXPECT_EQ(resumed.timed, 1);
+    EXPECT_EQ(makes, 2);
+}
+
+TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
+    const Workshop w;
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string"]
+        schemes = ["modal_two_point", "unwilling", "throwing", "slow"]
+        rates = [44100]
+        modes = 3
+        duration = 1.0
+        time_limit_s = 0.45
+        measure = ["errors", "cost", "spectrogram"]
+    )",
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 2, w.listener).records);
+    const std::pair<const char*, const char*> expected[] = {
+        {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.45 s"}};
+    ASSERT_EQ(t.rows.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(t.at(i, "status"), expected[i].first);
+        EXPECT_EQ(t.at(i, "reason"), expected[i].second);
+        EXPECT_EQ(t.at(i, "cost_s_per_s").empty(), i > 0);
+    }
+}
+
+TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
+    const Workshop w;
+    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+        [[cells]]
+        scenes = ["free_string"]
+        schemes = ["modal_two_point"]
+        reference = "slow"
+        rates = [44100]
+        modes = 4                        # of a scheme that is done long before, under sanitizers too
+        duration = 1.0
+        time_limit_s = 0.5
+        measure = ["errors"]
+    )",
+                                                                "a.toml");
+    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.listener).records);
+    EXPECT_EQ(t.at(0, "status"), "ok");
+    EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
+    EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.5 s");
+}
+
+TEST(SuiteCommand, ASceneWithoutTapsIsRefused) {
+    const Scratch scratch;
+    std::ofstream(scratch / "s.toml") << "name = \"s\"\nsource = \"none\"\nduration = 0.01\n[[string]]\nlength = 1.0\nlinear_density = "
+                                         "1e-3\ntension = 50.0\n[string.initial]\nshape = \"mode\"\nnumber = 1\namplitude = 1e-3\n";
+    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"" << scratch / "s.toml"
+                                      << "\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\n";
+    for (const std::string& command :
+         {"compare " + (scratch / "s.toml") + " --schemes modal_two_point --rates 44100 --repeats 1", "suite " + (scratch / "a.toml")}) {
+        const Outcome o = jvari(scratch, command);
+        EXPECT_EQ(o.code, 2) << command << o.err;
+        EXPECT_NE(o.err.find("scene s has no tap"), std::string::npos) << o.err;
+    }
+}
+
+TEST(SuiteCommand, KilledAtAnyMomentAndResumedItGivesTheSameTable) {
+    const Scratch scratch;
+    const std::string file = scratch / "a.toml", none = "JVARI_NODE_MODULES=/nowhere";
+    std::ofstream(file)
+        << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
+           "modes = 20\nduration = 0.05\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
+    const Outcome whole = jvari(scratch, "suite " + file + " --jobs 1 --json --out " + scratch / "whole", none);
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    const auto json = nlohmann::json::parse(whole.out);
+    EXPECT_EQ(json.at("ran"), 24);
+    EXPECT_EQ(json.at("cells").at(0).at("scene"), "tanpura_c3");
+    const auto start_and_kill_with = [&](int cells) {  // as soon as there are so many
+        const std::string kept = scratch / "killed/cells";
+        std::system(("env " + none + " " JVARI_PROGRAM " suite " + file + " --jobs 2 --resume --out " + scratch / "killed" +
+                     " >/dev/null 2>&1 & p=$!; while kill -0 $p && test $(ls " + kept + " | wc -l) -lt " + std::to_string(cells) +
+                     "; do sleep 0.003; done 2>/dev/null; kill -9 $p 2>/dev/null; wait $p 2>/dev/null")
+                        .c_str());
+    };
+    for (const int cells : {1, 3, 4, 7, 10, 12, 15, 19}) start_and_kill_with(cells);
+    const Outcome resumed = jvari(scratch, "suite " + file + " --resume --json --out " + scratch / "killed", none);
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_GE(nlohmann::json::parse(resumed.out).at("read_back"), 19);
+    EXPECT_EQ(content(scratch / "killed/errors.csv"), content(scratch / "whole/errors.csv"));
+    EXPECT_NE(content(scratch / "killed/report.html").find("sitar_fdm cannot represent"), std::string::npos);
+    const Outcome again = jvari(scratch, "suite " + file + " --resume --json --out " + scratch / "killed", none);
+    EXPECT_EQ(nlohmann::json::parse(again.out).at("read_back"), 24);
+}
+
+TEST(SuiteCommand, ExitCodesAreThoseOfTheProgram) {
+    const Scratch scratch;
+    const std::string file = scratch / "a.toml";
+    std::ofstream(file)
+        << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"sitar_fdm\"]\nrates = [44100]\nmeasure = [\"spectrogram\"]\n";
+    EXPECT_EQ(jvari(scratch, "suite " + file).code, 3);
+    EXPECT_EQ(jvari(scratch, "suite nowhere").code, 2);
+    EXPECT_EQ(jvari(scratch, "suite " + file + " --resume").code, 2);
+    EXPECT_EQ(jvari(scratch, "suite " + file + " --jobs 0").code, 2);
+    EXPECT_NE(jvari(scratch, "list suites").out.find("paper-deshmukh"), std::string::npos);
+}
+
+// ---- The picture
+
+TEST(Spectrograms, ASineStandsInItsRowWithItsPower) {
+    std::vector<double> signal(44100);
+    for (std::size_t n = 0; n < signal.size(); ++n) signal[n] = 0.01 * std::sin(2 * M_PI * 1012.0 * static_cast<double>(n) / 44100);
+    const bench::suite::Levels l = bench::suite::levels_of(signal, 44100);
+    ASSERT_EQ(l.rows, 100);
+    EXPECT_NEAR(l.frames, 60, 1);
+    for (int m = 0; m < l.frames; ++m) {
+        const int* frame = l.level.data() + static_cast<std::ptrdiff_t>(m) * l.rows;
+        EXPECT_EQ(std::max_element(frame, frame + l.rows) - frame, 12);  // 960-1040 Hz
+        // 1e-4/2 is -43.0 dB; the strongest bin of a Hann window holds 2/3 of it (-1.8 dB) on a bin, down to 1.4 dB less between two
+        EXPECT_NEAR(frame[12], -448 - 7, 8);
+        EXPECT_LT(frame[50], frame[12] - 800);
+    }
+}
+
+TEST(Spectrograms, OneScaleForAllAndNoMoreRectanglesThanAsked) {
+    bench::suite::Levels noise{60, 100, 0, 0.016, 80, {}};
+    for (int k = 0; k < 6000; ++k) noise.level.push_back(-437 - (k * 7919) % 600);
+    bench::suite::Levels quiet = noise;
+    for (int& level : quiet.level) level -= 2000;
+    const auto spec = nlohmann::json::parse(
+        bench::report::spectrogram_spec("a", "b", {{"s", "x", "ok", noise}, {"t", "x", "ok", quiet}, {"t", "y", "refused", {}}}, 2000));
+    const auto& grid = spec.at("concat");
+    ASSERT_EQ(grid.size(), 4u);
+    const auto rectangles = [&grid](int k) { return grid[k].at("data").at("values").size(); };
+    EXPECT_GT(rectangles(0), 500u);
+    EXPECT_LE(rectangles(0), 2000u);
+    EXPECT_EQ(rectangles(1), 0u);  // 200 dB below: background alone, for the scale is common
+    EXPECT_EQ(grid[3].at("mark").at("text"), "refused");
+    EXPECT_EQ(grid[1].at("title").at("text"), "t");
+    double highest = -1e9;
+    for (const auto& r : grid[0].at("data").at("values")) highest = std::max(highest, r.at("l").get<double>());
+    EXPECT_EQ(highest, 0);
+}
+
+TEST(Spectrograms, ADifferenceIsThatOfTheLevelsWhereEitherIsHeard) {
+    const bench::suite::Levels truth{2, 2, 0, 0.016, 80, {0, -100, -900, -200}};
+    bench::suite::Levels louder = truth;
+    for (int& level : louder.level) level += 60;
+    bench::report::Panel compared{"s", "x", "ok", louder, truth};
+    const auto spec = nlohmann::json::parse(bench::report::spectrogram_spec("a", "b", {{"truth", "x", "ok", truth}, compared}));
+    EXPECT_EQ(spec.at("params").at(0).at("name"), "shown_field");
+    const auto& grid = spec.at("concat");
+    for (const auto& r : grid[0].at("data").at("values")) EXPECT_EQ(r.at("d"), 0);  // the truth differs from nothing
+    int differences = 0;
+    for (const auto& r : grid[1].at("data").at("values"))
+        if (r.at("d") == 1) {
+            ++differences;
+            EXPECT_EQ(r.at("l"), 6);
+        }
+    EXPECT_EQ(differences, 2);  // the rows of both frames; what is background in both is none
+}
+
+}  // namespace
+}  // namespace jvari::test

@@ -1,0 +1,88 @@
+# What looks at the program from outside: texts, an installed tree, a browser, a cluster. Of these `./test` runs those without the label `full`.
+function(jvari_full)  # NAMES ...: tests of `./test all` alone
+    foreach(name IN LISTS ARGN)
+        get_test_property(${name} LABELS labels)
+        if(NOT labels)
+            set(labels gate)
+        endif()
+        set_tests_properties(${name} PROPERTIES LABELS "${labels};full")
+    endforeach()
+endfunction()
+
+# The example plugin, and below the engine as somebody else's library: install to a scratch prefix, build out of tree against it, run.
+set(prefix ${CMAKE_BINARY_DIR}/install_tree)
+add_test(NAME installed COMMAND ${CMAKE_COMMAND} --install ${CMAKE_BINARY_DIR} --prefix ${prefix})
+set_tests_properties(installed PROPERTIES FIXTURES_SETUP installed)
+jvari_full(installed)
+function(jvari_out_of_tree folder)  # tests/FOLDER in BUILD/FOLDER: the tests FOLDER.configure and FOLDER.build
+    add_test(NAME ${folder}.configure
+        COMMAND ${CMAKE_COMMAND} -G ${CMAKE_GENERATOR} -S ${CMAKE_CURRENT_SOURCE_DIR}/${folder} -B ${CMAKE_BINARY_DIR}/${folder} -DCMAKE_PREFIX_PATH=${prefix}
+                -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
+    add_test(NAME ${folder}.build COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR}/${folder})
+    set_tests_properties(${folder}.configure PROPERTIES FIXTURES_REQUIRED installed FIXTURES_SETUP ${folder}_configured)
+    set_tests_properties(${folder}.build PROPERTIES FIXTURES_REQUIRED ${folder}_configured FIXTURES_SETUP ${folder}_built)
+    jvari_full(${folder}.configure ${folder}.build)
+endfunction()
+jvari_out_of_tree(plugin)
+set(plugin ${CMAKE_BINARY_DIR}/plugin/libplain_two_point.so)
+add_executable(plugin_test EXCLUDE_FROM_ALL plugin_test.cpp)
+add_dependencies(full plugin_test)
+target_link_libraries(plugin_test PRIVATE jvari::schemes GTest::gtest_main)
+add_test(NAME plugin_test COMMAND plugin_test --gtest_brief=1)
+set_tests_properties(plugin_test PROPERTIES FIXTURES_REQUIRED plugin_built ENVIRONMENT JVARI_EXAMPLE_PLUGIN=${plugin})
+add_test(NAME Plugin.ExportsNothingButItsTable
+    COMMAND sh -c "nm -D --defined-only $1 | grep jvari >&2; test \"$(nm -D --defined-only $1 | grep jvari | grep -vc __odr_asan)\" = 1" check ${plugin})
+set_tests_properties(Plugin.ExportsNothingButItsTable PROPERTIES FIXTURES_REQUIRED plugin_built)
+jvari_full(plugin_test Plugin.ExportsNothingButItsTable)
+if(JVARI_PYTHON)
+    add_test(NAME Python.TheModuleIsTheEngine COMMAND ${Python_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/python/module_test.py $<TARGET_FILE:jvari> ${plugin})
+    add_test(NAME Python.TheExampleDrawsTheCommittedStudy COMMAND ${Python_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/python/example_test.py ${CMAKE_SOURCE_DIR})
+    set_tests_properties(Python.TheModuleIsTheEngine PROPERTIES FIXTURES_REQUIRED plugin_built)
+    set_tests_properties(Python.TheModuleIsTheEngine Python.TheExampleDrawsTheCommittedStudy
+        PROPERTIES ENVIRONMENT "PYTHONPATH=$<TARGET_FILE_DIR:jvari_python>;JVARI_CACHE=" SKIP_RETURN_CODE 77 TIMEOUT 600)
+    jvari_full(Python.TheModuleIsTheEngine Python.TheExampleDrawsTheCommittedStudy)
+endif()
+
+if(under_sanitizers)  # once is enough for what follows
+    return()
+endif()
+
+set(demo_report ${CMAKE_CURRENT_BINARY_DIR}/demo_report)
+jvari_gate(Demo.AnswersInTwentyFiveLinesAndTwentySeconds demo.sh $<TARGET_FILE:jvari> ${demo_report})
+set_tests_properties(Demo.AnswersInTwentyFiveLinesAndTwentySeconds PROPERTIES COST 100 FIXTURES_SETUP demo_report)
+jvari_gate(Browser.AReportIsDrawnSoundsAndFitsAPhone browser/check.sh $<TARGET_FILE:jvari> ${CMAKE_CURRENT_SOURCE_DIR}/report ${CMAKE_SOURCE_DIR}/node_modules ${demo_report})
+set_tests_properties(Browser.AReportIsDrawnSoundsAndFitsAPhone PROPERTIES COST 100 LABELS browser TIMEOUT 1500 FIXTURES_REQUIRED demo_report)
+jvari_gate(Browser.EverySceneOfTheLibraryIsHeard browser/sounds.sh $<TARGET_FILE:jvari>)
+set_tests_properties(Browser.EverySceneOfTheLibraryIsHeard PROPERTIES LABELS browser)
+jvari_full(Browser.AReportIsDrawnSoundsAndFitsAPhone Browser.EverySceneOfTheLibraryIsHeard)
+
+jvari_gate(FirstMinutes.FromANewSceneToAnAnswerInFiveCommands first_minutes.sh $<TARGET_FILE:jvari>)
+jvari_gate(NewScheme.IsOneFileAndOneLine new_scheme.sh ${CMAKE_BINARY_DIR})
+set_tests_properties(FirstMinutes.FromANewSceneToAnAnswerInFiveCommands NewScheme.IsOneFileAndOneLine PROPERTIES COST 100)
+if(NOT CMAKE_GENERATOR MATCHES Ninja)
+    set_tests_properties(NewScheme.IsOneFileAndOneLine PROPERTIES DISABLED TRUE)  # it asks ninja how things are linked
+endif()
+jvari_gate(Docker.TheImageIsBuiltAsTheDemoIs dockerfile.sh $<TARGET_FILE:jvari>)
+jvari_gate(Prose.SentencesAreShortLinksLeadSomewhereTermsAreInTheGlossary prose.sh)
+jvari_gate(Spelling.EveryWordIsEnglishOrTheFields spelling.sh)
+jvari_gate(Format.EverySourceIsAsClangFormatLeavesIt format.sh)
+jvari_full(FirstMinutes.FromANewSceneToAnAnswerInFiveCommands NewScheme.IsOneFileAndOneLine)
+if(CMAKE_BUILD_TYPE STREQUAL Release)
+    jvari_gate(Tidy.RoomsAndHeadersAreAsClangTidyWantsThem tidy.sh ${CMAKE_BINARY_DIR} rooms)
+    set_tests_properties(Tidy.RoomsAndHeadersAreAsClangTidyWantsThem PROPERTIES COST 200 PROCESSORS 2 TIMEOUT 1500)
+    jvari_full(Tidy.RoomsAndHeadersAreAsClangTidyWantsThem)
+endif()
+
+jvari_out_of_tree(consumer)
+add_test(NAME Installed.TheEngineIsALibraryForAnyProgram COMMAND ${CMAKE_BINARY_DIR}/consumer/consumer)
+set_tests_properties(Installed.TheEngineIsALibraryForAnyProgram PROPERTIES FIXTURES_REQUIRED consumer_built)
+jvari_gate(Installed.ManualAndCompletionsKnowWhatTheProgramKnows manual.sh $<TARGET_FILE:jvari> ${CMAKE_BINARY_DIR}/manual)
+jvari_gate(Installed.TheDebianPackageHoldsWhatItNeeds package.sh ${CMAKE_BINARY_DIR})
+jvari_full(Installed.TheEngineIsALibraryForAnyProgram Installed.TheDebianPackageHoldsWhatItNeeds)
+
+jvari_plugin(held_plugin slurm/held_scheme.cpp)
+jvari_gate(Slurm.ASuiteSurvivesALostNodeAndALostTask slurm/check.sh $<TARGET_FILE:jvari> $<TARGET_FILE:held_plugin>)
+set_tests_properties(Slurm.ASuiteSurvivesALostNodeAndALostTask PROPERTIES COST 100)
+jvari_full(Slurm.ASuiteSurvivesALostNodeAndALostTask)
+set_target_properties(held_plugin thirty_per_cent_slow PROPERTIES EXCLUDE_FROM_ALL TRUE)
+add_dependencies(full held_plugin thirty_per_cent_slow)

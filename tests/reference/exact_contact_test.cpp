@@ -1,0 +1,444 @@
+// The event-driven reference against closed forms, dense linear algebra, a brute-force integrator and itself.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+
+#include "reference/references.hpp"
+#include "scenes/excitation.hpp"
+#include "scenes/modes.hpp"
+#include "schemes/run.hpp"
+#include "tests/reference/bernstein.hpp"
+#include "tests/reference/stepwise_contact.hpp"
+
+namespace jvari {
+namespace {
+
+using std::numbers::pi;
+
+Scene c3(bool losses = true) {  // van Walstijn et al. 2016, Table 1, first-mode release
+    String s;
+    s.length = 1.0;
+    s.linear_density = 4.83e-4;
+    s.tension = 33.1;
+    s.bending_stiffness = 6.03e-5;
+    if (losses) s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6};
+    LumpedBarrier b;
+    b.position = 10e-3;
+    b.width = 2e-3;
+    b.stiffness.k = 4.39e8;
+    s.barriers = {b};
+    s.thread = Thread{5e-3, 1.2e-3, 1.2e5, losses ? 1.2 : 0.0, 0};
+    s.initial = ModeInitial{1, 1.9e-3};
+    Scene scene;
+    scene.name = "c3";
+    scene.duration = 0.02;
+    scene.strings = {s};
+    scene.taps = {{"nut", Quantity::nut_force, 0, 0},       {"y", Quantity::displacement, 0, 0.3},
+                  {"bridge", Quantity::bridge_force, 0, 0}, {"thread", Quantity::thread_force, 0, 0},
+                  {"v", Quantity::velocity, 0, 0.3},        {"drive", Quantity::driving_force, 0, 0}};
+    return scene;
+}
+
+// Few modes, two soft barriers at different heights, a thread off its height, losses and a pluck: everything at once.
+Scene few_modes() {
+    Scene scene = c3();
+    String& s = scene.strings[0];
+    s.damping = PolynomialDamping{3, 0.5, 0};
+    s.barriers = {LumpedBarrier{0.15, 2e-3, -3e-4, {4e5}, 1, 0}, LumpedBarrier{0.62, 0, -5e-4, {2e5}, 1, 0}};
+    s.thread = Thread{0.05, 1e-3, 3e3, 0.05, 1e-5};
+    s.pluck = Pluck{-0.3, 3e-3, 12, 0.4e-3, 0.4, 0.02};
+    scene.duration = 0.01;
+    return scene;
+}
+
+Settings settings(int modes, const char* tolerance = "1e-12") {
+    Settings s;
+    s.modes = modes;
+    s.options = {{"tolerance", tolerance}};
+    return s;
+}
+
+double fact(const jvari::Run& r, const std::string& name) {
+    for (const Fact& f : r.facts)
+        if (f.name == name) return f.value;
+    ADD_FAILURE() << "no fact " << name;
+    return 0;
+}
+
+double difference(std::span<const double> a, std::span<const double> b) {  // relative L2
+    double d = 0, n = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        d += (a[i] - b[i]) * (a[i] - b[i]);
+        n += b[i] * b[i];
+    }
+    return n == 0 ? std::sqrt(d) : std::sqrt(d / n);
+}
+
+TEST(FirstNegative, FindsWhatDenseSamplingFindsAndNeverLater) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    int roots = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+        double c[32], scale = 1;
+        for (int n = 0; n < 32; ++n, scale *= 3.0 / n) c[n] = normal(random) * scale;
+        c[0] = 0.3 * std::abs(c[0]);
+        const double x = first_negative(c, 32, 1e-16);
+        double sampled = 2;
+        for (int i = 0; i <= 10000 && sampled == 2; ++i)
+            if (value(c, 32, i * 1e-4) < 0) sampled = i * 1e-4;
+        EXPECT_LE(x, sampled + 1e-12) << trial;
+        if (x <= 1) {
+            ++roots;
+            EXPECT_NEAR(value(c, 32, x), 0, 1e-14) << trial;
+            EXPECT_LT(value(c, 32, x + 1e-7), 0) << trial;
+        } else EXPECT_EQ(sampled, 2) << trial;
+    }
+    EXPECT_GT(roots, 100);
+}
+
+TEST(FirstNegative, SeesADipThatNoSamplingWouldAndSkipsTheRootItStandsOn) {
+    const double a = 0.37654321;
+    const double dip[] = {a * a - 1e-14, -2 * a, 1.0};  // (x - a)^2 - 1e-14: negative over 2e-7
+    EXPECT_NEAR(first_negative(dip, 3, 1e-17), a - 1e-7, 1e-9);
+    const double leaving[] = {0, 1, -4};  // x (1 - 4x)
+    EXPECT_DOUBLE_EQ(first_negative(leaving, 3, 1e-17), 0.25);
+    const double turning[] = {0, 0, -1};
+    EXPECT_EQ(first_negative(turning, 3, 1e-17), 0);
+    const double rest[] = {0, 0, 0};
+    EXPECT_EQ(first_negative(rest, 3, 1e-17), 2);
+}
+
+// One mode over one spring of a given height, no loss: circular arcs in two phase planes, pieced together by atan2.
+TEST(ExactContact, OneModeOnAOneSidedSpringIsArcsOfTwoSinusoids) {
+    Scene scene = c3(false);
+    String& s = scene.strings[0];
+    s.thread.reset();
+    for (double height : {0.0, 2e-5, -3e-5, 8e-5}) {
+        s.barriers = {LumpedBarrier{10e-3, 2e-3, height, {4.39e5}, 1, 0}};
+        const jvari::Run r = run(exact_contact, scene, settings(1));
+        const Modes m = modes_of(s, 1);
+        const double g = footprint_weights(m, 10e-3, 2e-3)[0], k = 4.39e5 * g * g / m.mass, h = height / g;
+        const double w[2] = {m.omega0[0], std::sqrt(m.omega0[0] * m.omega0[0] + k)}, centre[2] = {0, k * h / (w[1] * w[1])};
+        double y = 1.9e-3, v = 0, t = 0, leaves = -1;
+        int in = y < h ? 1 : 0, events = in;
+        for (long n = 1; n < r.trace.rows; ++n) {
+            const double row = n / 44100.0;
+            for (;;) {  // y = centre + R cos(w tau + phi)
+                const double x = y - centre[in], u = v / w[in], R = std::hypot(x, u), phi = std::atan2(-u, x), c = (h - centre[in]) / R;
+                // going down through h at w tau + phi = acos(c), up at 2 pi - acos(c)
+                double wait = 1e9;
+                if (std::abs(c) <= 1) wait = (in ? 2 * pi - std::acos(c) : std::acos(c)) - phi;
+                if (wait < 1e9) wait = std::fmod(wait + 2 * pi, 2 * pi);
+                leaves = t + wait / w[in];
+                const double tau = std::min(leaves, row) - t, angle = w[in] * tau + phi;
+                y = centre[in] + R * std::cos(angle);
+                v = -R * w[in] * std::sin(angle);
+                t = std::min(leaves, row);
+                if (leaves > row) break;
+                in = 1 - in;
+                ++events;
+            }
+            ASSERT_NEAR(r.trace.column(1)[n], y * std::sin(0.3 * pi), 1e-13 * 1.9e-3) << height << " row " << n;
+            ASSERT_NEAR(r.trace.column(4)[n], v * std::sin(0.3 * pi), 1e-13 * 1.9e-3 * w[1]) << height << " row " << n;
+        }
+        EXPECT_EQ(fact(r, "events"), events) << height;
+        EXPECT_GT(events, height < 5e-5 ? 4 : 0);  // the highest barrier never lets the string go
+    }
+}
+
+TEST(ExactContact, AThreadAwayFromItsHeightIsTheDenseMatrixExponential) {
+    Scene scene = few_modes();
+    String& s = scene.strings[0];
+    s.barriers.clear();
+    s.pluck.reset();
+    const int M = 7;
+    const jvari::Run r = run(exact_contact, scene, settings(M));
+    const Modes m = modes_of(s, M);
+    const auto g = footprint_weights(m, s.thread->position, s.thread->width), x = displacement_weights(m, 0.3);
+    // state (omega0 y, v) about the equilibrium
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * M, 2 * M), K = Eigen::MatrixXd::Zero(M, M);
+    Eigen::VectorXd pull(M), z = Eigen::VectorXd::Zero(2 * M);
+    for (int i = 0; i < M; ++i) {
+        pull(i) = s.thread->stiffness * s.thread->height * g[i] / m.mass;
+        for (int j = 0; j < M; ++j) K(i, j) = s.thread->stiffness * g[i] * g[j] / m.mass + (i == j ? m.omega0[i] * m.omega0[i] : 0);
+        for (int j = 0; j < M; ++j) A(M + i, M + j) = -s.thread->damping * g[i] * g[j] / m.mass - (i == j ? 2 * m.sigma[i] : 0);
+    }
+    const Eigen::VectorXd rest = K.ldlt().solve(pull);
+    for (int i = 0; i < M; ++i) {
+        A(i, M + i) = m.omega0[i];
+        for (int j = 0; j < M; ++j) A(M + i, j) = -K(i, j) / m.omega0[j];
+        z(i) = m.omega0[i] * ((i == 0 ? 1.9e-3 : 0) - rest(i));
+    }
+    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A);
+    const Eigen::MatrixXcd X = eigen.eigenvectors();
+    const Eigen::VectorXcd w0 = X.partialPivLu().solve(z.cast<std::complex<double>>());
+    double last_y = 1.9e-3 * g[0], integral = 0;
+    for (long n = 0; n < r.trace.rows; ++n) {
+        const double t = n / 44100.0;
+        Eigen::VectorXcd w = w0, sum = w0;
+        for (int q = 0; q < 2 * M; ++q) {
+            w(q) *= std::exp(eigen.eigenvalues()(q) * t);
+            sum(q) *= (std::exp(eigen.eigenvalues()(q) * t) - 1.0) / eigen.eigenvalues()(q);
+        }
+        const Eigen::VectorXd now = (X * w).real(), area = (X * sum).real();
+        double y = 0, yc = 0, all = 0;
+        for (int i = 0; i < M; ++i) {
+            y += x[i] * (now(i) / m.omega0[i] + rest(i));
+            yc += g[i] * (now(i) / m.omega0[i] + rest(i));
+            all += g[i] * (area(i) / m.omega0[i] + rest(i) * t);
+        }
+        EXPECT_NEAR(r.trace.column(1)[n], y, 1e-14) << n;
+        const double force =
+            s.thread->stiffness * (s.thread->height - (all - integral) * 44100) - s.thread->damping * (yc - last_y) * 44100;
+        if (n > 0) {
+            EXPECT_NEAR(r.trace.column(3)[n], force, 1e-9) << n;
+            EXPECT_DOUBLE_EQ(r.trace.column(5)[n], -r.trace.column(3)[n]);
+        }
+        last_y = yc;
+        integral = all;
+    }
+}
+
+// Classical Runge-Kutta on the modal equations with the kinks stepped over: an independent program, no series, no events.
+struct BruteForce {
+    Modes m;
+    const String& s;
+    std::vector<std::vector<double>> g;  // per barrier
+    std::vector<double> thread, plucked, y, v;
+    double impulse = 0;
+    BruteForce(const String& string, int count) : m(modes_of(string, count)), s(string), y(initial_displacement(m, string)), v(count, 0.0) {
+        for (const Barrier& b : s.barriers)
+            g.push_back(footprint_weights(m, std::get<LumpedBarrier>(b).position, std::get<LumpedBarrier>(b).width));
+        thread = footprint_weights(m, s.thread->position, s.thread->width);
+        plucked = footprint_weights(m, s.pluck->position, s.pluck->width);
+    }
+    double slope(double t, const std::vector<double>& q, const std::vector<double>& u, std::vector<double>& a) const {
+        const auto dot = [&](const std::vector<double>& w, const std::vector<double>& z) {
+            double sum = 0;
+            for (int i = 0; i < m.count(); ++i) sum += w[i] * z[i];
+            return sum;
+        };
+        const double Fc = s.thread->stiffness * (s.thread->height - dot(thread, q)) - s.thread->damping * dot(thread, u),
+                     Fe = force(*s.pluck, t);
+        double bridge = 0;
+        for (int i = 0; i < m.count(); ++i)
+            a[i] = -2 * m.sigma[i] * u[i] - m.omega0[i] * m.omega0[i] * q[i] + (thread[i] * Fc + plucked[i] * Fe) / m.mass;
+        for (std::size_t b = 0; b < g.size(); ++b) {
+            const auto& barrier = std::get<LumpedBarrier>(s.barriers[b]);
+            const double F = barrier.stiffness.k * std::max(0.0, barrier.height - dot(g[b], q));
+            bridge += F;
+            for (int i = 0; i < m.count(); ++i) a[i] += g[b][i] * F / m.mass;
+        }
+        return bridge;
+    }
+    void step(double t, double dt) {
+        const std::size_t n = y.size();
+        std::vector<double> a1(n), a2(n), a3(n), a4(n), q(n), u(n), v2, v3;
+        const double F1 = slope(t, y, v, a1);
+        for (std::size_t i = 0; i < n; ++i) q[i] = y[i] + dt / 2 * v[i], u[i] = v[i] + dt / 2 * a1[i];
+        const double F2 = slope(t + dt / 2, q, u, a2);
+        v2 = u;
+        for (std::size_t i = 0; i < n; ++i) q[i] = y[i] + dt / 2 * v2[i], u[i] = v[i] + dt / 2 * a2[i];
+        const double F3 = slope(t + dt / 2, q, u, a3);
+        v3 = u;
+        for (std::size_t i = 0; i < n; ++i) q[i] = y[i] + dt * v3[i], u[i] = v[i] + dt * a3[i];
+        const double F4 = slope(t + dt, q, u, a4);
+        for (std::size_t i = 0; i < n; ++i) {
+            y[i] += dt / 6 * (v[i] + 2 * v2[i] + 2 * v3[i] + u[i]);
+            v[i] += dt / 6 * (a1[i] + 2 * a2[i] + 2 * a3[i] + a4[i]);
+        }
+        impulse += dt / 6 * (F1 + 2 * F2 + 2 * F3 + F4);
+    }
+};
+
+TEST(ExactContact, TwoBarriersThreadAndPluckAreWhatABruteForceIntegratorApproaches) {
+    const Scene scene = few_modes();
+    const int M = 4;
+    const jvari::Run r = run(exact_contact, scene, settings(M));
+    EXPECT_GT(fact(r, "events"), 8);
+    double previous = 1;
+    for (int steps : {30, 120, 480}) {
+        BruteForce brute(scene.strings[0], M);
+        const auto x = displacement_weights(brute.m, 0.3);
+        std::vector<double> y(r.trace.rows), bridge(r.trace.rows);
+        for (long n = 0; n < r.trace.rows; ++n) {
+            for (int i = 0; i < M; ++i) y[n] += x[i] * brute.y[i];
+            bridge[n] = brute.impulse * 44100;
+            brute.impulse = 0;
+            for (int k = 0; k < steps; ++k) brute.step((n + static_cast<double>(k) / steps) / 44100, 1.0 / 44100 / steps);
+        }
+        const double error = difference(y, r.trace.column(1));  // falls by 16: the kinks leave second order
+        EXPECT_LT(error, previous / 10);
+        EXPECT_LT(difference(bridge, r.trace.column(2)), 50 * error);
+        previous = error;
+    }
+    EXPECT_LT(previous, 2e-7);
+}
+
+TEST(ExactContact, ABarrierNeverReachedLeavesTheClosedForm) {
+    for (int laws = 0; laws < 3; ++laws) {
+        Scene scene = few_modes();
+        String& s = scene.strings[0];
+        s.thread.reset();
+        const int M = laws == 2 ? 3 : 20;
+        if (laws == 0) s.damping = NoDamping{};
+        if (laws == 2) s.damping = TableDamping{"", {130, 260, 390}, {2 * pi * 130, 5000, 3}};  // critical, overdamped, light
+        s.barriers = {LumpedBarrier{0.15, 2e-3, -1, {4e5}, 1, 0}, LumpedBarrier{0.62, 0, -2, {2e5}, 1, 0}};
+        Scene free = scene;
+        free.strings[0].barriers.clear();
+        const jvari::Run r = run(exact_contact, scene, settings(M));
+        Settings plain;
+        plain.modes = M;
+        const jvari::Run want = run(exact_linear, free, plain), open = run(exact_contact, free, settings(M));
+        EXPECT_EQ(fact(r, "events"), 0);
+        for (int k : {0, 1, 4}) {
+            EXPECT_LT(difference(r.trace.column(k), want.trace.column(k)), 2e-13) << laws << " tap " << k;
+            EXPECT_LT(difference(open.trace.column(k), want.trace.column(k)), 2e-13) << laws << " tap " << k;
+        }
+    }
+}
+
+// Digits of a second program (long double, two dense eigen-bases, free and in contact, one switched to the other at events it refined
+// itself).
+TEST(ExactContact, TheC3ReleaseHasTheDigitsOfATwoBasisProgramInLongDouble) {
+    const jvari::Run r = run(exact_contact, c3(), settings(133));
+    EXPECT_EQ(fact(r, "events"), 563);
+    EXPECT_GE(fact(r, "smallest_contact_force"), 0);
+    EXPECT_LT(fact(r, "deepest_penetration"), 1e-8);
+    EXPECT_LT(fact(r, "detection_tolerance"), 1e-17);
+    const struct {
+        int row;
+        double nut, bridge;
+    } digits[] = {{90, -0.021330593829415993, 0.039208094121962585},
+                  {91, -0.024888435805390442, 0.043627127384851701},
+                  {300, 0.16032894826303482, 0},
+                  {500, -0.25498981683894734, 0.28654266405940165},
+                  {882, -0.12880802225232693, 0.1772021365194909}};
+    for (const auto& d : digits) {
+        EXPECT_NEAR(r.trace.column(0)[d.row], d.nut, 1e-12) << d.row;
+        EXPECT_NEAR(r.trace.column(2)[d.row], d.bridge, 2e-11) << d.row;
+    }
+    const jvari::Run usual = run(exact_contact, c3(), settings(133, "1e-10"));
+    EXPECT_EQ(fact(usual, "events"), 563);
+    for (int k = 0; k < 6; ++k) EXPECT_LT(difference(usual.trace.column(k), r.trace.column(k)), 1e-10) << k;
+}
+
+TEST(ExactContact, WithoutLossesTheEnergyStaysAndWithThemTheLedgerCloses) {
+    Scene pressed = c3();  // the pluck acts on what the contact does within a window
+    pressed.strings[0].pluck = Pluck{-0.6, 15e-3, 12, 0.2e-3, 0.02, 0.01};
+    Scene tapped = few_modes();  // a pluck far shorter than the string's fastest period
+    tapped.strings[0].pluck = Pluck{-30, 1e-5, 0, 1e-3, 0.4, 0.02};
+    tapped.duration = 0.02;
+    tapped.strings[0].initial = ModeInitial{1, 1e-3};
+    for (const auto& [scene, modes, kept] :
+         {std::tuple{c3(false), 133, true}, {c3(true), 133, false}, {few_modes(), 12, false}, {pressed, 133, false}, {tapped, 12, false}}) {
+        RunOptions options;
+        options.energy = true;
+        const jvari::Run r = run(exact_contact, scene, settings(modes), options);
+        EXPECT_GT(fact(r, "events"), 20);
+        const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1), lost = r.trace.energy_column(2);
+        double largest = 0, accumulated = 0, total = 0;
+        for (double e : stored) largest = std::max(largest, e);
+        for (long n = 1; n < r.trace.rows; ++n) {
+            const double residual = stored[n] - stored[n - 1] - supplied[n] + lost[n];
+            EXPECT_LT(std::abs(residual), 1e-13 * largest) << n;
+            accumulated += residual;
+            total += lost[n];
+        }
+        EXPECT_LT(std::abs(accumulated), 1e-12 * largest);
+        if (kept) EXPECT_EQ(total, 0);
+        else EXPECT_GT(total, 0.05 * largest);
+    }
+}
+
+TEST(ExactContact, BlocksProbeAndResetLeaveEveryBitAsItWas) {
+    const Scene scene = few_modes();
+    const auto scheme = make_scheme(exact_contact, scene, settings(9));
+    EXPECT_EQ(scheme->dofs(), 18);
+    const jvari::Run once = run(*scheme, scene, settings(9));
+    for (int block : {1, 7, 100000}) {
+        RunOptions options;
+        options.block_rows = block;
+        options.energy = block != 7;
+        const jvari::Run again = run(*scheme, scene, settings(9), options);
+        EXPECT_EQ(again.trace.tap, once.trace.tap) << block;
+        EXPECT_EQ(fact(again, "events"), fact(once, "events"));
+    }
+}
+
+TEST(ExactContact, AStringAtRestOnItsBarriersStaysAtRest) {
+    Scene scene = c3();
+    scene.strings[0].initial.reset();
+    scene.strings[0].barriers.push_back(LumpedBarrier{0.4, 1e-3, 0, {1e7}, 1, 0});
+    scene.duration = 2e-3;
+    const jvari::Run r = run(exact_contact, scene, settings(50));
+    EXPECT_EQ(fact(r, "events"), 0);
+    for (double x : r.trace.tap) EXPECT_EQ(x, 0);
+}
+
+// A symmetric string on two equal barriers: both contacts open and close at the same instants. The symmetry itself is unstable (what
+// rounding makes of it grows tenfold every 0.1 ms of contact), so only the first two dozen impacts are asked for.
+TEST(ExactContact, EqualBarriersOnASymmetricStringShareTheirEvents) {
+    Scene scene = c3(false);
+    String& s = scene.strings[0];
+    s.thread.reset();
+    s.barriers = {LumpedBarrier{0.02, 2e-3, -1e-5, {1e7}, 1, 0}, LumpedBarrier{0.98, 2e-3, -1e-5, {1e7}, 1, 0}};
+    scene.duration = 2.6e-3;
+    scene.taps = {{"left", Quantity::displacement, 0, 0.3}, {"right", Quantity::displacement, 0, 0.7}};
+    const jvari::Run r = run(exact_contact, scene, settings(40));
+    EXPECT_EQ(r.status.outcome, Outcome::ok);
+    EXPECT_GT(fact(r, "events"), 20);
+    EXPECT_EQ(std::fmod(fact(r, "events"), 2), 0);
+    EXPECT_LT(difference(r.trace.column(0), r.trace.column(1)), 1e-13);
+}
+
+// Pressed in by 4 mm and held back by a loss of 1000 s/m, the string creeps out at 1 mm/s: 1 - beta v is 1e-3, and the force what is left
+// of a thousand times as much. (Where Newton's iteration asks for more of it than the last bit of v gives, steps are cut without end.)
+TEST(ExactContact, AContactThatCreepsUnderAStrongLossTakesAFewStepsAWindow) {
+    Scene scene = c3();
+    String& s = scene.strings[0];
+    s.tension = 1000;
+    s.barriers = {LumpedBarrier{0.6, 0, 0, {2e7}, 1, 1000}};
+    s.thread.reset();
+    s.initial = TriangleInitial{0.9, -7e-3, 0};
+    scene.duration = 5e-4;
+    scene.taps.erase(scene.taps.begin() + 3);  // of the thread
+    const jvari::Run r = run(exact_contact, scene, settings(5, "1e-10"));
+    Settings stiff;
+    stiff.modes = 5;
+    stiff.options = {{"method", "bdf"}, {"rtol", "1e-12"}};
+    const jvari::Run other = run(sundials, scene, stiff);
+    ASSERT_EQ(r.status.outcome, Outcome::ok);
+    ASSERT_EQ(other.status.outcome, Outcome::ok);
+    EXPECT_LT(fact(r, "contact_steps"), 10 * fact(r, "windows"));
+    EXPECT_EQ(fact(r, "events"), 1);
+    for (int k = 0; k < r.trace.taps(); ++k) EXPECT_LT(difference(r.trace.column(k), other.trace.column(k)), 1e-7) << r.trace.names[k];
+}
+
+TEST(ExactContact, RefusesAToleranceThatIsNone) {
+    EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "0")), Refusal);
+    EXPECT_THROW(make_scheme(exact_contact, c3(), settings(5, "1")), Refusal);
+}
+
+// The other algorithm: its windows end at every event and none of them splits contact. 1e5 N/m is soft against the window, 1e10 stiff.
+TEST(ExactContact, EveryStiffnessIsWhatStepwiseWindowsMakeOfIt) {
+    for (const double k : {1e4, 1e5, 1e6, 1e7, 1e8, 1e10}) {
+        Scene scene = c3();
+        scene.duration = 2e-3;
+        std::get<LumpedBarrier>(scene.strings[0].barriers[0]).stiffness.k = k;
+        Settings plain;
+        plain.modes = 80;
+        const jvari::Run r = run(exact_contact, scene, settings(80)), want = run(stepwise_contact, scene, plain);
+        EXPECT_EQ(fact(r, "events"), fact(want, "events")) << k;
+        for (int tap : {0, 1, 3, 4}) EXPECT_LT(difference(r.trace.column(tap), want.trace.column(tap)), 1e-11) << k << " tap " << tap;
+        EXPECT_LT(difference(r.trace.column(2), want.trace.column(2)), 1e-9) << k;
+    }
+}
+
+}  // namespace
+}  // namespace jvari

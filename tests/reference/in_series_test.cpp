@@ -1,0 +1,189 @@
+// compliance=matched of the references: two programs for one system, static loads, energy, and what it is for.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/in_series.hpp"
+#include "reference/references.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
+#include "tests/c3.hpp"
+#include "tests/ledger.hpp"
+
+namespace jvari {
+namespace {
+
+Settings matched(int modes) {
+    return {0, 44100, modes, {{"compliance", "matched"}}};
+}
+LumpedBarrier& bridge(Scene& scene) {
+    return std::get<LumpedBarrier>(scene.strings.front().barriers.front());
+}
+double fact(const jvari::Run& r, const std::string& name) {
+    for (const Fact& f : r.facts)
+        if (f.name == name) return f.value;
+    ADD_FAILURE() << "no fact " << name;
+    return 0;
+}
+double difference(std::span<const double> a, std::span<const double> b) {  // relative L2 over the shorter
+    double d = 0, n = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) d += (a[i] - b[i]) * (a[i] - b[i]), n += b[i] * b[i];
+    return n == 0 ? std::sqrt(d) : std::sqrt(d / n);
+}
+
+// Barrier and thread in every combination, at heights of their own: `exponent` 0 leaves the barrier out, `damping` < 0 the thread.
+Scene with(double exponent, double damping) {
+    Scene scene = c3_release();
+    String& s = scene.strings.front();
+    scene.duration = 0.01;
+    s.thread->height = 1e-5;
+    s.thread->damping = damping;
+    if (damping < 0) s.thread.reset();
+    if (exponent == 0) s.barriers.clear();
+    else bridge(scene) = {10e-3, 2e-3, 1e-6, {exponent == 1 ? 4.39e8 : 3e9}, exponent, 0};
+    return scene;
+}
+
+TEST(InSeries, ExactContactAndSundialsAgreeOnWhatIsMatched) {
+    for (const double exponent : {0.0, 1.0, 1.4})
+        for (const double damping : {1.2, 0.0, -1.0}) {
+            if (exponent == 0 && damping < 0) continue;
+            const Scene scene = with(exponent, damping);
+            const auto a = run(exact_contact, scene, matched(40)), b = run(sundials, scene, matched(40));
+            ASSERT_EQ(a.status.outcome, Outcome::ok);
+            ASSERT_EQ(b.status.outcome, Outcome::ok);
+            EXPECT_EQ(fact(a, "events"), fact(b, "events"));
+            EXPECT_EQ(fact(a, "events") > 0, exponent > 0);
+            for (std::size_t k = 0; k < scene.taps.size(); ++k)
+                EXPECT_LT(difference(a.trace.column(k), b.trace.column(k)), exponent == 1.4 ? 1e-7 : 2e-9)
+                    << exponent << " " << damping << " " << scene.taps[k].name;
+        }
+}
+
+// With something in series no contact is split, and a window spans a row. At a tolerance that asks for more than it can hold, half of one.
+TEST(InSeries, AWindowAsLongAsARowSaysWhatTwoHalvesSay) {
+    for (const double exponent : {1.0, 1.4}) {
+        Scene scene = with(exponent, 1.2);
+        scene.duration = 0.05;
+        Settings fine = matched(133);
+        fine.options.push_back({"tolerance", "1e-13"});
+        const auto whole = run(exact_contact, scene, matched(133)), halves = run(exact_contact, scene, fine);
+        EXPECT_EQ(fact(halves, "windows"), 2 * fact(whole, "windows"));
+        EXPECT_EQ(fact(halves, "events"), fact(whole, "events"));
+        EXPECT_GT(fact(whole, "events"), 10);
+        for (std::size_t k = 0; k < scene.taps.size(); ++k)
+            EXPECT_LT(difference(whole.trace.column(k), halves.trace.column(k)), exponent == 1 ? 1e-11 : 1e-9)
+                << exponent << " " << scene.taps[k].name;
+    }
+}
+
+// A contact as soft as those, with nothing in series: several spans of one solution fill a window.
+TEST(InSeries, TheyAgreeOnASoftContactOfItsOwn) {
+    Scene scene = with(1, 1.2);
+    bridge(scene).stiffness.k = 3e6;
+    const auto a = run(exact_contact, scene, {0, 44100, 133, {}}), b = run(sundials, scene, {0, 44100, 133, {}});
+    EXPECT_EQ(fact(a, "events"), fact(b, "events"));
+    EXPECT_GT(fact(a, "events"), 2);
+    EXPECT_EQ(fact(a, "contact_steps"), 0);
+    for (int k = 0; k < 4; ++k) EXPECT_LT(difference(a.trace.column(k), b.trace.column(k)), 1e-8) << k;
+}
+
+TEST(InSeries, SundialsDenseAndImplicitSeeTheSameEquations) {
+    Scene scene = with(1, 1.2);
+    scene.duration = 3e-3;
+    const auto plain = run(sundials, scene, matched(12));
+    for (const char* solver : {"woodbury", "dense"}) {
+        Settings s = matched(12);
+        s.options.insert(s.options.end(), {{"method", "esdirk"}, {"linear_solver", solver}, {"rtol", "1e-9"}});
+        const auto r = run(sundials, scene, s, {.energy = true});
+        EXPECT_LE(ledger(r.trace).worst_step, 1e-7) << solver;
+        for (int k = 0; k < 4; ++k) EXPECT_LT(difference(r.trace.column(k), plain.trace.column(k)), 1e-6) << solver << k;
+    }
+}
+
+TEST(InSeries, BalancesItsEnergyWhateverPartsThereAre) {
+    for (const bool plucked : {false, true})
+        for (const double exponent : {0.0, 1.0, 1.4})
+            for (const double damping : {1.2, 0.0, -1.0}) {
+                Scene scene = with(exponent, damping);
+                if (plucked) scene.strings.front().pluck = Pluck{-0.3, 1e-3, 4, 0.4e-3, 0.4, 0.02};
+                for (const Descriptor* d : {&exact_contact, &sundials}) {
+                    if (plucked && d == &sundials) continue;
+                    const auto r = run(*d, scene, matched(40), {.energy = true});
+                    ASSERT_EQ(r.status.outcome, Outcome::ok);
+                    EXPECT_LE(ledger(r.trace).worst_step, exponent == 1.4 ? 1e-9 : 1e-11)
+                        << d->name << " " << plucked << " " << exponent << " " << damping;
+                }
+            }
+}
+
+// A string pressed on a raised bridge and pulled by a low thread: at rest it yields by C_true, whatever the number of modes.
+TEST(InSeries, AStringAtRestYieldsByTheTrueCompliance) {
+    Scene scene = c3_release();
+    String& s = scene.strings.front();
+    s.damping = PolynomialDamping{300, 0, 0};
+    s.initial.reset();
+    bridge(scene) = {10e-3, 2e-3, 1e-4, {1e5}, 1, 0};
+    s.thread->height = -2e-5;
+    scene.duration = 0.25;
+    for (const Descriptor* d : {&exact_contact, &sundials}) {
+        const auto r = run(*d, scene, matched(20));
+        const Footprint b{10e-3, 2e-3}, c{5e-3, 1.2e-3}, x{0.3, 0};
+        const double C_bb = static_deflection(s, b, b), C_bc = static_deflection(s, b, c), C_cc = static_deflection(s, c, c);
+        const auto last = [&](int k) { return r.trace.column(k).back(); };
+        const double F_b = last(2), F_c = last(3);
+        ASSERT_GT(F_b, 0.1);
+        EXPECT_NEAR((C_bb * F_b + C_bc * F_c) / (1e-4 - F_b / 1e5), 1, 1e-9) << d->name;
+        EXPECT_NEAR((C_bc * F_b + C_cc * F_c) / (-2e-5 - F_c / s.thread->stiffness), 1, 1e-9) << d->name;
+        EXPECT_NEAR(last(0) / (static_nut_force(s, b) * F_b + static_nut_force(s, c) * F_c), 1, 1e-9) << d->name;
+        EXPECT_NEAR(last(1) / (static_deflection(s, x, b) * F_b + static_deflection(s, x, c) * F_c), 1, 1e-9) << d->name;
+    }
+}
+
+// A pluck beside the bridge: what modal_two_point, whose steps take some of the compliance, approaches as they shrink.
+TEST(InSeries, APluckedStringIsWhatTheTwoPointSchemeApproaches) {
+    Scene scene = with(1, 1.2);
+    scene.strings.front().pluck = Pluck{-0.3, 1e-3, 4, 0.4e-3, 0.05, 0.02};
+    const auto exact = run(exact_contact, scene, matched(30));
+    const Descriptor& two_point =
+        *std::find_if(schemes().begin(), schemes().end(), [](const Descriptor& d) { return d.name == std::string("modal_two_point"); });
+    const auto error = [&](int factor, int tap) {
+        const auto r = run(two_point, scene, {44100.0 * factor, 44100, 30, {{"compliance", "matched"}}});
+        return difference(r.trace.column(tap), exact.trace.column(tap));
+    };
+    for (const int tap : {0, 1}) {
+        const double coarse = error(32, tap), fine = error(128, tap);
+        EXPECT_LT(fine, coarse / 8) << tap;
+        EXPECT_LT(fine, 2e-5) << tap;
+    }
+}
+
+TEST(InSeries, FewModesMatchedAreNearerToManyThanManyUnmatched) {
+    Scene scene = c3_release();
+    scene.duration = 0.05;
+    const auto truth = run(exact_contact, scene, {0, 44100, 600, {{"tolerance", "1e-6"}}});
+    const auto cut = run(exact_contact, scene, {0, 44100, 133, {}}), with_133 = run(exact_contact, scene, matched(133)),
+               with_20 = run(exact_contact, scene, matched(20));
+    EXPECT_EQ(fact(cut, "events"), 1357);
+    EXPECT_EQ(fact(with_133, "events"), 25);
+    const auto error = [&](const jvari::Run& r, int tap) { return difference(r.trace.column(tap), truth.trace.column(tap)); };
+    EXPECT_LT(error(with_133, 1), 2 * 1.1e-4);  // 1.1e-4 and 4.5e-3 of y and bridge, 1.8e-3 and 4.7e-2 with 20 modes:
+    EXPECT_LT(error(with_133, 2), 2 * 4.5e-3);  // docs/compliance-matching.md
+    EXPECT_LT(error(with_20, 1), 2 * 1.8e-3);
+    EXPECT_LT(error(with_20, 2), 2 * 4.7e-2);
+    for (const int tap : {1, 2}) EXPECT_LT(10 * error(with_133, tap), error(cut, tap));
+}
+
+TEST(InSeries, RefusesWhatItCannotCarry) {
+    Scene two = c3_release(), lossy = c3_release(), profile = c3_release(), plucked = c3_pluck();
+    two.strings.front().barriers.push_back(two.strings.front().barriers.front());
+    bridge(lossy).contact_loss = 0.1;
+    profile.strings.front().barriers = {ProfileBarrier{FlatCurve{}, 5e-3, 15e-3, {1e11}, 1, 0}};
+    for (const Descriptor* d : {&exact_contact, &sundials})
+        for (const Scene* scene : {&two, &lossy, &profile}) EXPECT_THROW(make_scheme(*d, *scene, matched(20)), Refusal) << d->name;
+    EXPECT_THROW(make_scheme(sundials, plucked, matched(20)), Refusal);
+    EXPECT_NO_THROW(make_scheme(exact_contact, plucked, matched(20)));
+}
+
+}  // namespace
+}  // namespace jvari
