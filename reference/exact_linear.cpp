@@ -5,13 +5,12 @@
 // w^2 = omega0^2 - sigma^2, hyperbolic where that is negative, t itself in place of sin(wt)/w where it is zero (van Walstijn et al. 2016,
 // eqs 16-21). Rows after the last forced one come straight from the state there, with the phase reduced in long double: no error
 // accumulates. The Duhamel integral is Gauss-Legendre on panels that are short against the fastest mode and the pluck's own time scale.
-#include <gsl/gsl_integration.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "reference/gauss_legendre.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
@@ -85,9 +84,7 @@ ExactLinear::ExactLinear(const String& s, const Scene& scene, Modes modes, doubl
         rate_ = std::max(rate_, std::numbers::pi * (2 + k) / s.pluck->duration);
     }
     for (State* state : {&anchor_, &state_, &node_state_}) state->y = state->v = start_;
-    gsl_integration_glfixed_table* table = gsl_integration_glfixed_table_alloc(nodes);
-    for (int q = 0; q < nodes; ++q) gsl_integration_glfixed_point(0, 1, q, &node_[q], &weight_[q], table);
-    gsl_integration_glfixed_table_free(table);
+    gauss_legendre(node_, weight_);
     reset();
 }
 

@@ -1,13 +1,12 @@
 #include "reference/exact/collocated_contact.hpp"
 
-#include <gsl/gsl_integration.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "reference/exact/macro_window.hpp"
+#include "reference/gauss_legendre.hpp"
 
 namespace jvari {
 
@@ -16,9 +15,7 @@ constexpr double last_bits = 4 * std::numeric_limits<double>::epsilon();  // of 
 }
 
 CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const BarrierLaw> laws) : window_(&w), law_(laws.begin(), laws.end()) {
-    gsl_integration_glfixed_table* table = gsl_integration_glfixed_table_alloc(nodes);
-    for (int q = 0; q < nodes; ++q) gsl_integration_glfixed_point(0, 1, q, &node_[q], &weight_[q], table);
-    gsl_integration_glfixed_table_free(table);
+    gauss_legendre(node_, weight_);
     using Real = long double;
     Eigen::Matrix<Real, nodes, nodes> V;
     for (int q = 0; q < nodes; ++q)

@@ -1,10 +1,9 @@
 #include "reference/exact/window_energies.hpp"
 
-#include <gsl/gsl_integration.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
+
+#include "reference/gauss_legendre.hpp"
 
 namespace jvari {
 
@@ -33,10 +32,8 @@ WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolera
     const Springs& s = w.springs;
     const double seconds = w.seconds();
     for (int n = 2; n <= most_nodes; ++n) {
-        const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> table(
-            gsl_integration_glfixed_table_alloc(n), gsl_integration_glfixed_table_free);
         Rule rule{n, growth_for(n, std::max(rounding, of_tolerance * tolerance)), {}, {}};
-        for (int q = 0; q < n; ++q) gsl_integration_glfixed_point(0, 1, q, &rule.node[q], &rule.weight[q], table.get());
+        gauss_legendre(std::span(rule.node).first(n), std::span(rule.weight).first(n));
         rules_.push_back(rule);
     }
     const Rule& finest = rules_.back();

@@ -1,4 +1,5 @@
 // The event-driven reference against closed forms, dense linear algebra, a brute-force integrator and itself.
+#include <gsl/gsl_integration.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -8,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "reference/gauss_legendre.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
@@ -77,6 +79,45 @@ double difference(std::span<const double> a, std::span<const double> b) {  // re
         n += b[i] * b[i];
     }
     return n == 0 ? std::sqrt(d) : std::sqrt(d / n);
+}
+
+TEST(GaussLegendre, IntegratesEveryPolynomialThatItCanAndNoOther) {
+    for (int n = 1; n <= 16; ++n) {
+        std::vector<double> node(n), weight(n);
+        gauss_legendre(node, weight);
+        const auto relative = [&](int power) {  // of int_0^1 x^power dx
+            long double sum = 0;
+            for (int q = 0; q < n; ++q) sum += weight[q] * std::pow(static_cast<long double>(node[q]), power);
+            return static_cast<double>(sum * (power + 1) - 1);
+        };
+        for (int power = 0; power < 2 * n; ++power) EXPECT_LT(std::abs(relative(power)), 1.2e-16 * (power + 2)) << n << " " << power;
+        double missed = 1;  // n!^4/(2n)!^2
+        for (int k = 1; k <= n; ++k) missed *= std::pow(k / (2.0 * (2 * k - 1)), 2);
+        EXPECT_NEAR(relative(2 * n), -missed, 1e-3 * missed + 5e-15) << n;
+    }
+}
+
+TEST(GaussLegendre, NodesAndWeightsAreRightToTheirLastBitButOneAndMirrorImages) {
+    for (int n = 1; n <= 64; ++n) {
+        std::vector<double> node(n), weight(n);
+        gauss_legendre(node, weight);
+        for (int q = 0; q < n; ++q) {
+            EXPECT_NEAR(node[q] + node[n - 1 - q], 1, 1.2e-16) << n;
+            EXPECT_EQ(weight[q], weight[n - 1 - q]) << n;
+            const long double x = 2 * static_cast<long double>(node[q]) - 1, p = std::legendre(n, x), before = std::legendre(n - 1, x);
+            const long double slope = n * (x * p - before) / (x * x - 1);
+            EXPECT_LT(std::abs(p / slope / 2), 2.3e-16L * node[q]) << n << " " << q;
+        }
+        if (n > 20) continue;  // from there on GSL's are not of a table, and worse
+        gsl_integration_glfixed_table* table = gsl_integration_glfixed_table_alloc(n);
+        for (int q = 0; q < n; ++q) {
+            double x, w;
+            gsl_integration_glfixed_point(0, 1, q, &x, &w, table);
+            EXPECT_NEAR(node[q], x, 2.3e-16) << n << " " << q;
+            EXPECT_NEAR(weight[q], w, 4.5e-16 * w) << n << " " << q;
+        }
+        gsl_integration_glfixed_table_free(table);
+    }
 }
 
 TEST(FirstNegative, FindsWhatDenseSamplingFindsAndNeverLater) {
