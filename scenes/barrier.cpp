@@ -1,16 +1,44 @@
-// Sources: Issanchou et al. 2016 (profiles, eq 29), van Walstijn et al. 2016 eqs 54-55 (contact stiffness from materials).
+// Sources: Issanchou et al. 2016 (profiles, eq 29), van Walstijn et al. 2016 eqs 54-55 (contact stiffness from materials), Steffen 1990,
+// Astronomy & Astrophysics 239, p. 443 (monotone interpolation of a table).
 #include "scenes/barrier.hpp"
-
-#include <gsl/gsl_interp.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 namespace jvari {
 
 namespace {
+// A cubic between every two rows of a table. Each is monotone: its slope at a row is that of the parabola through the row and its
+// neighbours, 0 where the heights turn, and at most twice a neighbouring secant's. At the table's ends the slope is the secant's.
+class MonotoneCubics {
+public:
+    explicit MonotoneCubics(const TableCurve& c) : x_(c.x), y_(c.height) {
+        const std::size_t last = x_.size() - 2;  // of the intervals
+        slope_.push_back(secant(0));
+        for (std::size_t i = 1; i <= last; ++i) {
+            const double before = secant(i - 1), after = secant(i);
+            const double parabola = (before * width(i) + after * width(i - 1)) / (width(i - 1) + width(i));
+            const double size = std::min({2 * std::abs(before), 2 * std::abs(after), std::abs(parabola)});
+            slope_.push_back(before * after > 0 ? std::copysign(size, before) : 0.0);
+        }
+        slope_.push_back(secant(last));
+    }
+    double operator()(double x) const {  // between the first row and the last
+        const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
+        const std::size_t i = above - x_.begin() - 1;
+        const double h = width(i), s = secant(i), t = x - x_[i];
+        const double a = (slope_[i] + slope_[i + 1] - 2 * s) / (h * h), b = (3 * s - 2 * slope_[i] - slope_[i + 1]) / h;
+        return y_[i] + t * (slope_[i] + t * (b + t * a));
+    }
+
+private:
+    double width(std::size_t i) const { return x_[i + 1] - x_[i]; }
+    double secant(std::size_t i) const { return (y_[i + 1] - y_[i]) / width(i); }
+    const std::vector<double>&x_, &y_;  // of the table, which outlives this
+    std::vector<double> slope_;         // at each row
+};
+
 struct HeightAt {
     const std::vector<double>& x;
     std::vector<double> operator()(const FlatCurve&) const { return std::vector<double>(x.size(), 0.0); }
@@ -25,14 +53,9 @@ struct HeightAt {
         return g;
     }
     std::vector<double> operator()(const TableCurve& c) const {
-        const auto* kind = c.x.size() > 2 ? gsl_interp_steffen : gsl_interp_linear;
-        const std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline(gsl_interp_alloc(kind, c.x.size()), gsl_interp_free);
-        gsl_interp_init(spline.get(), c.x.data(), c.height.data(), c.x.size());
+        const MonotoneCubics between(c);
         std::vector<double> g;
-        for (double p : x) {  // a grid may round past the table's end, where GSL would abort; the end's height holds there
-            const double within = std::clamp(p, c.x.front(), c.x.back());
-            g.push_back(gsl_interp_eval(spline.get(), c.x.data(), c.height.data(), within, nullptr));
-        }
+        for (double p : x) g.push_back(between(std::clamp(p, c.x.front(), c.x.back())));  // a grid may round past the table's end
         return g;
     }
 };

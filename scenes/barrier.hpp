@@ -5,7 +5,7 @@
 
 namespace jvari {
 
-// g(x) [m] of a profile; a table is interpolated by a GSL monotone cubic (Steffen) spline.
+// g(x) [m] of a profile; between its rows a table is monotone cubics (Steffen 1990).
 double height(const Curve&, double x);
 
 // The same for many positions at once (a table's spline is made once).

@@ -1,8 +1,11 @@
 // Laws of loss and contact, each against arithmetic of its own.
+#include <gsl/gsl_spline.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <random>
 
 #include "scenes/barrier.hpp"
 #include "scenes/damping.hpp"
@@ -102,6 +105,50 @@ TEST(Curves, ATableIsMonotoneBetweenItsPointsAndExactOnThem) {
     EXPECT_DOUBLE_EQ(height(ParabolaCurve{0.0065}, 0.019), -0.0065 * 0.019 * 0.019);
     EXPECT_DOUBLE_EQ(height(LineCurve{-0.008}, 0.01), -8e-5);
     EXPECT_EQ(height(FlatCurve{}, 0.01), 0);
+}
+
+TableCurve table_of(std::mt19937& random, int rows, bool falling) {
+    std::uniform_real_distribution<double> part(0.05, 1), any(-1, 1);
+    TableCurve c{"made up", {-0.3}, {0.2}};
+    while (static_cast<int>(c.x.size()) < rows) {
+        c.x.push_back(c.x.back() + part(random));
+        c.height.push_back(falling ? c.height.back() - part(random) * part(random) * part(random) : any(random));
+    }
+    return c;
+}
+
+TEST(Curves, ATableIsWhatAnotherProgramMakesOfItToRounding) {
+    std::mt19937 random(7);
+    for (int rows : {2, 3, 4, 20}) {
+        const TableCurve c = table_of(random, rows, false);
+        const auto* kind = rows == 2 ? gsl_interp_linear : gsl_interp_steffen;
+        const std::unique_ptr<gsl_spline, decltype(&gsl_spline_free)> spline(gsl_spline_alloc(kind, c.x.size()), gsl_spline_free);
+        gsl_spline_init(spline.get(), c.x.data(), c.height.data(), c.x.size());
+        for (int i = 0; i <= 2000; ++i) {
+            const double x = std::lerp(c.x.front(), c.x.back(), i / 2000.0);
+            EXPECT_NEAR(height(c, x), gsl_spline_eval(spline.get(), x, nullptr), 1e-14) << rows << " rows, x = " << x;
+        }
+    }
+}
+
+TEST(Curves, BetweenTwoRowsATableStaysBetweenThemAndFallsWhereTheyFall) {
+    std::mt19937 random(8);
+    for (bool falling : {false, true}) {
+        const TableCurve c = table_of(random, 40, falling);
+        for (std::size_t i = 0; i + 1 < c.x.size(); ++i) {
+            EXPECT_NEAR(height(c, c.x[i]), c.height[i], 1e-15);
+            double last = c.height[i];
+            for (int k = 1; k <= 100; ++k) {
+                const double g = height(c, std::lerp(c.x[i], c.x[i + 1], k / 100.0));
+                const double way = c.height[i + 1] - c.height[i];
+                EXPECT_GE((g - last) * way, -1e-15) << i;
+                EXPECT_LE((g - c.height[i + 1]) * way, 1e-15) << i;
+                last = g;
+            }
+        }
+        EXPECT_EQ(height(c, c.x.front() - 1), c.height.front());
+        EXPECT_NEAR(height(c, c.x.back() + 1), c.height.back(), 1e-15);
+    }
 }
 
 }  // namespace
