@@ -47,7 +47,7 @@ only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin
     forbid "$1 belongs to $3" "#include <$2" $(echo "$product" | grep -vE "^($3)")
 }
 only "toml++" 'toml' 'scenes/document'
-only GSL 'gsl/' 'schemes/|analysis/'
+only GSL 'gsl/' 'analysis/'
 only Eigen 'Eigen/' 'schemes/|reference/exact/(touching_set|collocated_contact)|analysis/'
 only Highway 'hwy/' 'schemes/|reference/exact/modal_sweep'
 only FFTW 'fftw' 'analysis/(spectrum|convolution)|schemes/spatial/sine_transform'

@@ -2,8 +2,7 @@
 // order, each a few functions that no other file needs apart.
 #include "schemes/grid/finite_difference.hpp"
 
-#include <gsl/gsl_multifit.h>
-
+#include <Eigen/QR>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -79,23 +78,21 @@ struct Fit {
 
 // Least squares with the powers 0, 1, 2 of x that `powers` has a bit for.
 Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<double>& sigma, const std::vector<double>& weight) {
-    const std::size_t n = x.size(), terms = std::popcount(static_cast<unsigned>(powers));
-    const auto matrix = gsl_matrix_alloc(n, terms), covariance = gsl_matrix_alloc(terms, terms);
-    const auto coefficients = gsl_vector_alloc(terms);
-    const auto work = gsl_multifit_linear_alloc(n, terms);
-    const auto y = gsl_vector_const_view_array(sigma.data(), n), w = gsl_vector_const_view_array(weight.data(), n);
-    for (std::size_t i = 0; i < n; ++i)
+    const auto n = static_cast<Eigen::Index>(x.size());
+    Eigen::MatrixXd A(n, std::popcount(static_cast<unsigned>(powers)));
+    Eigen::VectorXd b(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double scale = std::sqrt(weight[i]);
+        b[i] = scale * sigma[i];
         for (int p = 0, column = 0; p < 3; ++p)
-            if (powers >> p & 1) gsl_matrix_set(matrix, i, column++, std::pow(x[i], p));
+            if (powers >> p & 1) A(i, column++) = scale * std::pow(x[i], p);
+    }
+    const Eigen::VectorXd coefficients = A.householderQr().solve(b);
     Fit fit;
-    gsl_multifit_wlinear(matrix, &w.vector, &y.vector, coefficients, covariance, &fit.square, work);
+    fit.square = (A * coefficients - b).squaredNorm();
     double* const into[] = {&fit.loss.sigma0, &fit.loss.sigma1, &fit.loss.sigma2};
     for (int p = 0, column = 0; p < 3; ++p)
-        if (powers >> p & 1) *into[p] = gsl_vector_get(coefficients, column++);
-    gsl_multifit_linear_free(work);
-    gsl_vector_free(coefficients);
-    gsl_matrix_free(covariance);
-    gsl_matrix_free(matrix);
+        if (powers >> p & 1) *into[p] = coefficients[column++];
     return fit;
 }
 }  // namespace
