@@ -331,19 +331,10 @@ private:
     std::vector<double> modal_now_, modal_last_, modal_coming_;                           // y^n, y^n - y^{n-1}, y^{n+1} - y^n
 };
 
-// Multiply-adds a step. A transform of 2N points costs about 2N times the sum of N's prime factors: a large prime in N is expensive.
-std::string cheapest_form(const LinearUpdate& u) {
-    double factors = 1;
-    for (int n = u.intervals, f = 2; n > 1; ++f)
-        for (; n % f == 0; n /= f) factors += f;
-    const double n = u.modes(), restricted = n * (3.0 + u.reads), sine = n * 3 + 4 * n * factors;
-    return restricted <= sine ? "restricted" : "dst";  // dense, 2 n^2, is never below restricted: reads <= n
-}
-
 constexpr Option form_option{"form",
-                             "auto",
-                             "how forces reach the grid: as one matrix, on the nodes read alone, by sine transforms, or what costs least",
-                             {"auto", "dense", "restricted", "dst"}};
+                             "restricted",
+                             "how a step is computed: for the places that are read alone, or for all nodes by the paper's full matrices",
+                             {"restricted", "dense"}};
 constexpr Option options[] = {compliance_option, profile_points_option, form_option};
 
 // What cut and step take from the string's compliance: a constant force on a mode moves it by gain/kappa (14).
@@ -393,19 +384,6 @@ Problem problem_of(const Descriptor& descriptor, const Scene& scene, const Setti
     return p;
 }
 
-std::string form_of(const Problem& p, const Settings& settings) {
-    std::string form = choice_option(settings, form_option);
-    if (form == "auto") form = cheapest_form(p.update);
-    const bool on_nodes =
-        std::all_of(p.update.ports.begin(), p.update.ports.begin() + p.update.reads, [](const Port& port) { return port.node != 0; });
-    if (form == "restricted" && !on_nodes && p.update.reads > 2) form = "dst";  // it reads two other places at most
-    constexpr int most_dense = 1 << 13;                                         // half a gigabyte of matrix
-    if (form == "dense" && p.update.modes() > most_dense)
-        throw Refusal("option form: dense takes no more than " + std::to_string(most_dense) + " modes, not " +
-                      std::to_string(p.update.modes()));
-    return form;
-}
-
 template <class Form>
 std::unique_ptr<Scheme> in_form(const Scene& scene, std::vector<std::unique_ptr<Problem>> problems) {
     if (!problems.front()->at_body) return std::make_unique<SpatialNewton<Form>>(std::move(*problems.front()));
@@ -423,12 +401,13 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
     auto problems =
         each_string<Problem>(scene, [&](const Scene& one) { return std::make_unique<Problem>(problem_of(descriptor, one, settings)); });
-    std::string form = form_of(*problems.front(), settings);
+    if (choice_option(settings, form_option) == "restricted") return in_form<RestrictedForm>(scene, std::move(problems));
+    constexpr int most_dense = 1 << 13;  // half a gigabyte of matrix
     for (const auto& p : problems)
-        if (form_of(*p, settings) != form) form = "dst";  // which takes every string
-    if (form == "dense") return in_form<DenseForm>(scene, std::move(problems));
-    if (form == "restricted") return in_form<RestrictedForm>(scene, std::move(problems));
-    return in_form<SineForm>(scene, std::move(problems));
+        if (p->update.modes() > most_dense)
+            throw Refusal("option form: dense takes no more than " + std::to_string(most_dense) + " modes, not " +
+                          std::to_string(p->update.modes()));
+    return in_form<DenseForm>(scene, std::move(problems));
 }
 
 constexpr Features represented = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |

@@ -1,11 +1,9 @@
-// The dense and the sine-transform form (Issanchou et al. 2016, eqs 13-15); the restricted one is in spatial_restricted.cpp.
+// The dense form (Issanchou et al. 2016, eqs 13-15); the restricted one is in spatial_restricted.cpp.
 #include "schemes/spatial/spatial_forms.hpp"
 
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
-
-#include "schemes/spatial/sine_transform.hpp"
 
 namespace jvari {
 
@@ -48,8 +46,6 @@ std::vector<double> node_weights(int intervals, int node) {
 double dot(const AlignedVector& weights, const AlignedVector& level) {
     return In(weights.data(), weights.size()).dot(In(level.data(), level.size()));
 }
-
-// ---- Dense
 
 DenseForm::DenseForm(const LinearUpdate& update)
     : size_(update.modes()),
@@ -101,62 +97,6 @@ AlignedVector DenseForm::reading(const std::vector<double>& modal_weights) const
     AlignedVector given(size_), w(size_);
     std::copy(modal_weights.begin(), modal_weights.end(), given.data());
     to_modal(given, w.data());  // S^-1 is symmetric
-    return w;
-}
-
-// ---- Sine transform
-
-SineForm::SineForm(const LinearUpdate& update) : update_(update), transform_(std::make_unique<SineTransform>(update.intervals)) {
-    levels.displacement = AlignedVector(update_.modes());
-    levels.increment = AlignedVector(update_.modes());
-}
-SineForm::~SineForm() = default;
-
-void SineForm::start(const double* y, const double* free_increment) {
-    std::copy_n(y, update_.modes(), levels.displacement.data());
-    std::copy_n(free_increment, update_.modes(), levels.increment.data());
-}
-
-void SineForm::read(double* free) const {
-    const int n = update_.modes();
-    Out(transform_->buffer.data(), n) = In(levels.displacement.data(), n) + In(levels.increment.data(), n);
-    for (int z = 0; z < update_.reads; ++z)
-        if (update_.ports[z].node == 0) free[z] = In(update_.ports[z].weights.data(), n).dot(In(transform_->buffer.data(), n));
-    (*transform_)();
-    for (int z = 0; z < update_.reads; ++z)
-        if (update_.ports[z].node != 0) free[z] = transform_->buffer[update_.ports[z].node - 1];
-}
-
-void SineForm::advance(const double* force, double* free) {
-    const int n = update_.modes();
-    Out y(levels.displacement.data(), n), d(levels.increment.data(), n), push(transform_->buffer.data(), n);
-    bool pushed = false;
-    push.setZero();
-    for (std::size_t z = 0; z < update_.ports.size(); ++z) {
-        if (force[z] == 0) continue;
-        const Port& port = update_.ports[z];
-        if (port.node != 0) {
-            push[port.node - 1] += update_.gain * force[z];
-            pushed = true;
-        } else {
-            d += update_.gain * force[z] * In(port.weights.data(), n);
-        }
-    }
-    if (pushed) {
-        (*transform_)();
-        d += push;
-    }
-    y += d;
-    d = In(update_.Ct.data(), n).cwiseProduct(d) - In(update_.kappa.data(), n).cwiseProduct(y);
-    read(free);
-}
-
-void SineForm::to_modal(const AlignedVector& level, double* modal) const {
-    std::copy_n(level.data(), level.size(), modal);
-}
-AlignedVector SineForm::reading(const std::vector<double>& modal_weights) const {
-    AlignedVector w(modal_weights.size());
-    std::copy(modal_weights.begin(), modal_weights.end(), w.data());
     return w;
 }
 

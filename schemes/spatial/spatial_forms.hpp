@@ -1,13 +1,12 @@
-// Three forms of one linear update, which modal_spatial_newton steps through   (Issanchou et al. 2016, eqs 13-15).
+// Two forms of one linear update, which modal_spatial_newton steps through   (Issanchou et al. 2016, eqs 13-15).
 //
 // Per mode  y+ = C y - C~ y- + (dt^2/m) F  (14) is carried as displacement and increment, d+ = C~ d - kappa y + (dt^2/m) F, y+ = y + d+,
 // kappa = 1 + C~ - C: the same recursion, but a rounding error in C (which is 2 - O(omega dt)^2) would detune low modes at high rates.
 //
 //   DenseForm       nodal displacements, the paper's full matrices D~ and 1 + D~ - D         2 (N-1)^2 multiply-adds a step
 //   RestrictedForm  modal displacements, synthesis at the ports that are read alone          about (N-1)(3 + reads)
-//   SineForm        modal displacements, all nodes by a fast sine transform (FFTW RODFT00)
 //
-// All have the members of RestrictedForm. A port is a place where a force enters the string or a displacement is read, by modal weights.
+// Both have the same members. A port is a place where a force enters the string or a displacement is read, by modal weights.
 #pragma once
 
 #include <algorithm>
@@ -77,23 +76,6 @@ private:
     std::vector<double> S_, Dt_, Kappa_;         // column-major, size x size
     std::vector<AlignedVector> push_, reading_;  // per port: dt^2/m S g and the reading of g
     std::vector<double> applied_;
-};
-
-class SineTransform;
-class SineForm {
-public:
-    explicit SineForm(const LinearUpdate&);
-    ~SineForm();
-    void start(const double* y, const double* free_increment);
-    void read(double* free) const;
-    void advance(const double* force, double* free);
-    void to_modal(const AlignedVector& level, double* modal) const;
-    AlignedVector reading(const std::vector<double>& modal_weights) const;
-    Levels levels;
-
-private:
-    LinearUpdate update_;
-    std::unique_ptr<SineTransform> transform_;
 };
 
 }  // namespace jvari

@@ -138,9 +138,9 @@ HWY_INLINE Pair reread(const Pass& p, long v) {
             hn::Add(hn::Load(tag, p.y + p.half + v), hn::Load(tag, p.d + p.half + v))};
 }
 
-constexpr int no_step = -1;
+constexpr int no_step = -1;  // in place of pushes: the update has happened in an earlier pass
 
-// K nodes from place `first` of the reads; `pushes` as in Pushed, or no_step: the update has happened in an earlier pass.
+// K nodes from place `first` of the reads; `pushes` as in Pushed.
 template <int K, int pushes>
 void nodes(const Pass& pass, int first, int count, int out, double sign) {
     const Pass p = pass;  // a copy that no store can alias: its members stay in registers
@@ -178,29 +178,47 @@ void chunk(const Pass& p, int first, int count, int out, double sign) {
     nodes<1, pushes>(p, first, count, out, sign);
 }
 
-// Reads by weights of their own on lo and hi.
+// K reads from place `first`, by weights of their own on lo and hi.
 template <int K, int pushes>
-void lines(const Pass& pass) {
+void lines(const Pass& pass, int first, int count) {
     const Pass p = pass;
     const D tag;
     const long lanes = static_cast<long>(hn::Lanes(tag));
-    const Pushed<pushes> pushed(p);
+    const Pushed<std::max(pushes, 0)> pushed(p);
+    const double* line[K + 1];
+    for (int k = 0; k < K; ++k) line[k] = p.line[first + std::min(k, count - 1)];
     V sum[2 * K + 1];
     for (V& s : sum) s = hn::Zero(tag);
     for (long v = 0; v < p.half; v += lanes) {
-        const Pair x = update(p, pushed, v);
+        Pair x;
+        if constexpr (pushes == no_step) x = reread(p, v);
+        else x = update(p, pushed, v);
         for (int k = 0; k < K; ++k) {
-            sum[2 * k] = hn::MulAdd(hn::Load(tag, p.line[k] + v), x.lo, sum[2 * k]);
-            sum[2 * k + 1] = hn::MulAdd(hn::Load(tag, p.line[k] + p.half + v), x.hi, sum[2 * k + 1]);
+            sum[2 * k] = hn::MulAdd(hn::Load(tag, line[k] + v), x.lo, sum[2 * k]);
+            sum[2 * k + 1] = hn::MulAdd(hn::Load(tag, line[k] + p.half + v), x.hi, sum[2 * k + 1]);
         }
     }
-    for (int k = 0; k < K; ++k) p.free[k] = total(hn::Add(sum[2 * k], sum[2 * k + 1]));
+    for (int k = 0; k < K; ++k)
+        if (k < count) p.free[first + k] = total(hn::Add(sum[2 * k], sum[2 * k + 1]));
+}
+
+constexpr int most_lines = 4;
+
+template <int pushes>
+void some_lines(const Pass& p, int first, int count) {
+    if (count > 2) return lines<most_lines, pushes>(p, first, count);
+    if (count > 1) return lines<2, pushes>(p, first, count);
+    lines<1, pushes>(p, first, count);
 }
 
 template <int pushes>
 void advance_with(const Pass& p) {
-    if (p.lines == 0) return lines<0, pushes>(p);
-    if (p.runs == 0) return p.lines == 1 ? lines<1, pushes>(p) : lines<2, pushes>(p);
+    if (p.lines == 0) return lines<0, pushes>(p, 0, 0);
+    for (int k = 0; p.runs == 0 && k < p.lines; k += most_lines) {
+        const int count = std::min(p.lines - k, most_lines);
+        if (k > 0) some_lines<no_step>(p, k, count);
+        else some_lines<pushes>(p, k, count);
+    }
     for (int r = 0; r < p.runs; ++r) {
         const NodeRun& run = p.run[r];
         for (int k = 0; k < run.count; k += most_sums) {  // most_sums is even: each chunk starts on the same parity
