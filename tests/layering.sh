@@ -1,6 +1,6 @@
 #!/bin/sh
 # The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp and scenes; bench is a staircase of rooms above them; tests see all.
-# No scheme includes another, and each library is seen where CONTRIBUTING.md says and nowhere else. usage: layering.sh [TREE]
+# No scheme includes another, and each library is seen where docs/dependencies.md says and nowhere else. usage: layering.sh [TREE]
 cd "${1:-$(dirname "$0")/..}" || exit 2
 status=0
 forbid() {  # forbid REASON PATTERN PATHS...: no line of PATHS matches PATTERN
@@ -41,7 +41,7 @@ forbid "the Python module sees the engine, not the command line" '#include "benc
 forbid "the engine sees no Python" '#include "python/' $(files scenes schemes reference analysis bench)
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
 forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
-# Libraries, as the table of CONTRIBUTING.md says. The benchmarks of bench/kernels and the tests compare with any of them.
+# Libraries, as the table of docs/dependencies.md says. The benchmarks of bench/kernels and the tests compare with any of them.
 product=$(files scenes schemes reference analysis bench python | grep -v '^bench/kernels/')
 only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin with PLACES alone include PATTERN
     forbid "$1 belongs to $3" "#include <$2" $(echo "$product" | grep -vE "^($3)")
