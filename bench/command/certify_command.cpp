@@ -12,9 +12,9 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/listener.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/trust/certificate_file.hpp"
 #include "bench/trust/certificate_library.hpp"
@@ -158,12 +158,7 @@ int certify_command(const CertifyRequest& r) {
 
     bool cached = false;
     std::error_code error;
-    const auto there = [&] {  // another process made it meanwhile
-        std::string why;
-        const auto found = r.again ? std::nullopt : trust::read_certificate(path, why);
-        return found && found->key == kept.key;
-    };
-    const store::FileLock lock(path.string() + ".lock", there);
+    const auto lock = store::lock_once_free(path, "makes " + path.string(), console);  // another process may be making the same
     if (fs::exists(path, error)) {
         std::string why;
         if (auto found = trust::read_certificate(path, why)) {

@@ -33,8 +33,8 @@ Run reference_run(const ReferenceChoice& choice, const Scene& scene, const Progr
     const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
     if (!choice.kept) return make();
     const std::string key = trust::run_key(*choice.scheme, scene, choice.settings);
-    return choice.kept_in.empty() ? trust::kept_run(trust::kept_runs_folder(), key, make, trust::worth_keeping, progress)
-                                  : trust::kept_run(choice.kept_in, key, make, 0, progress);
+    const auto cached = [&] { return trust::kept_run(trust::kept_runs_folder(), key, make); };
+    return choice.kept_in.empty() ? cached() : trust::kept_run(choice.kept_in, key, cached, 0);
 }
 
 double last_instant(const Run& r) {

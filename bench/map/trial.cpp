@@ -97,8 +97,7 @@ void Truths::make(Truth& truth, const Trial& t, const compare::ProgressOf& progr
             const Scene scene = listened(t.scene);
             const Settings s = reference_settings(*d, t);
             Run r = trust::kept_run(
-                catalogue_.is_reference(*d) ? folder_ : "", trust::run_key(*d, scene, s), [&] { return run(*d, scene, s, options); }, 0,
-                progress);
+                catalogue_.is_reference(*d) ? folder_ : "", trust::run_key(*d, scene, s), [&] { return run(*d, scene, s, options); }, 0);
             if (r.status.outcome != Outcome::ok) continue;
             truth.name = d->name;
             truth.trace = std::move(r.trace);

@@ -94,21 +94,14 @@ std::optional<Run> read_run(const fs::path& path, const std::string& key) noexce
     }
 }
 
-Run kept_run(const fs::path& folder, const std::string& key, const std::function<Run()>& make, double least,
-             const std::function<void(long, long)>& waiting) {
+Run kept_run(const fs::path& folder, const std::string& key, const std::function<Run()>& make, double least) {
     if (folder.empty()) return make();
     const fs::path path = folder / (key + ".run");
-    std::optional<Run> kept;
-    const auto there = [&] {
-        if (waiting) waiting(0, 1);
-        std::error_code error;
-        return fs::exists(path, error) && (kept = read_run(path, key));
-    };
-    if (there()) return std::move(*kept);
+    if (auto kept = read_run(path, key)) return std::move(*kept);
     std::error_code error;
     fs::create_directories(folder, error);
-    const store::FileLock lock(path.string() + ".lock", there);
-    if (kept || there()) return std::move(*kept);
+    const store::FileLock lock(path, "makes " + path.string());
+    if (auto kept = read_run(path, key)) return std::move(*kept);
     Run r = make();
     if (r.wall_seconds < least) return r;
     try {

@@ -26,10 +26,8 @@ std::optional<Run> read_run(const std::filesystem::path&,
 
 constexpr double worth_keeping = 0.5;  // [s] of stepping
 
-// The run that is kept there, else what `make` gives, which is kept from then on. Of processes that ask for it at once one makes it and the
-// others wait (file_lock.hpp); what `waiting`, a listener of a run that is called meanwhile, throws ends that. A folder that cannot be
-// written to keeps nothing, and nowhere is a run kept of less than `least` [s].
-Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make, double least = worth_keeping,
-             const std::function<void(long, long)>& waiting = {});
+// The run that is kept there, else what `make` gives, which is kept from then on. Throws store::Busy where another process or thread is
+// making it. A folder that cannot be written to keeps nothing, and nowhere is a run kept of less than `least` [s].
+Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make, double least = worth_keeping);
 
 }  // namespace jvari::bench::trust

@@ -1,12 +1,15 @@
-// One process at a time makes a file: whoever waits takes what the other made, and a holder that is gone holds nobody up.
+// One process at a time makes a file: whoever comes later takes what it made, and one that is gone holds nobody up.
 #include "bench/store/system/file_lock.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <thread>
 
 #include "bench/compare/catalogue.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "reference/references.hpp"
 #include "tests/command_line.hpp"
@@ -14,19 +17,25 @@
 namespace jvari::test {
 namespace {
 
+using bench::store::Busy;
 using bench::store::FileLock;
-using bench::store::Patience;
-using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
-
-bool never() {
-    return false;
-}
 
 void append(const std::string& path, const std::string& text) {
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
     EXPECT_EQ(write(file, text.data(), text.size()), static_cast<ssize_t>(text.size()));
     close(file);
+}
+
+template <class Act>
+int status_of_child(Act act) {  // that does not end within a minute: SIGALRM
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(60);
+        _exit(act());
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return status;
 }
 
 TEST(FileLock, ProcessesThatAskForAReferenceAtOnceMakeItOnce) {
@@ -35,13 +44,18 @@ TEST(FileLock, ProcessesThatAskForAReferenceAtOnceMakeItOnce) {
     const Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 5e-3);
     const auto make = [&] {
         append(scratch / "made", "x");
-        std::this_thread::sleep_for(300ms);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
         return run(exact_contact, scene, settings);
     };
     std::vector<pid_t> children;
     for (int k = 0; k < 6; ++k) {
         children.push_back(fork());
-        if (children.back() == 0) _exit(bench::trust::kept_run(scratch / "runs", "key", make, 0).trace.rows > 100 ? 0 : 1);
+        if (children.back() != 0) continue;
+        long rows = 0;
+        bench::store::side_by_side({1}, 1, bench::store::Listener(), "", [&](std::size_t, bench::store::Done&) {
+            rows = bench::trust::kept_run(scratch / "runs", "key", make, 0).trace.rows;
+        });
+        _exit(rows > 100 ? 0 : 1);
     }
     for (const pid_t child : children) {
         int status = 0;
@@ -53,76 +67,93 @@ TEST(FileLock, ProcessesThatAskForAReferenceAtOnceMakeItOnce) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "runs/key.run.lock"));
 }
 
-TEST(FileLock, WhoWaitsForAReferenceMayBeToldToEnd) {
+TEST(FileLock, SaysWhoHoldsItAndWhatForAndGoesWithItsHolder) {
     const Scratch scratch;
-    append(scratch / "key.run.lock", "elsewhere boot pid:[1] 1 1");
-    struct Enough {};
-    int asked = 0;
-    const auto waiting = [&asked](long, long) {
-        if (++asked == 4) throw Enough{};
-    };
-    EXPECT_THROW(bench::trust::kept_run(
-                     scratch.path, "key", [] { return jvari::Run(); }, 0, waiting),
-                 Enough);
-    EXPECT_TRUE(std::filesystem::exists(scratch / "key.run.lock"));  // it is the other's
-}
-
-TEST(FileLock, OfAProcessThatIsGoneHoldsNobodyUp) {
-    const Scratch scratch;
-    const pid_t child = fork();
-    if (child == 0) {
-        new FileLock(scratch / "a.lock", never);
-        _exit(0);  // as if killed: nothing is released
-    }
-    waitpid(child, nullptr, 0);
-    ASSERT_TRUE(std::filesystem::exists(scratch / "a.lock"));
-    const auto start = Clock::now();
-    const FileLock lock(scratch / "a.lock", never, {5s, 1h, 1s});
-    EXPECT_TRUE(lock.held());
-    EXPECT_LT(Clock::now() - start, 10s);
-    EXPECT_EQ(content(scratch / "a.lock"), bench::store::process_name());
-}
-
-TEST(FileLock, OfAnotherMachineHoldsWhileItIsTouchedAndNoLonger) {
-    const Scratch scratch;
-    const std::filesystem::path path = scratch / "a.lock";
-    append(path, "elsewhere boot pid:[1] 1 1");
-    std::atomic<bool> alive = true;
-    std::atomic<Clock::time_point> last = Clock::now();
-    std::thread other([&] {
-        for (int k = 0; k < 30; ++k) {
-            last = Clock::now();
-            std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now());
-            std::this_thread::sleep_for(50ms);
-        }
-        alive = false;
-    });
-    const FileLock lock(path, never, {5s, 1s, 20ms});
-    EXPECT_TRUE(lock.held());
-    EXPECT_FALSE(alive);
-    EXPECT_GE(Clock::now() - last.load(), 900ms);
-    other.join();
-}
-
-TEST(FileLock, IsTouchedAndGoesWithItsHolder) {
-    const Scratch scratch;
-    const std::filesystem::path path = scratch / "a.lock";
     {
-        const FileLock lock(path, never, {20ms, 1h, 1s});
-        const auto first = std::filesystem::last_write_time(path);
-        for (int k = 0; k < 500 && std::filesystem::last_write_time(path) == first; ++k) std::this_thread::sleep_for(20ms);
-        EXPECT_GT(std::filesystem::last_write_time(path), first);
+        const FileLock lock(scratch / "a", "makes it");
+        EXPECT_TRUE(lock.held());
+        char host[256] = "";
+        gethostname(host, sizeof host - 1);
+        try {
+            const FileLock second(scratch / "a", "makes it");  // in one process, too
+            ADD_FAILURE();
+        } catch (const Busy& busy) {
+            EXPECT_EQ(busy.who, "process " + std::to_string(getpid()) + " on " + host + ", which makes it");
+        }
+        EXPECT_TRUE(FileLock(scratch / "b", "").held());
     }
-    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_EQ(scratch.files(), 0);
+    std::ofstream(scratch / "a.lock") << "\033[2Jsomebody\n";  // what lies there says nothing about who holds it
+    EXPECT_TRUE(FileLock(scratch / "a", "").held());
 }
 
-TEST(FileLock, WaitsForNobodyWhereNothingIsLeftToDoOrNoFileCanBe) {
+TEST(FileLock, OfAProcessThatIsKilledIsFreeAtOnce) {
     const Scratch scratch;
-    const FileLock first(scratch / "a.lock", never);
-    int asked = 0;
-    const FileLock second(scratch / "a.lock", [&asked] { return ++asked > 3; });
-    EXPECT_FALSE(second.held());
-    EXPECT_FALSE(FileLock(scratch / "no/such/folder.lock", never).held());
+    EXPECT_EQ(status_of_child([&] {
+                  new FileLock(scratch / "a", "");
+                  return kill(getpid(), SIGKILL);
+              }),
+              SIGKILL);
+    ASSERT_TRUE(std::filesystem::exists(scratch / "a.lock"));
+    EXPECT_TRUE(FileLock(scratch / "a", "").held());
+    EXPECT_EQ(scratch.files(), 0);
+}
+
+TEST(FileLock, IsNeverHeldByTwoHoweverOftenItIsRemoved) {
+    const Scratch scratch;
+    std::ofstream(scratch / "count") << 0;
+    std::vector<pid_t> children;
+    for (int k = 0; k < 4; ++k) {
+        children.push_back(fork());
+        if (children.back() != 0) continue;
+        for (int n = 0; n < 250;) try {
+                const FileLock lock(scratch / "count", "counts");
+                const int so_far = std::stoi(content(scratch / "count"));
+                std::ofstream(scratch / "count") << so_far + 1;
+                ++n;
+            } catch (const Busy&) {
+                usleep(100);
+            } catch (const std::exception&) {  // another has just emptied it
+                _exit(1);
+            }
+        _exit(0);
+    }
+    for (const pid_t child : children) waitpid(child, nullptr, 0);
+    EXPECT_EQ(content(scratch / "count"), "1000");
+}
+
+TEST(FileLock, IsNoneWhereNoneCanBeAndNothingWaits) {
+    const Scratch scratch;
+    std::ofstream(scratch / "target") << "as it was";
+    std::filesystem::create_symlink("target", scratch / "link.lock");
+    std::filesystem::create_directory(scratch / "folder.lock");
+    ASSERT_EQ(mkfifo((scratch / "pipe.lock").c_str(), 0600), 0);
+    EXPECT_EQ(status_of_child([&] {
+                  for (const char* name : {"link", "folder", "pipe", "no/such/folder"})
+                      if (FileLock(scratch / name, "").held()) return 1;
+                  return FileLock("", "").held() ? 1 : 0;
+              }),
+              0);
+    EXPECT_EQ(content(scratch / "target"), "as it was");
+    EXPECT_TRUE(std::filesystem::exists(scratch / "pipe.lock"));
+}
+
+TEST(FileLock, ThatIsStaleInAFolderThatCannotBeWrittenIsPassedBy) {
+    const Scratch scratch;
+    namespace fs = std::filesystem;
+    fs::create_directory(scratch / "runs");
+    std::ofstream(scratch / "runs/key.run.lock") << "elsewhere boot pid:[1] 999999 1";
+    for (const auto& path : {scratch.path, scratch.path / "runs"}) fs::permissions(path, fs::perms(0555));
+    EXPECT_EQ(status_of_child([&] {
+                  if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) return 2;  // root may write everywhere
+                  int made = 0;
+                  bench::trust::kept_run(
+                      scratch / "runs", "key", [&made] { return ++made, jvari::Run(); }, 0);
+                  return made == 1 ? 0 : 1;
+              }),
+              0);
+    EXPECT_FALSE(fs::exists(scratch / "runs/key.run"));
+    for (const auto& path : {scratch.path, scratch.path / "runs"}) fs::permissions(path, fs::perms(0755));
 }
 
 }  // namespace

@@ -121,5 +121,51 @@ TEST(SideBySide, WhatTheListenerThrowsEndsThePartsOfThoseThatRunAndWhoWaitsForTh
     EXPECT_EQ(to_the_end, 0);
 }
 
+TEST(SideBySide, WhatIsBusyIsBegunAgainWhenTheOthersAreDone) {
+    for (const int jobs : {1, 3}) {
+        std::atomic<int> times = 0, others = 0;
+        bench::store::side_by_side(std::vector<double>(10, 1), jobs, quiet, "", [&](std::size_t i, bench::store::Done& done) {
+            EXPECT_EQ(done, 0);
+            done = 0.5;
+            if (i != 2) ++others;
+            else if (++times < 4) throw bench::store::Busy{"somebody"};
+            else EXPECT_EQ(others, 9);
+        });
+        EXPECT_EQ(times, 4);
+        EXPECT_EQ(others, 9);
+    }
+}
+
+TEST(SideBySide, WhatIsBusyInAPartIsBusyAsAWhole) {
+    int times = 0, parts = 0;
+    bench::store::side_by_side({1}, 1, quiet, "", [&](std::size_t, bench::store::Done& done) {
+        ++times;
+        bench::store::side_by_side({1}, 1, bench::store::PartOf(done), "", [&](std::size_t, bench::store::Done&) {
+            if (++parts < 3) throw bench::store::Busy{"somebody"};
+        });
+    });
+    EXPECT_EQ(times, 3);
+    EXPECT_EQ(parts, 3);
+}
+
+TEST(SideBySide, WhoWaitsSaysForWhomOnceAndMayBeToldToEnd) {
+    struct Weary : bench::store::Progress {
+        void show(double, const std::string& what) override {
+            EXPECT_EQ(what, "0 of 2, waiting for process 7 on node, which works");
+            if (Clock::now() - begun > std::chrono::milliseconds(3500)) throw std::runtime_error("enough");
+        }
+        using Clock = std::chrono::steady_clock;
+        Clock::time_point begun = Clock::now();
+    };
+    struct Ear : bench::store::Listener {
+        mutable std::vector<std::string> said;
+        void note(const std::string& text) const override { said.push_back(text); }
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Weary>(); }
+    } ear;
+    const auto busy = [](std::size_t, bench::store::Done&) { throw bench::store::Busy{"process 7 on node, which works"}; };
+    EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, ear, "", busy), std::runtime_error);
+    EXPECT_EQ(ear.said, std::vector<std::string>{"waiting for process 7 on node, which works"});
+}
+
 }  // namespace
 }  // namespace jvari::test

@@ -1,51 +1,34 @@
-// One process at a time makes what others wait for: a lock is a file that only one of them can create, on a network file system too
-// (O_EXCL, NFS 3 and later). It says who holds it. The holder touches it every few seconds.
-//
-// A lock whose holder is gone is taken away: one of this machine at once, by its process id and start; another machine's once its file was
-// not touched for a while, by the clock of the one who waits. A holder that was suspended for so long may meet a second one. So a lock
-// saves work, and what it guards appears by rename: two who make it write the same.
+// One process at a time does what several want to see done. The lock is an open-file-description lock (fcntl, F_OFD_SETLK) on FILE.lock:
+// the system releases it when its holder dies, network file systems ask their server for it, and it holds between threads as well.
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
 #include <filesystem>
-#include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "bench/store/system/interruption.hpp"
 
 namespace jvari::bench::store {
 
-struct Patience {
-    std::chrono::milliseconds beat{5000}, stale{120000}, poll{1000};  // poll: at most so long between two looks
+struct Busy {         // no std::exception: nothing has failed, it is to be tried again later
+    std::string who;  // "process 1234 on node7, which runs free_string: modal_two_point"
 };
 
 class FileLock {
 public:
-    // Waits for the lock, or until `there()` says that nothing is left to do. Where no file can be created it waits for nobody.
-    FileLock(std::filesystem::path, const std::function<bool()>& there, const Patience& = {});
+    // Takes the lock of `file`, or throws Busy at once. `doing` is what the holder does: "runs free_string: modal_two_point". Where no lock
+    // can be had, there is none: in a folder that cannot be written, on a file system without locks, where something stands in its place
+    // that is no file, or for the file "". So a lock saves work: what it guards appears by rename, and two who make it write the same.
+    FileLock(const std::filesystem::path& file, const std::string& doing);
     ~FileLock();
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
     bool held() const { return file_ >= 0; }
 
 private:
-    bool take();
-    void beat(std::chrono::milliseconds every);
-    void unlink_own() const;
     const std::filesystem::path path_;
     int file_ = -1;
-    std::mutex mutex_;  // of what follows
-    std::condition_variable released_;
-    bool ending_ = false;
-    std::thread heart_;
-    std::optional<WhenInterrupted> released_too_;  // by an interruption: another machine would wait for long
+    std::optional<WhenInterrupted> removed_too_;
 };
-
-// This process, as no other is named: "host boot namespace pid start".
-std::string process_name();
 
 }  // namespace jvari::bench::store

@@ -22,6 +22,7 @@ public:
     virtual ~Listener() = default;
     virtual void note(const std::string& /*text*/) const {}  // a message of one line or more, without its last line's end
     virtual std::unique_ptr<Progress> begin(const std::string& /*job*/) const { return std::make_unique<Progress>(); }
+    virtual bool is_part() const { return false; }  // of a larger job, which has a listener of its own
 };
 
 }  // namespace jvari::bench::store
