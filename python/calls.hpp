@@ -159,9 +159,8 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
     unlocked(
         [&] {
             map::Truths truths(catalogue);
-            const map::MapRun maps = map::run_maps(map::rows_of(suite.maps, catalogue), truths, store::program_identity(files),
-                                                   suite.maps.empty() ? folder : below("points"),
-                                                   resume ? map::Points::resumed : map::Points::run_again, jobs, Ear());
+            const map::MapRun maps = map::run_maps(
+                suite.maps, truths, {store::program_identity(files), suite.maps.empty() ? folder : below("points"), resume, jobs}, Ear());
             const suite::SuiteRun run = suite::run_suite(plan, below("cells"), resume, jobs, Ear());
             tables.emplace_back("cells", compare::with_bounds(suite::table_of(plan, run.records)));
             tables.emplace_back("maps", map::maps_table(maps));

@@ -202,29 +202,17 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->add_option("--out", suite.out,
                      "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures")
         ->type_name("DIR");
-    suite_verb->add_flag("--resume", suite.resume, "reads back the cells that DIR holds and runs the others");
-    auto* prepare =
-        suite_verb->add_flag("--prepare", suite.prepare,
-                             "for several processes: writes plan.csv, the list of what there is to do, and makes each reference once");
-    auto* shard =
-        suite_verb
-            ->add_option("--shard", suite.shard,
-                         "runs share number I of N of what is prepared, and writes what it comes to into DIR/cells and DIR/points alone")
-            ->type_name("I/N");
-    auto* gather =
-        suite_verb->add_flag("--gather", suite.gather, "makes tables, maps and report of what lies there, and says what is missing");
-    auto* print =
-        suite_verb->add_option("--print", suite.print, "writes a script that does these three as jobs of Slurm to standard output")
-            ->check(CLI::IsMember({"slurm"}))
-            ->type_name("slurm")
-            ->option_text("slurm");
-    for (auto* one : {prepare, shard, gather, print})
-        for (auto* other : {prepare, shard, gather, print})
-            if (one != other) one->excludes(other);
+    suite_verb->add_flag("--resume", suite.resume,
+                         "reads back the cells that DIR holds and runs the others; any number of processes may do so at once in one DIR");
+    suite_verb
+        ->add_option("--print", suite.print, "runs nothing: writes the script of a Slurm array, whose tasks share DIR, to standard output")
+        ->check(CLI::IsMember({"slurm"}))
+        ->type_name("slurm")
+        ->option_text("slurm");
     add_jobs(*suite_verb, suite.jobs);
     suite_verb->footer(
         "Examples: jvari suite paper-deshmukh --out sitar --resume\n"
-        "          jvari suite stability --out maps --print slurm > job.sh && sh job.sh");
+        "          jvari suite stability --out maps --print slurm > job.sh && sbatch job.sh");
     add_common(*suite_verb, suite);
 
     TrimCall trim;

@@ -50,8 +50,6 @@ struct ReportRequest : Common {
 struct SuiteRequest : Common {
     std::string suite, out;
     bool resume = false;
-    bool prepare = false, gather = false;
-    std::string shard;  // "3/20"
     std::string print;  // "slurm"
     int jobs = 0;       // 0: as many as there are cores
 };

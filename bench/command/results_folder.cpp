@@ -14,7 +14,7 @@ namespace jvari::bench::command {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", "shards"};
+constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", "references"};
 constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".part"};
 
 std::string what_is_in(const fs::path& manifest) {  // "" where that cannot be told
@@ -57,7 +57,7 @@ void make_folder(const fs::path& folder) {
         throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
     store::must_be_writable(folder / "cells.csv");
     store::must_be_writable(folder / "cells" / "any.json");
-    for (const char* own : {"cells", "points", "sounds", "failures", "references"}) store::sweep_parts(folder / own);
+    for (const char* own : own_folders) store::sweep_parts(folder / own);
 }
 
 nlohmann::ordered_json with_results(nlohmann::ordered_json own, const std::string& manifest, const store::Table& cells,

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
-#include "bench/command/suite_shards.hpp"
+#include "bench/command/slurm_script.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"
@@ -25,6 +24,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/suite/ensemble_facet.hpp"
 #include "bench/suite/facet.hpp"
@@ -94,12 +94,21 @@ std::string kept_text(const suite::SuitePlan& plan, const fs::path& folder) {
     return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", suite::kept_of(plan, folder), folder.string());
 }
 
-std::string missing_text(const std::vector<std::string>& missing) {
-    constexpr std::size_t shown = 10;
-    std::string text = fmt::format("{} missing:", missing.size());
-    for (std::size_t i = 0; i < std::min(shown, missing.size()); ++i) text += "\n  " + missing[i];
-    if (missing.size() > shown) text += fmt::format("\n  and {} more", missing.size() - shown);
-    return text + "\n--shard 1/1 runs them here; shards that are run again run what is missing alone";
+int print_script(const SuiteRequest& r, const suite::Suite& suite, const Console& console) {
+    if (r.out.empty()) throw store::UsageError("--print: there is no --out DIR for the tasks to share");
+    const std::string script = slurm_script(r, suite);
+    console.print(script);
+    console.print_json(store::indented({{"script", script}}));
+    return exit_code::done;
+}
+
+void note_missing_locks(const fs::path& folder, const Console& console) {
+    try {
+        if (store::FileLock(folder / "cells" / "any", "begins").held()) return;
+        console.note(folder.string() +
+                     ": no file can be locked here. Processes that share this folder would each run every cell: start only one");
+    } catch (const store::Busy&) {  // another begins, and has one
+    }
 }
 
 int code_of(const std::vector<suite::SuiteRecord>& records) {
@@ -116,26 +125,19 @@ int suite_command(const SuiteRequest& r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     suite::SuitePlan plan = suite::plan_of(suite, catalogue, r.plugins);
-    const bool shared = r.prepare || r.gather || !r.shard.empty() || !r.print.empty();  // by several processes
-    if (shared && r.out.empty()) throw store::UsageError("--prepare, --shard, --gather and --print: there is no --out DIR to share");
-    if (!r.print.empty()) return print_script(r, suite::parts_of(plan, suite.maps, catalogue), console);
+    if (!r.print.empty()) return print_script(r, suite, console);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
     if (!r.out.empty()) {
         must_be_ours(folder, "suite " + suite.name, console);
         make_folder(folder);
+        if (r.resume) note_missing_locks(folder, console);
     }
-    std::optional<store::WhenInterrupted> last_word(std::in_place, [&] { console.note(kept_text(plan, folder)); });
-    if (r.prepare) return prepare_suite(r, plan, suite::parts_of(plan, suite.maps, catalogue), console);
-    if (!r.shard.empty()) return run_shard(r, plan, suite::parts_of(plan, suite.maps, catalogue), catalogue, console);
-    const map::Points points = r.gather ? map::Points::only_read : r.resume ? map::Points::resumed : map::Points::run_again;
+    const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
+    if (r.resume) suite::keep_references_in(plan, folder / "references");
     const map::RecordedMaps maps =
-        map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, points, r.jobs}, console);
-    if (r.gather) last_word.reset();  // it takes the missing cells out of the plan, and leaves all that lies there
-    const suite::SuiteRun run = r.gather ? suite::gather_suite(plan, folder / "cells")
-                                         : suite::run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
-    std::vector<std::string> missing = run.missing;
-    missing.insert(missing.end(), maps.missing.begin(), maps.missing.end());
+        map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs}, console);
+    const suite::SuiteRun run = suite::run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
     const store::Table cells = suite::table_of(plan, run.records);
     const std::string manifest = manifest_of(suite, plan);
     const store::Table cheapest = compare::cheapest_of(cells);
@@ -170,15 +172,10 @@ int suite_command(const SuiteRequest& r) {
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + folder.string());
     if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);
-    if (!missing.empty()) console.note(missing_text(missing));
-    const int code = missing.empty() ? code_of(run.records) : exit_code::run_failed;
-    console.print_json(store::indented(with_results({{"suite", suite.name},
-                                                     {"status", exit_code::status(code)},
-                                                     {"ran", run.ran},
-                                                     {"timed", run.timed},
-                                                     {"read_back", run.read_back},
-                                                     {"missing", missing}},
-                                                    manifest, cells, cheapest, files)));
+    const int code = code_of(run.records);
+    console.print_json(store::indented(with_results(
+        {{"suite", suite.name}, {"status", exit_code::status(code)}, {"ran", run.ran}, {"timed", run.timed}, {"read_back", run.read_back}},
+        manifest, cells, cheapest, files)));
     return code;
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "bench/map/minimise.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "scenes/scene_file.hpp"
@@ -12,6 +13,8 @@
 namespace jvari::bench::map {
 
 namespace {
+namespace fs = std::filesystem;
+
 std::string scene_text(const Reproducer& r) {
     const Trial& t = r.trial;
     std::string how = fmt::format("--scheme {} --rate {} --tap-rate {} --energy", t.scheme->name, store::text_of(t.settings.sample_rate),
@@ -27,9 +30,21 @@ Verdict verdict_called(const std::string& name) {
         if (name == name_of(v)) return v;
     throw std::runtime_error("unknown outcome " + name);
 }
+
+bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Reproducer& into) {
+    std::error_code error;
+    if (!fs::is_regular_file(folder / "index.csv", error)) return false;  // it is written last
+    try {
+        into = read_failures(folder, catalogue).at(0);
+        return true;
+    } catch (const std::exception&) {  // not whole: minimised again
+        return false;
+    }
+}
 }  // namespace
 
-std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jobs, const store::Listener& listener) {
+std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalogue& catalogue, const MapRequest& request,
+                                       const store::Listener& listener) {
     std::map<std::pair<std::string, Verdict>, const JudgedPoint*> cheapest;
     for (const JudgedPoint& p : run.points) {
         const Verdict v = p.tried.judgement.verdict;
@@ -40,17 +55,26 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, Truths& truths, int jo
     std::vector<Reproducer> all;
     for (const auto& [key, point] : cheapest)
         all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)), trial_at(point->at), point->tried.judgement});
-    store::side_by_side(std::vector<double>(all.size(), 1), jobs, listener, "failures", [&](std::size_t i, store::Done& done) {
+    Truths truths(catalogue);
+    store::side_by_side(std::vector<double>(all.size(), 1), request.jobs, listener, "failures", [&](std::size_t i, store::Done& done) {
+        Reproducer& r = all[i];
+        const std::string identity = request.program + identity_of(r.trial) + name_of(r.expected.verdict);
+        const fs::path folder = request.folder.empty() ? fs::path() : request.folder / store::hash_of(identity);
+        const store::FileLock lock(folder, "minimises how " + std::string(r.trial.scheme->name) + " fails");
+        if (request.resume && read_back(folder, catalogue, r)) return;
         const compare::ProgressOf look = [&done](long, long) { done.look(); };
-        const Verdict wanted = all[i].expected.verdict;
-        all[i].trial = minimised(all[i].trial, [&](const Trial& t) { return run_trial(t, truths, look).judgement.verdict == wanted; });
-        all[i].trial.scene.name += "_minimised";
-        all[i].expected = run_trial(all[i].trial, truths, look).judgement;
+        const Verdict wanted = r.expected.verdict;
+        r.trial = minimised(r.trial, [&](const Trial& t) { return run_trial(t, truths, look).judgement.verdict == wanted; });
+        r.trial.scene.name += "_minimised";
+        r.expected = run_trial(r.trial, truths, look).judgement;
+        if (folder.empty()) return;
+        fs::create_directories(folder);
+        write_failures(folder, {r});
     });
     return all;
 }
 
-void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>& all) {
+void write_failures(const fs::path& folder, const std::vector<Reproducer>& all) {
     store::Table index;
     index.columns = {"file", "scheme", "rate", "modes", "options", "reference", "reference_modes", "outcome", "step", "detail"};
     for (const Reproducer& r : all) {
@@ -63,7 +87,7 @@ void write_failures(const std::filesystem::path& folder, const std::vector<Repro
     store::write_fresh(folder / "index.csv", store::csv(index));
 }
 
-std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const compare::Catalogue& catalogue) {
+std::vector<Reproducer> read_failures(const fs::path& folder, const compare::Catalogue& catalogue) {
     const store::Table index = store::read_csv(store::read_whole(folder / "index.csv"));
     std::vector<Reproducer> all;
     for (std::size_t i = 0; i < index.rows.size(); ++i) {

@@ -17,7 +17,8 @@ struct Reproducer {
 };
 
 // Of each scheme and outcome that is neither sound nor refused, the failure that took the fewest steps, among maps that reproduce theirs.
-std::vector<Reproducer> reproducers_of(const MapRun&, Truths&, int jobs, const store::Listener&);
+// What was minimised is kept beside the points, so that processes that share a folder minimise each once.
+std::vector<Reproducer> reproducers_of(const MapRun&, const compare::Catalogue&, const MapRequest&, const store::Listener&);
 
 void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>&);
 std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const compare::Catalogue&);

@@ -6,8 +6,8 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 
 #include "bench/map/map_theory.hpp"
@@ -72,39 +72,33 @@ std::optional<Tried> read_back(const fs::path& path, const std::string& identity
 
 class Laboratory {  // tries points, and keeps what came of them
 public:
-    Laboratory(Truths& truths, std::string program, fs::path folder, Points points)
-        : truths_(truths), program_(std::move(program)), folder_(std::move(folder)), points_(points) {}
+    Laboratory(Truths& truths, const MapRequest& request) : truths_(truths), request_(request) {}
 
-    std::optional<Tried> operator()(const PointPlace& at, const store::Done& done) {  // nothing: it was to be read and is not there
+    Tried operator()(const PointPlace& at, const store::Done& done) {  // throws Busy where another process or thread tries it
         const Trial trial = trial_at(at);
-        const std::string identity = Json{{"program", program_}, {"trial", Json::parse(identity_of(trial))}}.dump();
-        const fs::path file = folder_ / (store::hash_of(identity) + ".json");
-        if (points_ != Points::run_again && !folder_.empty())
-            if (auto kept = read_back(file, identity)) {
-                ++kept_;
-                kept->figures.balance = at.scheme->balance;
-                return kept;
+        const std::string identity = Json{{"program", request_.program}, {"trial", Json::parse(identity_of(trial))}}.dump();
+        const fs::path file = request_.folder.empty() ? fs::path() : request_.folder / (store::hash_of(identity) + ".json");
+        const auto kept = [&] { return request_.resume && !file.empty() ? read_back(file, identity) : std::nullopt; };
+        std::optional<Tried> tried = kept();
+        if (!tried) {
+            const store::FileLock lock(file, fmt::format("tries {} on map {}", at.scheme->name, at.map->name));
+            tried = kept();
+            if (!tried) {
+                tried = run_trial(trial, truths_, [&done](long, long) { done.look(); });
+                if (!file.empty()) store::write_fresh(file, json_of(*tried, identity));
+                ++ran_;
             }
-        if (points_ == Points::only_read) return std::nullopt;
-        Tried tried = run_trial(trial, truths_, [&done](long, long) { done.look(); });
-        ++ran_;
-        if (!folder_.empty()) {
-            const std::lock_guard lock(writing_);  // two maps can hold the same point
-            store::write_fresh(file, json_of(tried, identity));
         }
-        return tried;
+        tried->figures.balance = at.scheme->balance;
+        return std::move(*tried);
     }
 
     int ran() const { return ran_; }
-    int kept() const { return kept_; }
 
 private:
     Truths& truths_;
-    const std::string program_;
-    const fs::path folder_;
-    const Points points_;
-    std::mutex writing_;
-    std::atomic<int> ran_ = 0, kept_ = 0;
+    const MapRequest& request_;
+    std::atomic<int> ran_ = 0;
 };
 
 std::vector<const Descriptor*> schemes_of(const Map& m, const compare::Catalogue& catalogue) {
@@ -116,6 +110,18 @@ std::vector<const Descriptor*> schemes_of(const Map& m, const compare::Catalogue
         if ((needed_by(scene) - d->represents).empty()) chosen.push_back(d);
     if (chosen.empty()) throw store::UsageError(fmt::format("map {}: no scheme represents scene {}", m.name, m.scene));
     return chosen;
+}
+
+std::vector<PointPlace> places_of(const std::vector<Map>& maps, const compare::Catalogue& catalogue) {
+    std::vector<PointPlace> places;
+    for (const Map& m : maps) {
+        if (!m.reference.empty() && m.reference != "none") catalogue.find(m.reference);
+        const std::vector<std::string> ys = m.y.values.empty() ? std::vector<std::string>{""} : m.y.values;
+        for (const Descriptor* d : schemes_of(m, catalogue))
+            for (const std::string& y : ys)
+                for (const std::string& x : m.x.values) places.push_back({&m, d, x, y});
+    }
+    return places;
 }
 
 std::string axis_text(const MapAxis& axis, double x) {
@@ -172,79 +178,49 @@ double Boundary::relative_difference() const {
     return 0.5 * (store::number_of(x_low) + store::number_of(x_high)) / theory - 1;
 }
 
-std::vector<MapRow> rows_of(const std::vector<Map>& maps, const compare::Catalogue& catalogue) {
-    std::vector<MapRow> rows;
-    for (const Map& m : maps) {
-        if (!m.reference.empty() && m.reference != "none") catalogue.find(m.reference);
-        const std::vector<std::string> ys = m.y.values.empty() ? std::vector<std::string>{""} : m.y.values;
-        for (const Descriptor* d : schemes_of(m, catalogue))
-            for (const std::string& y : ys) rows.push_back({&m, d, y});
-    }
-    return rows;
-}
-
-std::string identity_of(const MapRow& row) {
-    Json trials = Json::array();
-    for (const std::string& x : row.map->x.values) trials.push_back(Json::parse(identity_of(trial_at({row.map, row.scheme, x, row.y}))));
-    return Json{{"trials", trials}, {"refine", row.map->refine}}.dump();
-}
-
-MapRun run_maps(const std::vector<MapRow>& rows, Truths& truths, const std::string& program, const fs::path& folder, Points points,
-                int jobs, const store::Listener& listener) {
-    std::vector<PointPlace> places;
-    for (const MapRow& r : rows)
-        for (const std::string& x : r.map->x.values) places.push_back({r.map, r.scheme, x, r.y});
+MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const MapRequest& request, const store::Listener& listener) {
+    const std::vector<PointPlace> places = places_of(maps, truths.catalogue());
     for (const PointPlace& p : places) trial_at(p);  // scenes and keys that are none are said before anything runs
-    Laboratory laboratory(truths, program, folder, points);
-    std::vector<std::optional<Tried>> tried(places.size());
-    store::side_by_side(std::vector<double>(places.size(), 1), jobs, listener, "points",
+    Laboratory laboratory(truths, request);
+    std::vector<Tried> tried(places.size());
+    store::side_by_side(std::vector<double>(places.size(), 1), request.jobs, listener, "points",
                         [&](std::size_t i, store::Done& done) { tried[i] = laboratory(places[i], done); });
 
     std::vector<std::size_t> changes;  // between this point and the next
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         const PointPlace &p = places[i], &q = places[i + 1];
         const bool same_row = p.map == q.map && p.scheme == q.scheme && p.y == q.y;
-        if (same_row && !p.map->x.at.empty() && tried[i] && tried[i + 1] && tried[i]->judgement.verdict != tried[i + 1]->judgement.verdict)
-            changes.push_back(i);
+        if (same_row && !p.map->x.at.empty() && tried[i].judgement.verdict != tried[i + 1].judgement.verdict) changes.push_back(i);
     }
-    struct Found {
-        std::optional<Boundary> boundary;
-        std::optional<PointPlace> missing;
-    };
-    std::vector<Found> found(changes.size());
-    store::side_by_side(std::vector<double>(changes.size(), 1), jobs, listener, "boundaries", [&](std::size_t i, store::Done& done) {
-        const PointPlace &low = places[changes[i]], &high = places[changes[i] + 1];
-        const Verdict at_low = tried[changes[i]]->judgement.verdict, at_high = tried[changes[i] + 1]->judgement.verdict;
-        const MapAxis& axis = low.map->x;
-        const Bracket b =
-            bisect({store::number_of(low.x), store::number_of(high.x), at_low, at_high}, low.map->refine, axis.whole, [&](double x) {
-                PointPlace at = low;
-                at.x = axis_text(axis, x);
-                const auto there = found[i].missing ? std::nullopt : laboratory(at, done);
-                if (!there && !found[i].missing) found[i].missing = at;
-                return there ? there->judgement.verdict : at_low;
-            });
-        if (!found[i].missing)
-            found[i].boundary = Boundary{low.map,
-                                         low.scheme,
-                                         low.y,
-                                         b.at_low,
-                                         b.at_high,
-                                         axis_text(axis, b.low),
-                                         axis_text(axis, b.high),
-                                         std::numeric_limits<double>::quiet_NaN()};
-    });
     MapRun result;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        if (tried[i]) result.points.push_back({places[i], std::move(*tried[i])});
-        else result.missing.push_back(places[i]);
-    for (Found& f : found) {
-        if (f.boundary) result.boundaries.push_back(std::move(*f.boundary));
-        if (f.missing) result.missing.push_back(std::move(*f.missing));
-    }
+    result.boundaries.resize(changes.size());
+    std::vector<int> asked(changes.size());
+    store::side_by_side(
+        std::vector<double>(changes.size(), 1), request.jobs, listener, "boundaries", [&](std::size_t i, store::Done& done) {
+            const PointPlace &low = places[changes[i]], &high = places[changes[i] + 1];
+            const Verdict at_low = tried[changes[i]].judgement.verdict, at_high = tried[changes[i] + 1].judgement.verdict;
+            const MapAxis& axis = low.map->x;
+            asked[i] = 0;  // it may have been begun before, and have met a point that was busy
+            const Bracket b =
+                bisect({store::number_of(low.x), store::number_of(high.x), at_low, at_high}, low.map->refine, axis.whole, [&](double x) {
+                    PointPlace at = low;
+                    at.x = axis_text(axis, x);
+                    ++asked[i];
+                    return laboratory(at, done).judgement.verdict;
+                });
+            result.boundaries[i] = {low.map,
+                                    low.scheme,
+                                    low.y,
+                                    b.at_low,
+                                    b.at_high,
+                                    axis_text(axis, b.low),
+                                    axis_text(axis, b.high),
+                                    std::numeric_limits<double>::quiet_NaN()};
+        });
+    for (std::size_t i = 0; i < places.size(); ++i) result.points.push_back({places[i], std::move(tried[i])});
     compare_with_theory(result.boundaries);
     result.ran = laboratory.ran();
-    result.read_back = laboratory.kept();
+    result.read_back = std::accumulate(asked.begin(), asked.end(), static_cast<int>(places.size())) - result.ran;
     return result;
 }
 

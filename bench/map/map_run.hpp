@@ -1,5 +1,6 @@
 // Runs the maps of a suite: every point, then the boundaries along x by bisection. Each point is content-addressed and kept as
-// DIR/points/<id>.json, so that a suite which was stopped goes on where it was and comes to the same tables.
+// DIR/points/<id>.json, so that a suite which was stopped goes on where it was and comes to the same tables. Processes that share DIR run
+// each point once.
 #pragma once
 
 #include <filesystem>
@@ -18,15 +19,6 @@ struct PointPlace {  // on a map
 };
 Trial trial_at(const PointPlace&);
 
-// What one process runs of a map: its points along x at one y, and the bisections between them. No row needs another's.
-struct MapRow {
-    const Map* map;
-    const Descriptor* scheme;
-    std::string y;
-};
-std::vector<MapRow> rows_of(const std::vector<Map>&, const compare::Catalogue&);  // in the order of the file: map, scheme, y
-std::string identity_of(const MapRow&);                                           // JSON: all that its points depend on, the program aside
-
 struct JudgedPoint {
     PointPlace at;
     Tried tried;
@@ -43,16 +35,17 @@ struct Boundary {
 struct MapRun {
     std::vector<JudgedPoint> points;   // in the order of the file: map, scheme, y, x
     std::vector<Boundary> boundaries;  // in that order
-    std::vector<PointPlace> missing;   // that were to be read and are not there; a bisection ends at its first
     int ran = 0, read_back = 0;        // points, those of bisections included
 };
 
-enum class Points { run_again, resumed, only_read };
-
-// `folder`: where points are kept, "" for nowhere. `program` counts into a point's address. Throws what a scene or a name that is none
-// throws, before anything is run.
-MapRun run_maps(const std::vector<MapRow>&, Truths&, const std::string& program, const std::filesystem::path& folder, Points, int jobs,
-                const store::Listener&);
+struct MapRequest {
+    std::string program;           // program_identity: counts into the address of what is kept
+    std::filesystem::path folder;  // that exists, where points are kept; "" for nowhere
+    bool resume = false;           // what lies there is read back
+    int jobs = 0;                  // 0: as many as there are cores
+};
+// Throws what a scene or a name that is none throws, before anything is run.
+MapRun run_maps(const std::vector<Map>&, Truths&, const MapRequest&, const store::Listener&);
 
 // Bisection of a change between two outcomes along one axis: `verdict_at(x)` is asked at most `times` times, at the geometric mean of
 // positive numbers and the arithmetic of others, and not between neighbours where only `whole` numbers count. Where a third outcome lies

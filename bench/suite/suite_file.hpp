@@ -48,6 +48,7 @@ struct CellSet {
 
 struct Suite {
     std::string name, source;
+    bool shelved = false;  // it is the library's, found by its name
     std::vector<CellSet> sets;
     std::vector<Figure> figures;
     std::vector<map::Map> maps;

@@ -25,7 +25,6 @@ struct SuiteRecord {
     Levels levels;                             // of the spectrogram; none where it was not asked for
     std::map<std::string, store::Table> rows;  // of each facet that makes rows and was asked for
     store::Stamp stamp;                        // of the machine that ran it
-    bool known() const { return !row.rows.empty(); }
 };
 
 struct Against {  // what a cell was measured against; nothing is known of a reference that there was not

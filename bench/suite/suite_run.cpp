@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -20,43 +20,64 @@
 namespace jvari::bench::suite {
 
 namespace {
-struct Known {  // the run of a reference, made by the first cell that needs it, gone with the last
-    std::once_flag once;
-    std::unique_ptr<compare::Truth> truth;
-    compare::Errors floor;
-    std::string refused;
-    std::atomic<int> needed_by = 0;
-
+// The run of a reference, made by the first cell that needs it, gone with the last. Whoever meets it while another thread or process makes
+// it throws Busy, and its cell is run later.
+class Known {
+public:
     template <class Make>
     void make(Make run) {
-        std::call_once(once, [&] {
-            try {
-                truth = std::make_unique<compare::Truth>(run());
-                floor = compare::errors_of(truth->reference.moved.trace, truth->reference.run.trace);
-            } catch (const std::exception& e) {
-                refused = e.what();
-            }
-        });
+        if (made_) return;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock) throw store::Busy{"another thread, which runs a reference"};
+        if (made_) return;
+        try {
+            truth_ = std::make_unique<compare::Truth>(run());
+            floor_ = compare::errors_of(reference()->moved.trace, reference()->run.trace);
+        } catch (const store::Busy& busy) {
+            busy_ = busy;
+            again_ = Clock::now() + std::chrono::milliseconds(500);
+            throw;
+        } catch (const std::exception& e) {
+            refused_ = e.what();
+        }
+        made_ = true;
     }
-    const compare::Reference* reference() const { return truth ? &truth->reference : nullptr; }
-    const Trace* trace() const { return truth ? &truth->reference.run.trace : nullptr; }
+    // Throws Busy where it was a moment ago: then its cell need not be taken. That spares a network file system thousands of locks.
+    void look() {
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (lock && Clock::now() < again_) throw store::Busy(busy_);
+    }
+    const compare::Truth* truth() const { return truth_.get(); }
+    const compare::Reference* reference() const { return truth_ ? &truth_->reference : nullptr; }
+    const Trace* trace() const { return truth_ ? &truth_->reference.run.trace : nullptr; }
+    const compare::Errors& floor() const { return floor_; }
+    const std::string& refused() const { return refused_; }
+    void is_needed() { ++needed_by_; }
     void release() {
-        if (--needed_by == 0) truth.reset();
+        if (--needed_by_ == 0) truth_.reset();
     }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::mutex mutex_;  // of what follows, until it is made
+    std::unique_ptr<compare::Truth> truth_;
+    compare::Errors floor_;
+    std::string refused_;
+    store::Busy busy_;
+    Clock::time_point again_{};
+    std::atomic<bool> made_ = false;
+    std::atomic<int> needed_by_ = 0;
 };
 
 class Accuracy {  // the cells to run
 public:
-    Accuracy(const SuitePlan& plan, std::vector<std::size_t> missing, std::filesystem::path folder, SuiteRun& into)
-        : plan_(plan), todo_(std::move(missing)), folder_(std::move(folder)), into_(into) {
+    Accuracy(const SuitePlan& plan, std::vector<std::size_t> missing, std::filesystem::path folder, bool resume, SuiteRun& into)
+        : plan_(plan), todo_(std::move(missing)), folder_(std::move(folder)), resume_(resume), into_(into) {
         for (const std::size_t i : todo_)
-            if (plan_.cells[i].set->measures(measured::errors)) {
-                for (const std::string& key : {plan_.cells[i].point->reference_key, plan_.cells[i].point->truth_key}) {
-                    if (key.empty()) continue;
-                    auto& known = known_[key];
-                    if (!known) known = std::make_unique<Known>();
-                    ++known->needed_by;
-                }
+            for (const std::string& key : references_of(plan_.cells[i])) {
+                auto& known = known_[key];
+                if (!known) known = std::make_unique<Known>();
+                known->is_needed();
             }
     }
 
@@ -66,16 +87,37 @@ public:
             sizes.push_back(std::max(plan_.cells[i].cell.settings.sample_rate, 44100.0) * plan_.cells[i].point->scene.duration);
         store::side_by_side(
             sizes, jobs, listener, "cells",
-            [this](std::size_t k, store::Done& done) {
-                const PlannedCell& planned = plan_.cells[todo_[k]];
-                SuiteRecord& record = into_.records[todo_[k]];
-                record = cell(planned, done);
-                if (!folder_.empty()) store::write_fresh(folder_ / (planned.id + ".json"), json_of(record, planned.identity));
-            },
+            [this](std::size_t k, store::Done& done) { into_.records[todo_[k]] = one(plan_.cells[todo_[k]], done); },
             [this](std::size_t k) { return what_of(plan_.cells[todo_[k]]); });
+        into_.ran = ran_;
+        into_.read_back += static_cast<int>(todo_.size()) - ran_;
     }
 
 private:
+    static std::vector<std::string> references_of(const PlannedCell& c) {
+        std::vector<std::string> keys;
+        if (c.set->measures(measured::errors)) keys.push_back(c.point->reference_key);
+        if (!keys.empty() && !c.point->truth_key.empty()) keys.push_back(c.point->truth_key);
+        return keys;
+    }
+
+    // Run here, or read back where another process has run it meanwhile.
+    SuiteRecord one(const PlannedCell& planned, store::Done& done) {
+        const std::vector<std::string> references = references_of(planned);
+        for (const std::string& key : references) known_.at(key)->look();
+        const std::filesystem::path file = folder_.empty() ? folder_ : folder_ / (planned.id + ".json");
+        const store::FileLock lock(file, "runs " + what_of(planned));
+        std::optional<SuiteRecord> record;
+        if (resume_ && !folder_.empty()) record = read_record(file, planned.identity);
+        if (!record) {
+            record = cell(planned, done);
+            if (!folder_.empty()) store::write_fresh(file, json_of(*record, planned.identity));
+            ++ran_;
+        }
+        for (const std::string& key : references) known_.at(key)->release();
+        return std::move(*record);
+    }
+
     SuiteRecord cell(const PlannedCell& planned, store::Done& fraction) {
         const double limit = planned.set->time_limit.value_or(HUGE_VAL);
         const PlannedPoint& point = *planned.point;
@@ -108,12 +150,12 @@ private:
             cell.reason = e.what();
         }
         cell.refused = !status.empty();
-        if (truth && !known) cell.reason += (cell.reason.empty() ? "" : "; ") + truth->refused;
+        if (truth && !known) cell.reason += (cell.reason.empty() ? "" : "; ") + truth->refused();
         Against against;
         if (known) {
             const compare::Reference& r = *truth->reference();
-            against = {truth->floor, r.trust, model->truth ? model->reference()->trust : trust::Trust{}, r.choice.settings.modes,
-                       truth->truth->said};
+            against = {truth->floor(), r.trust, model->truth() ? model->reference()->trust : trust::Trust{}, r.choice.settings.modes,
+                       truth->truth()->said};
         }
         SuiteRecord record = record_of(planned, cell, against);
         if (!status.empty()) record.row.rows[0][record.row.column("status")] = status;
@@ -124,31 +166,17 @@ private:
             if (planned.set->measures(f.name) && f.rows && !cell.refused)
                 record.rows[f.name] = f.rows({planned.point->scene, *cell.scheme, cell.settings, trace, known ? truth->trace() : nullptr,
                                               planned.point->tap, *planned.set});
-        if (truth && truth != model) truth->release();
-        if (model) model->release();
         return record;
     }
 
     const SuitePlan& plan_;
     const std::vector<std::size_t> todo_;
     const std::filesystem::path folder_;
+    const bool resume_;
     SuiteRun& into_;
     std::map<std::string, std::unique_ptr<Known>> known_;
+    std::atomic<int> ran_ = 0;
 };
-
-// How long a run of the cell takes here, and whether it runs at all: that of its accuracy, or one more.
-bool runs(const PlannedCell& planned, compare::Cell& cell, const SuiteRecord& record) {
-    if (record.known()) {
-        cell.summary.wall_seconds = record.seconds;
-        return record.ran;
-    }
-    try {
-        compare::run_cell(cell, planned.point->scene, compare::within(planned.set->time_limit.value_or(HUGE_VAL), [](long, long) {}));
-        return true;
-    } catch (const std::exception&) {  // the accuracy run says why
-        return false;
-    }
-}
 
 // Cells of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike. Where one of them has
 // no clock of the machine that timed the others, all are timed here.
@@ -163,7 +191,8 @@ std::vector<Clocks> time_set(const SuitePlan& plan, const store::Rows& indices, 
     for (std::size_t k = 0; k < indices.size(); ++k) {
         if (clocks[k].contains(here)) continue;
         compare::Cell cell = plan.cells[indices[k]].cell;
-        cell.refused = !runs(plan.cells[indices[k]], cell, into.records[indices[k]]);
+        cell.refused = !into.records[indices[k]].ran;
+        cell.summary.wall_seconds = into.records[indices[k]].seconds;
         todo.push_back(k);
         cells.push_back(std::move(cell));
     }
@@ -190,72 +219,38 @@ void show_clocks(const SuitePlan& plan, const store::Rows& indices, const std::v
     const std::string machine = machine_of(clocks).machine;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         SuiteRecord& record = into.records[indices[k]];
-        if (clocks[k].empty() || !record.known() || !record.ran) continue;
+        if (clocks[k].empty() || !record.ran) continue;
         const auto own = clocks[k].find(machine);
         const KeptClock& clock = own == clocks[k].end() ? clocks[k].begin()->second : own->second;
         if (clock.ran) add_clock(record, plan.cells[indices[k]], clock);
     }
 }
 
-store::Rows ran_of(const store::Rows& indices, const SuiteRun& run) {  // those that can be timed, as far as is known
-    store::Rows rows;
-    for (const std::size_t i : indices)
-        if (!run.records[i].known() || run.records[i].ran) rows.push_back(i);
-    return rows;
+// One process of the folder times while no other does. None of them runs cells then: each begins here once all are there.
+void time_sets(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, SuiteRun& into, const store::Listener& listener) {
+    std::vector<store::Rows> sets = sets_of(plan);
+    for (store::Rows& set : sets)
+        std::erase_if(set, [&](std::size_t i) { return !plan.cells[i].set->measures(measured::cost) || !into.records[i].ran; });
+    std::erase_if(sets, [](const store::Rows& set) { return set.empty(); });
+    if (sets.empty()) return;
+    const auto lock = store::lock_once_free(folder.empty() ? folder : folder / "clock", "times the cells of this folder", listener);
+    for (const store::Rows& set : sets) show_clocks(plan, set, time_set(plan, set, folder, resume, into, listener), into);
 }
 }  // namespace
 
-SuiteWork all_of(const SuitePlan& plan) {
-    SuiteWork work;
-    for (std::size_t i = 0; i < plan.cells.size(); ++i) work.cells.push_back(i);
-    for (const store::Rows& set : sets_of(plan))
-        if (plan.cells[set.front()].set->measures(measured::cost)) work.clocks.push_back(set);
-    return work;
-}
-
-SuiteRun run_suite(const SuitePlan& plan, const SuiteWork& work, const std::filesystem::path& folder, bool resume, int jobs,
-                   const store::Listener& listener) {
+SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const store::Listener& listener) {
     SuiteRun result;
     result.records.resize(plan.cells.size());
     std::vector<std::size_t> missing;
-    for (const std::size_t i : work.cells) {
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
         std::optional<SuiteRecord> kept;
         if (resume && !folder.empty()) kept = read_record(folder / (plan.cells[i].id + ".json"), plan.cells[i].identity);
         if (kept) result.records[i] = std::move(*kept);
         else missing.push_back(i);
     }
-    result.ran = static_cast<int>(missing.size());
-    result.read_back = static_cast<int>(work.cells.size() - missing.size());
-    if (!missing.empty()) Accuracy(plan, std::move(missing), folder, result).run(jobs, listener);
-    for (const store::Rows& set : work.clocks)
-        if (const store::Rows rows = ran_of(set, result); !rows.empty())
-            show_clocks(plan, rows, time_set(plan, rows, folder, resume, result, listener), result);
-    return result;
-}
-
-SuiteRun run_suite(const SuitePlan& plan, const std::filesystem::path& folder, bool resume, int jobs, const store::Listener& listener) {
-    return run_suite(plan, all_of(plan), folder, resume, jobs, listener);
-}
-
-SuiteRun gather_suite(SuitePlan& plan, const std::filesystem::path& folder) {
-    SuiteRun result;
-    std::vector<PlannedCell> there;
-    for (PlannedCell& cell : plan.cells)
-        if (auto kept = read_record(folder / (cell.id + ".json"), cell.identity)) {
-            there.push_back(std::move(cell));
-            result.records.push_back(std::move(*kept));
-        } else {
-            result.missing.push_back(what_of(cell));
-        }
-    plan.cells = std::move(there);
-    result.read_back = static_cast<int>(plan.cells.size());
-    for (const store::Rows& set : all_of(plan).clocks) {
-        const store::Rows rows = ran_of(set, result);
-        const std::vector<Clocks> clocks = clocks_in(folder, plan, rows);
-        show_clocks(plan, rows, clocks, result);
-        for (std::size_t k = 0; k < rows.size(); ++k)
-            if (clocks[k].empty()) result.missing.push_back("the clock of " + what_of(plan.cells[rows[k]]));
-    }
+    result.read_back = static_cast<int>(plan.cells.size() - missing.size());
+    if (!missing.empty()) Accuracy(plan, std::move(missing), folder, resume, result).run(jobs, listener);
+    time_sets(plan, folder, resume, result, listener);
     return result;
 }
 
@@ -281,29 +276,6 @@ std::string kept_of(const SuitePlan& plan, const std::filesystem::path& folder) 
 void keep_references_in(SuitePlan& plan, const std::filesystem::path& folder) {
     for (PlannedPoint& p : plan.points)
         for (compare::ReferenceChoice& c : p.references) c.kept_in = folder;
-}
-
-int make_references(const SuitePlan& plan, int jobs, const store::Listener& listener) {
-    std::map<std::string, std::function<void(const store::Listener&)>> all;  // by their keys
-    for (const PlannedCell& c : plan.cells) {
-        if (!c.set->measures(measured::errors) || !c.point->references.front().kept) continue;
-        const PlannedPoint& p = *c.point;
-        const double limit = c.set->time_limit.value_or(HUGE_VAL);
-        all[p.reference_key] = [&p, limit](const store::Listener& part) { compare::run_reference(p.references, p.scene, 1, part, limit); };
-        if (!p.truth_key.empty())
-            all[p.truth_key] = [&p, limit](const store::Listener& part) {
-                compare::run_truth(p.references, p.scene, p.truth_modes, 1, part, limit);
-            };
-    }
-    std::vector<std::function<void(const store::Listener&)>> makes;
-    for (auto& [key, make] : all) makes.push_back(std::move(make));
-    store::side_by_side(std::vector<double>(makes.size(), 1), jobs, listener, "references", [&makes](std::size_t i, store::Done& done) {
-        try {
-            makes[i](store::PartOf(done));
-        } catch (const std::exception&) {  // the rows of its cells say why
-        }
-    });
-    return static_cast<int>(makes.size());
 }
 
 }  // namespace jvari::bench::suite

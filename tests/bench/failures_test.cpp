@@ -44,11 +44,11 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
         m.reproduce = reproduce;
         bench::map::Truths truths(catalogue());
         const std::vector<bench::map::Map> maps = {m};
-        const bench::map::MapRun run = bench::map::run_maps(bench::map::rows_of(maps, catalogue()), truths, "\"tests\"", {},
-                                                            bench::map::Points::run_again, 1, bench::store::Listener());
+        const bench::map::MapRequest request{"\"tests\"", {}, false, 1};
+        const bench::map::MapRun run = bench::map::run_maps(maps, truths, request, bench::store::Listener());
         ASSERT_EQ(run.points.size(), 1u);
         EXPECT_EQ(run.points[0].tried.judgement.verdict, bench::map::Verdict::diverged);
-        EXPECT_EQ(reproducers_of(run, truths, 1, bench::store::Listener()).size(), reproduce ? 1u : 0u);
+        EXPECT_EQ(reproducers_of(run, catalogue(), request, bench::store::Listener()).size(), reproduce ? 1u : 0u);
     }
 }
 

@@ -90,11 +90,14 @@ std::vector<std::string> parts_below(const fs::path& folder) {
     return parts;
 }
 
-int cells_in(const fs::path& folder) {
+int files_of(const fs::path& folder, const char* extension) {
     std::error_code none_yet;
     int n = 0;
-    for (const auto& entry : fs::directory_iterator(folder, none_yet)) n += entry.path().extension() == ".json";
+    for (const auto& entry : fs::directory_iterator(folder, none_yet)) n += entry.path().extension() == extension;
     return n;
+}
+int cells_in(const fs::path& folder) {
+    return files_of(folder, ".json");
 }
 
 TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
@@ -115,7 +118,9 @@ TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
         EXPECT_GT(n, before);
         EXPECT_LT(n, 24);
         before = n;
-        const std::string said = "interrupted: " + std::to_string(n) + " of 24 cells are kept in " + (scratch / "stopped") + "; --resume";
+        const std::string said = "interrupted: " + std::to_string(n) + " of 24 cells and " +
+                                 std::to_string(files_of(scratch / "stopped/references", ".run")) + " runs of references are kept in " +
+                                 (scratch / "stopped") + "; --resume";
         EXPECT_NE(content(scratch / "stderr").find(said), std::string::npos) << content(scratch / "stderr");
         EXPECT_EQ(content(scratch / "stdout"), "");
     }
@@ -190,27 +195,20 @@ TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
     EXPECT_FALSE(fs::exists(scratch / "c.json.lock"));
 }
 
-TEST(Interruption, WhoPreparesASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
+TEST(Interruption, ASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml", references = scratch / "all/references";
     std::ofstream(file) << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\n"
                            "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 2\n"
                            "reference = \"sundials\"\n";
-    Started prepare(scratch, {"suite", file, "--out", scratch / "all", "--prepare", "--jobs", "2"});
-    const auto files = [&](const char* extension) {
-        std::error_code none_yet;
-        int n = 0;
-        for (const auto& entry : fs::directory_iterator(references, none_yet)) n += entry.path().extension() == extension;
-        return n;
-    };
-    prepare.once([&] { return files(".run") >= 2 && files(".lock") >= 1; });
-    prepare.send(SIGINT);
-    EXPECT_EQ(prepare.end(), SIGINT);
-    const std::string said = "interrupted: 0 of 2 cells and " + std::to_string(files(".run")) + " runs of references are kept in " +
-                             (scratch / "all") + "; --resume";
+    Started suite(scratch, {"suite", file, "--out", scratch / "all", "--resume", "--jobs", "2"});
+    suite.once([&] { return cells_in(scratch / "all/cells") == 1 && files_of(references, ".lock") == 1; });
+    suite.send(SIGINT);
+    EXPECT_EQ(suite.end(), SIGINT);
+    EXPECT_EQ(files_of(references, ".run"), 2);
+    const std::string said = "interrupted: 1 of 2 cells and 2 runs of references are kept in " + (scratch / "all") + "; --resume";
     EXPECT_NE(content(scratch / "stderr").find(said), std::string::npos) << content(scratch / "stderr");
-    EXPECT_EQ(files(".lock"), 0);
-    EXPECT_FALSE(fs::exists(scratch / "all/plan.csv"));
+    EXPECT_EQ(files_of(references, ".lock") + files_of(scratch / "all/cells", ".lock"), 0);
 }
 
 TEST(Interruption, ARunLeavesNoFile) {

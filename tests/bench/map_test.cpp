@@ -144,8 +144,7 @@ constexpr const char* limits = R"(
 bench::map::MapRun run_of(const bench::suite::Suite& suite, const fs::path& folder = {}, bool resume = false, int jobs = 1) {
     static const bench::compare::Catalogue catalogue;
     bench::map::Truths truths(catalogue);
-    return bench::map::run_maps(bench::map::rows_of(suite.maps, catalogue), truths, "\"tests\"", folder,
-                                resume ? bench::map::Points::resumed : bench::map::Points::run_again, jobs, bench::store::Listener());
+    return bench::map::run_maps(suite.maps, truths, {"\"tests\"", folder, resume, jobs}, bench::store::Listener());
 }
 
 TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {

@@ -421,7 +421,7 @@ TEST(SuiteCommand, KilledAtAnyMomentAndResumedItGivesTheSameTable) {
     const auto start_and_kill_with = [&](int cells) {  // as soon as there are so many
         const std::string kept = scratch / "killed/cells";
         std::system(("env " + none + " " JVARI_PROGRAM " suite " + file + " --jobs 2 --resume --out " + scratch / "killed" +
-                     " >/dev/null 2>&1 & p=$!; while kill -0 $p && test $(ls " + kept + " | wc -l) -lt " + std::to_string(cells) +
+                     " >/dev/null 2>&1 & p=$!; while kill -0 $p && test $(ls " + kept + " | grep -c json$) -lt " + std::to_string(cells) +
                      "; do sleep 0.003; done 2>/dev/null; kill -9 $p 2>/dev/null; wait $p 2>/dev/null")
                         .c_str());
     };

@@ -14,10 +14,11 @@
 
 namespace jvari::bench::store {
 
-using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 class Things {
+    using Clock = std::chrono::steady_clock;
+
 public:
     Things(const std::vector<double>& sizes, const Listener& listener, const std::function<void(std::size_t, Done&)>& work,
            const std::function<std::string(std::size_t)>& name)

@@ -1,0 +1,367 @@
+// A suite by several processes that share a folder: the same tables to the last byte, each cell and each reference once, and none lost
+// with who ran it; costs of two machines are never compared.
+#include <fcntl.h>
+#include <sys/inotify.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/pareto.hpp"
+#include "bench/compare/record/scaling_table.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/system/file_lock.hpp"
+#include "bench/suite/suite_clock.hpp"
+#include "tests/command_line.hpp"
+
+namespace jvari::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* study = R"(
+[[cells]]
+scenes = ["tanpura_c3_release", "free_string"]
+schemes = ["modal_two_point", "modal_strang", "finite_difference_explicit"]
+rates = [44100, 88200]
+reference_modes = 266
+duration = 0.012
+[[cells]]
+scenes = ["two_point_bridge"]
+schemes = ["modal_two_point", "modal_quadratised"]
+rates = [88200, 176400]
+duration = 0.01
+repeats = 2
+measure = ["errors", "cost"]
+[[map]]
+name = "penalty"
+scene = "tanpura_c3"
+schemes = ["modal_explicit_penalty", "modal_two_point"]
+x = { key = "rate", from = 1e5, to = 1e6, points = 3 }
+y = { key = "string.0.tension", values = [30, 40] }
+set = { "string.0.barrier.0.stiffness" = 4.39e6 }
+modes = 60
+duration = 0.02
+reference = "none"
+refine = 5
+[[map]]
+name = "tension"
+scene = "tanpura_c3_release"
+schemes = ["modal_two_point", "modal_strang"]
+x = { key = "string.0.tension", values = [30, 40] }
+duration = 0.01
+reproduce = false
+)";
+
+// Of what processes wrote into out1, out2 ... : the numbers before a word, as in "16 points, 4 boundaries: 5 run".
+std::vector<int> numbers_before(const std::string& word, const Scratch& scratch, int processes) {
+    std::vector<int> all;
+    for (int k = 1; k <= processes; ++k) {
+        std::istringstream words(content(scratch / ("out" + std::to_string(k))));
+        for (std::string last, next; words >> next; last = next)
+            if (next == word) all.push_back(std::stoi(last));
+    }
+    return all;
+}
+
+std::vector<std::string> locks_below(const fs::path& folder) {
+    std::vector<std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".lock") all.push_back(entry.path());
+    return all;
+}
+
+std::map<std::string, int> moved_into(int watch) {  // how often each file
+    std::map<std::string, int> times;
+    alignas(inotify_event) char buffer[65536];
+    for (ssize_t n = 0; (n = read(watch, buffer, sizeof buffer)) > 0;)
+        for (ssize_t at = 0; at < n;) {
+            const auto* event = reinterpret_cast<const inotify_event*>(buffer + at);
+            ++times[event->name];
+            at += static_cast<ssize_t>(sizeof *event) + event->len;
+        }
+    return times;
+}
+
+TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
+    const Scratch scratch;
+    std::ofstream(scratch / "a.toml") << study;
+    ASSERT_EQ(shell(scratch, "$J suite a.toml --out whole >out1").code, 0) << content(scratch / "stderr");
+    const std::vector<int> alone = numbers_before("run,", scratch, 1);
+    ASSERT_EQ(alone.size(), 2u);  // points of maps, cells
+    const int watch = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    for (const char* name : {"cells", "points", "references"}) {
+        fs::create_directories(scratch.path / "all" / name);
+        ASSERT_GE(inotify_add_watch(watch, (scratch.path / "all" / name).c_str(), IN_MOVED_TO), 0);
+    }
+    const std::string lines =
+        "for k in 1 2 3; do $J suite a.toml --out all --resume --jobs 1 >out$k & all=\"$all $!\"; done\n"
+        "for p in $all; do wait $p || exit 1; done";
+    ASSERT_EQ(shell(scratch, lines).code, 0) << content(scratch / "stderr");
+    int clocks = 0, references = 0;
+    for (const auto& [name, times] : moved_into(watch)) {
+        EXPECT_EQ(times, 1) << name;
+        clocks += name.ends_with(".clock");
+        references += name.ends_with(".run");
+    }
+    close(watch);
+    EXPECT_EQ(clocks, 4);
+    EXPECT_EQ(references, 12);  // of four scenes each of two starts, and those with another number of modes
+    const std::vector<int> shared = numbers_before("run,", scratch, 3);
+    ASSERT_EQ(shared.size(), 6u);
+    EXPECT_EQ(shared[0] + shared[2] + shared[4], alone[0]);
+    EXPECT_EQ(shared[1] + shared[3] + shared[5], alone[1]);
+    EXPECT_EQ(alone[1], 16);
+    const std::vector<int> timed = numbers_before("timed,", scratch, 3);
+    EXPECT_EQ(std::set<int>(timed.begin(), timed.end()), (std::set<int>{0, 4}));  // all by one of them
+    EXPECT_EQ(locks_below(scratch.path), std::vector<std::string>());
+    for (const char* name : {"errors.csv", "convergence.csv", "maps.csv", "boundaries.csv", "failures/index.csv"})
+        EXPECT_EQ(content(scratch.path / "all" / name), content(scratch.path / "whole" / name)) << name;
+    EXPECT_GT(bench::store::read_csv(content(scratch / "all/boundaries.csv")).rows.size(), 0u);
+    EXPECT_GT(bench::store::read_csv(content(scratch / "all/failures/index.csv")).rows.size(), 0u);
+    std::map<fs::path, fs::file_time_type> minimised;  // kept beside the points
+    for (const auto& entry : fs::directory_iterator(scratch / "all/points"))
+        if (const fs::path index = entry.path() / "index.csv"; fs::exists(index)) minimised[index] = fs::last_write_time(index);
+    EXPECT_EQ(minimised.size(), bench::store::read_csv(content(scratch / "all/failures/index.csv")).rows.size());
+    const Outcome again = shell(scratch, "$J suite a.toml --out all --resume");
+    EXPECT_EQ(again.code, 0);
+    for (const auto& [index, written] : minimised) EXPECT_EQ(fs::last_write_time(index), written) << "minimised again: " << index;
+    EXPECT_EQ(again.err.find("holds what is not of a suite"), std::string::npos) << again.err;
+    EXPECT_NE(again.out.find("16 cells, 0 run, 0 timed, 16 read back"), std::string::npos) << again.out;
+}
+
+TEST(SharedFolder, WhoIsKilledHoldsNobodyUp) {
+    const Scratch scratch;
+    std::ofstream(scratch / "a.toml")  // cells of some tenths of a second
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\", \"modal_quadratised\"]\nrates = [1411200]\n"
+           "modes = 100\nduration = 0.4\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
+    ASSERT_EQ(shell(scratch, "$J suite a.toml --out whole --quiet").code, 0) << content(scratch / "stderr");
+    // One of the three is stopped while it runs a cell; the others run all that is left, say for whom they wait, and see it die.
+    const Outcome o = shell(scratch, R"sh(
+for k in 1 2 3; do $J suite a.toml --out all --resume --jobs 1 >out$k 2>err$k & all="$all $!"; done
+stopped() { [ "$(sed -n 's/^State:.\(.\).*/\1/p' /proc/$1/status)" = T ]; }
+while [ -z "$held" ]; do
+    for p in $all; do kill -0 $p || exit 9; done
+    for lock in all/cells/????????*.lock; do
+        p=$(sed -n 's/^process \([0-9]*\) on .*/\1/p' "$lock" 2>/dev/null); [ -n "$p" ] || continue
+        kill -STOP $p || exit 9; until stopped $p; do :; done
+        if grep -q "process $p " "$lock" 2>/dev/null; then held=$p cell=${lock%.lock}; break; fi
+        kill -CONT $p
+    done
+done
+for p in $all; do [ $p = $held ] || others="$others $p"; done
+until [ "$(grep -l "waiting for process $held on .*, which \(runs free_string\|makes all/references\)" err1 err2 err3 | wc -l)" = 2 ]; do
+    for p in $others; do kill -0 $p || exit 8; done; sleep 0.1
+done
+[ ! -e "$cell" ] || exit 7
+kill -KILL $held
+for p in $others; do wait $p || exit 6; done
+)sh");
+    EXPECT_EQ(o.code, 0) << o.err << content(scratch / "err1") << content(scratch / "err2") << content(scratch / "err3");
+    EXPECT_EQ(content(scratch / "all/errors.csv"), content(scratch / "whole/errors.csv"));
+    EXPECT_EQ(locks_below(scratch.path), std::vector<std::string>());
+}
+
+TEST(SharedFolder, TwoProgramsHaveEachTheirOwnCells) {
+    const Scratch scratch;
+    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\", \"two_point_bridge\"]\nschemes = [\"modal_two_point\", "
+                                         "\"modal_strang\"]\nrates = [44100, 88200]\nduration = 0.01\n";
+    const std::string suite = "$J suite a.toml --out ",
+                      plugin = " --plugin " JVARI_HONEST;  // another program: its plugin counts into the key
+    ASSERT_EQ(shell(scratch, suite + "whole --quiet").code, 0) << content(scratch / "stderr");
+    ASSERT_EQ(shell(scratch, suite + "all --resume >out1 & " + suite + "all --resume" + plugin + " >out2 && wait $!").code, 0);
+    EXPECT_EQ(numbers_before("run,", scratch, 2), (std::vector<int>{8, 8}));
+    EXPECT_NE(shell(scratch, suite + "all --resume" + plugin).out.find(" 0 run, 0 timed, 8 read back"), std::string::npos);
+    EXPECT_NE(shell(scratch, suite + "all --resume").out.find(" 0 run, 0 timed, 8 read back"), std::string::npos);
+    EXPECT_EQ(content(scratch / "all/errors.csv"), content(scratch / "whole/errors.csv"));
+}
+
+TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
+    const Scratch scratch;
+    std::ofstream(scratch / "a.toml")
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\n";
+    const std::string suite = "timeout 60 $J suite a.toml --out all --resume";
+    ASSERT_EQ(shell(scratch, suite).code, 0) << content(scratch / "stderr");
+    const std::string table = content(scratch / "all/errors.csv");
+    std::vector<fs::path> made;
+    for (const char* name : {"cells", "references"})
+        for (const auto& entry : fs::directory_iterator(scratch.path / "all" / name)) made.push_back(entry.path());
+    ASSERT_EQ(made.size(), 3u);
+    for (const fs::path& file : made) {
+        fs::remove(file);
+        if (file == made.back()) ASSERT_EQ(mkfifo((file.string() + ".lock").c_str(), 0600), 0);
+        else fs::create_directory(file.string() + ".lock");
+    }
+    EXPECT_EQ(shell(scratch, suite).err.find("no file can be locked here"), std::string::npos);
+    for (const fs::path& file : made) EXPECT_TRUE(fs::exists(file) && fs::exists(file.string() + ".lock")) << file;
+    EXPECT_EQ(content(scratch / "all/errors.csv"), table);
+    fs::create_directory(scratch / "all/cells/any.lock");
+    EXPECT_NE(shell(scratch, suite).err.find("all: no file can be locked here. Processes that share this folder"), std::string::npos);
+}
+
+TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
+    const Scratch scratch;
+    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100, 88200]\n"
+                                         "duration = 0.01\nrepeats = 2\nmeasure = [\"errors\", \"cost\"]\n";
+    fs::create_directories(scratch / "all/cells");
+    const auto files = [&](const char* extension) {
+        return std::count_if(fs::directory_iterator(scratch / "all/cells"), fs::directory_iterator(),
+                             [&](const auto& entry) { return entry.path().extension() == extension; });
+    };
+    std::optional<bench::store::FileLock> other(std::in_place, scratch / "all/cells/clock", "times the cells");
+    Outcome o{};
+    std::atomic<bool> ended = false;
+    std::jthread suite([&] {
+        o = jvari(scratch, "suite " + (scratch / "a.toml") + " --resume --out " + (scratch / "all"));
+        ended = true;
+    });
+    const std::string waits = "waiting for process " + std::to_string(getpid()) + " on ";
+    while (!ended && content(scratch / "stderr").find(waits) == std::string::npos)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(ended);
+    EXPECT_EQ(files(".json"), 2);
+    EXPECT_EQ(files(".clock"), 0);
+    other.reset();
+    suite.join();
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(files(".clock"), 2);
+}
+
+TEST(SharedFolder, TheScriptForSlurmIsOneThatAShellReads) {
+    const Scratch scratch;
+    std::ofstream(scratch / "it's a.toml") << study;
+    Outcome o = shell(scratch, "$J suite \"it's a.toml\" --out 'my study' --print slurm > job.sh && sh -n job.sh && cat job.sh");
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.out.find("\nexec " JVARI_PROGRAM " suite '" + (scratch / "it'\\''s a.toml") + "' --out '" + (scratch / "my study") +
+                         "' --resume --jobs \"${SLURM_CPUS_PER_TASK:-1}\"\n"),
+              std::string::npos)
+        << o.out;
+    EXPECT_EQ(o.out.find("#!/bin/sh\n#SBATCH --array="), 0u) << o.out;
+    EXPECT_LE(std::count(o.out.begin(), o.out.end(), '\n'), 10);
+    EXPECT_FALSE(fs::exists(scratch / "my study"));
+    EXPECT_EQ(shell(scratch, "$J suite \"it's a.toml\" --print slurm").code, 2);
+
+    // a suite of the library is called by its name, whatever stands there under that name
+    o = shell(scratch, "mkdir smoke; $J suite smoke --out smoke --print slurm");
+    EXPECT_NE(o.out.find(" suite smoke --out " + (scratch / "smoke") + " "), std::string::npos) << o.out << o.err;
+
+    // a line break would be a line of the script
+    for (const char* with :
+         {"$'b\\ntouch RAN\\n.toml' --out x", "b.toml --out $'x\\ntouch RAN\\n'", "b.toml --out x --plugin $'p\\np.so'"}) {
+        o = shell(scratch, "cp it* b.toml; cp it* $'b\\ntouch RAN\\n.toml'; cp " JVARI_HONEST " $'p\\np.so'; $J suite " +
+                               std::string(with) + " --print slurm");
+        EXPECT_EQ(o.code, 2) << with;
+        EXPECT_EQ(o.out, "") << with;
+        EXPECT_NE(o.err.find("a file name holds a control character"), std::string::npos) << with << o.err;
+    }
+}
+
+// ---- Two machines
+
+bench::store::Table timed_on(
+    const std::vector<std::string>& machines) {  // one scheme a row, each cheaper and as accurate as the one before
+    bench::store::Table t;
+    t.columns = {
+        "scene",        "scheme",     "options",    "rate",        "modes",  "status", "flags", "error_l2_50ms", "certificate_l2_50ms",
+        "cost_s_per_s", "cost_lower", "cost_upper", "ns_per_step", "machine"};
+    for (std::size_t i = 0; i < machines.size(); ++i) {
+        const std::string cost = std::to_string(10 - i), rate = std::to_string(44100 << i);
+        t.rows.push_back({"a", "s" + std::to_string(i), "", rate, "10", "ok", "", "0.005", "1e-9", cost, cost, cost, cost, machines[i]});
+    }
+    return t;
+}
+
+TEST(Machines, EachHasItsOwnFrontAndItsOwnCheapest) {
+    const std::vector<std::string> one(4, "A"), two = {"A", "B", "A", "B"};
+    const auto front = [](const bench::store::Table& t) {
+        return bench::compare::pareto_front(t, bench::store::all_rows(t), "error_l2_50ms", "cost_s_per_s");
+    };
+    EXPECT_EQ(front(timed_on(one)), (std::vector<bool>{false, false, false, true}));
+    EXPECT_EQ(front(timed_on(two)), (std::vector<bool>{false, false, true, true}));
+
+    const bench::store::Table cheapest = bench::compare::cheapest_of(timed_on(two));
+    std::map<std::string, std::string> of;
+    for (std::size_t i = 0; i < cheapest.rows.size(); ++i)
+        if (cheapest.at(i, "target") == "0.01") of[cheapest.at(i, "machine")] = cheapest.at(i, "scheme");
+    EXPECT_EQ(of, (std::map<std::string, std::string>{{"A", "s2"}, {"B", "s3"}}));
+    EXPECT_NE(bench::compare::cheapest_text(cheapest).find("several machines: each has its own"), std::string::npos);
+    EXPECT_EQ(bench::compare::cheapest_of(timed_on(one)).column("machine"), -1);
+    EXPECT_NE(bench::store::machines_text(timed_on(two)).find("timed on 2 machines"), std::string::npos);
+    EXPECT_EQ(bench::store::machines_text(timed_on(one)), "");
+}
+
+TEST(Machines, NoFitAndNoDifferenceIsOfTwo) {
+    const auto fits = [](const std::vector<std::string>& machines) {
+        bench::store::Table t = timed_on(machines);
+        for (auto& row : t.rows) row[1] = "s";  // one scheme at four rates
+        return bench::compare::scaling_of(t, {bench::store::all_rows(t)});
+    };
+    const bench::store::Table one = fits({"A", "A", "A", "A"}), two = fits({"A", "A", "A", "B"});
+    ASSERT_EQ(one.rows.size(), 4u);
+    ASSERT_EQ(two.rows.size(), 3u);  // a single row of B is no series
+    for (std::size_t i = 0; i < two.rows.size(); ++i) EXPECT_EQ(two.at(i, "machine"), "A");
+    EXPECT_NE(one.at(0, "exponent"), two.at(0, "exponent"));
+}
+
+TEST(Machines, StampsOfTwoInOneFolderGiveASentenceAndACostOfEach) {
+    const Scratch scratch;
+    std::ofstream(scratch / "a.toml") << R"(
+[[cells]]
+scenes = ["two_point_bridge"]
+schemes = ["modal_two_point"]
+rates = [88200, 176400]
+duration = 0.01
+repeats = 2
+measure = ["errors", "cost"]
+[[cells]]
+scenes = ["two_point_bridge"]
+schemes = ["modal_quadratised"]
+rates = [88200, 176400]
+duration = 0.01
+repeats = 2
+measure = ["errors", "cost"]
+)";
+    ASSERT_EQ(shell(scratch, "$J suite a.toml --out all --quiet").code, 0) << content(scratch / "stderr");
+    const bench::suite::Suite suite = bench::suite::parse_suite(content(scratch / "a.toml"), "a.toml");
+    const bench::compare::Catalogue catalogue;
+    bench::suite::SuitePlan plan = bench::suite::plan_of(suite, catalogue, {});
+    const fs::path cells = scratch / "all/cells";
+    const auto timed_elsewhere = [&](std::size_t i, bool as_well) {
+        const fs::path here = cells / bench::suite::clock_file(plan.cells[i], bench::store::stamp_now());
+        auto clock = bench::suite::read_clock(here, plan.cells[i].identity);
+        ASSERT_TRUE(clock);
+        EXPECT_GT(clock->wall.median, 0);
+        EXPECT_FALSE(clock->stamp.name.empty() || clock->stamp.load.empty() || clock->stamp.at.empty());
+        if (!as_well) fs::remove(here);
+        clock->stamp.name = "another CPU, 64 cores";
+        clock->wall.median = 77;
+        std::ofstream(cells / bench::suite::clock_file(plan.cells[i], clock->stamp)) << clock_json(*clock, plan.cells[i].identity);
+    };
+    timed_elsewhere(0, true);  // of the first set one cell, as well as here: the set stays on this machine
+    timed_elsewhere(2, false);
+    timed_elsewhere(3, false);
+    const Outcome o = shell(scratch, "$J suite a.toml --out all --resume");
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("cells were timed on 2 machines; costs are compared within each alone"), std::string::npos) << o.err;
+    const bench::store::Table t = bench::store::read_csv(content(scratch / "all/cells.csv"));
+    EXPECT_EQ(t.at(0, "machine"), bench::store::stamp_now().name);
+    EXPECT_EQ(t.at(1, "machine"), bench::store::stamp_now().name);
+    EXPECT_EQ(t.at(2, "machine"), "another CPU, 64 cores");
+    EXPECT_EQ(t.number(3, "wall_seconds"), 77);
+    EXPECT_EQ(bench::store::read_csv(content(scratch / "all/errors.csv")).column("machine"), -1);
+
+    fs::remove(cells / bench::suite::clock_file(plan.cells[1], bench::store::stamp_now()));  // the set has no machine that timed all of it
+    const Outcome resumed = shell(scratch, "$J suite a.toml --out all --resume");
+    EXPECT_NE(resumed.out.find("4 cells, 0 run, 1 timed"), std::string::npos) << resumed.out;
+    bench::store::Stamp elsewhere;
+    elsewhere.name = "another CPU, 64 cores";
+    fs::remove(cells / bench::suite::clock_file(plan.cells[3], elsewhere));  // nor has the other: both of its cells are timed here
+    EXPECT_NE(shell(scratch, "$J suite a.toml --out all --resume").out.find("4 cells, 0 run, 2 timed"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace jvari::test
