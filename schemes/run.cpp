@@ -6,6 +6,9 @@
 #include <exception>
 #include <stdexcept>
 
+#include "scenes/wording.hpp"
+#include "schemes/looks.hpp"
+
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -25,20 +28,6 @@ FlushDenormals::~FlushDenormals() = default;
 #endif
 
 namespace {
-// The first row in [from, to) that no sound run can have: a value that is not finite, or more energy stored than `energy_budget` times what
-// was there at the start and has been supplied since. `to` where all are sound. `given` sums the supply.
-long first_unsound_row(const Trace& t, long from, long to, double& given) {
-    for (long n = from; n < to; ++n) {
-        for (int k = 0; k < t.taps(); ++k)
-            if (!std::isfinite(t.tap[k * t.stride + n])) return n;
-        if (t.energy.empty()) continue;
-        const double stored = t.energy[n];
-        given += std::abs(n == 0 ? stored : t.energy[t.stride + n]);
-        if (!std::isfinite(stored) || stored > energy_budget * given) return n;
-    }
-    return to;
-}
-
 using Steady = std::chrono::steady_clock;
 constexpr auto patience = std::chrono::milliseconds(20);  // between two calls of progress
 constexpr double most_rows = 1L << 40;
@@ -96,37 +85,135 @@ void check(const Status& status, long first, const Block& block, double steps) {
                         std::to_string(first) + " to " + std::to_string(std::lround(last)));
 }
 
-// The window of a trace that begins at a row and has this many, or those that are left before `end`.
-Block block_at(Trace& trace, long row, int rows, long end) {
-    Block block;
-    block.rows = static_cast<int>(std::min<long>(rows, end - row));
-    block.taps = trace.taps();
-    block.stride = trace.stride;
-    block.tap = trace.tap.empty() ? nullptr : trace.tap.data() + row;
-    block.energy = trace.energy.empty() ? nullptr : trace.energy.data() + row;
-    return block;
-}
+// Makes the rows of a trace, and knows which of them are sound: their taps are finite, and they store no more than `energy_budget` times
+// the energy that was there at the start and has been supplied since.
+class Stepper {
+public:
+    Stepper(Scheme& scheme, Trace& trace, const Scene& scene, const RunOptions& options, Teller& teller)
+        : scheme_(scheme),
+          trace_(trace),
+          options_(options),
+          teller_(teller),
+          looks_(scene, trace.tap_rate, trace.stride),
+          kept_(options.energy),
+          beside_(static_cast<std::size_t>(options.block_rows) * (trace.names.size() + 3)) {}
 
-// Steps the scheme once more to the end of the rows that are sound: what a block went on to do beyond them is in none of its facts, which
-// would else be a matter of how long the block was.
-void replay(Scheme& scheme, Trace& trace, int block_rows, Teller& teller) {
-    scheme.reset();
-    for (long row = 0; row < trace.rows; row += block_rows) {
-        Block block = block_at(trace, row, block_rows, trace.rows);
-        teller.into(block);
-        scheme.advance(block);
-        teller.rethrow();
+    // The next rows, as many at most: their energy is looked at, or it is that of none of them.
+    Block next(int rows) {
+        const long row = trace_.rows;
+        const Look look = options_.timed ? Look{false, trace_.stride} : looks_.at(row);
+        looked_ = look.now;
+        return block_at(row, std::min(row + rows, look.until), looked_);
     }
-}
+    Status advance(const Block& block) { return advance(block, trace_.rows); }
+
+    // The end of the rows up to `end` that are sound, once a block of them was made. Where one does not seem so, or the scheme has failed,
+    // the supply is summed row by row, and the rows since the last look are looked at as well.
+    long sound_until(const Block& block, long end, bool failed) {
+        double given = given_;
+        const auto stands_for = [this](long row) { return looks_.stands_for(row); };
+        const long sound = looked_ ? first_unsound(block, trace_.rows, end, given, stands_for) : first_not_finite(block, trace_.rows, end);
+        if (options_.timed) return sound;
+        if (sound < end || failed) return look_back(end);
+        if (looked_) given_ = given, unlooked_ = end;
+        return end;
+    }
+
+    // Makes the rows up to `end` once more: what a block went on to do beyond those that are sound is in none of the scheme's facts, which
+    // would else be a matter of how long the block was.
+    void make_anew(long end) {
+        scheme_.reset();
+        for (long row = 0; row < end; row += options_.block_rows) make(row, std::min(row + options_.block_rows, end), false);
+    }
+
+private:
+    Block block_at(long row, long end, bool probed) {
+        Block block;
+        block.rows = static_cast<int>(end - row);
+        block.taps = trace_.taps();
+        if (probed && !kept_) {
+            block.stride = options_.block_rows;
+            block.tap = beside_.data();
+            block.energy = beside_.data() + block.taps * block.stride;
+        } else {
+            block.stride = trace_.stride;
+            block.tap = trace_.tap.empty() ? nullptr : trace_.tap.data() + row;
+            block.energy = kept_ ? trace_.energy.data() + row : nullptr;
+        }
+        return block;
+    }
+    Status advance(const Block& block, long row) {
+        Block asking = block;
+        teller_.into(asking);
+        const Status status = scheme_.advance(asking);
+        for (int k = 0; block.tap == beside_.data() && k < block.taps; ++k)
+            std::copy_n(block.tap + k * block.stride, block.rows, trace_.tap.data() + k * trace_.stride + row);
+        return status;
+    }
+    Block make(long row, long end, bool probed) {
+        const Block block = block_at(row, end, probed);
+        advance(block, row);
+        teller_.rethrow();
+        return block;
+    }
+
+    // In a block that begins at `row`; `end` where there is none.
+    static long first_not_finite(const Block& block, long row, long end) {
+        for (long n = row; n < end; ++n)
+            for (int k = 0; k < block.taps; ++k)
+                if (!std::isfinite(block.tap[k * block.stride + n - row])) return n;
+        return end;
+    }
+    // Likewise, where its energy was asked for; `given` sums the supply.
+    template <class StandsFor>
+    static long first_unsound(const Block& block, long row, long end, double& given, const StandsFor& stands_for) {
+        end = first_not_finite(block, row, end);
+        for (long n = row; n < end; ++n) {
+            const double rows = n == 0 ? 1 : static_cast<double>(stands_for(n)), stored = block.energy[n - row];
+            if (rows == 0) continue;
+            given += rows * std::abs(n == 0 ? stored : block.energy[block.stride + n - row]);
+            if (!std::isfinite(stored) || stored > energy_budget * given) return n;
+        }
+        return end;
+    }
+    long look_back(long end) {
+        double given = 0;
+        if (!kept_) scheme_.reset();
+        for (long row = 0, to = 0; row < end; row = to) {
+            const Look look = looks_.back_at(row, unlooked_);
+            to = std::min({row + options_.block_rows, look.until, end});
+            const Block block = kept_ ? block_at(row, to, true) : make(row, to, look.now);
+            if (!look.now) continue;
+            if (const long sound = first_unsound(block, row, to, given, [](long) { return 1; }); sound < to) return sound;
+        }
+        given_ = given, unlooked_ = end;
+        return end;
+    }
+
+    Scheme& scheme_;
+    Trace& trace_;
+    const RunOptions& options_;
+    Teller& teller_;
+    const Looks looks_;
+    const bool kept_;             // the energy, in the trace
+    bool looked_ = false;         // at the rows of the block in hand
+    long unlooked_ = 0;           // the first row since the last look
+    double given_ = 0;            // energy until then [J]
+    std::vector<double> beside_;  // rows that are looked at where the trace keeps no energy: taps, then energy
+};
+}  // namespace
 
 long rows_of(const Scene& scene, const Settings& settings) {
-    const double intervals = std::round(scene.duration * settings.tap_rate);
-    if (!(intervals >= 0 && intervals < most_rows))
+    constexpr double rounding = 1e-9;
+    const double intervals = scene.duration * settings.tap_rate;
+    if (!(intervals > 1 - rounding))
+        throw BadScene("duration", number_text(scene.duration) + " s",
+                       "no less than a row, which is " + number_text(1 / settings.tap_rate) + " s at this tap rate");
+    if (!(intervals < most_rows))
         throw Refusal(std::to_string(scene.duration) + " s at " + std::to_string(settings.tap_rate) +
                       " rows a second: expected no more than " + std::to_string(static_cast<long>(most_rows)) + " rows");
-    return static_cast<long>(intervals) + 1;
+    return std::lround(intervals) + 1;
 }
-}  // namespace
 
 // A scheme in continuous time has no rate: its rows are its steps.
 Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunOptions& options) {
@@ -144,16 +231,15 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
     scheme.reset();
     const FlushDenormals flush;
     Steady::duration stepping{};
-    double given = 0;
     bool told = false;
     Teller teller(options.progress, trace.stride);
+    Stepper stepper(scheme, trace, scene, options, teller);
     const bool listened = options.progress || options.slow;
     int rows = listened ? 1 : options.block_rows;  // of the next block
     while (trace.rows < trace.stride && result.status.outcome == Outcome::ok) {
-        Block block = block_at(trace, trace.rows, rows, trace.stride);
-        teller.into(block);
+        const Block block = stepper.next(rows);
         const auto start = Steady::now();
-        result.status = scheme.advance(block);
+        result.status = stepper.advance(block);
         const auto took = Steady::now() - start;
         stepping += took;
         if (trace.rows > 0 && block.rows == options.block_rows)
@@ -164,13 +250,13 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
 
         teller.rethrow();
         check(result.status, std::lround(static_cast<double>(trace.rows) * steps_per_row), block, steps_per_row);
+        const bool failed = result.status.outcome != Outcome::ok;
         long end = trace.rows + block.rows;
-        if (result.status.outcome != Outcome::ok) end = std::min(end, static_cast<long>(result.status.step / steps_per_row) + 1);
-        const long sound = first_unsound_row(trace, trace.rows, end, given);
-        trace.rows = teller.done = sound;
-        if (sound < end) {
-            result.status = {Outcome::diverged, std::lround(sound * steps_per_row)};
-            replay(scheme, trace, options.block_rows, teller);
+        if (failed) end = std::min(end, static_cast<long>(result.status.step / steps_per_row) + 1);
+        trace.rows = teller.done = stepper.sound_until(block, end, failed);
+        if (trace.rows < end) {
+            result.status = {Outcome::diverged, std::lround(static_cast<double>(trace.rows) * steps_per_row)};
+            stepper.make_anew(trace.rows);
         }
         teller.block_done();
         if (options.slow && !told && stepping > std::chrono::duration<double>(long_run) && trace.rows < trace.stride) {

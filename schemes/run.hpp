@@ -9,7 +9,8 @@
 namespace jvari {
 
 struct RunOptions {
-    bool energy = false;  // fill the energy columns
+    bool energy = false;  // keep the energy columns
+    bool timed = false;   // no energy is asked for but what is kept: another run tells whether this one stays within its energy
     int block_rows = 64;  // rows per advance(); the output does not depend on it
 
     // Told how far the run is, every few hundredths of a second where the scheme asks within its rows (Block::stop), else between blocks,
@@ -30,16 +31,19 @@ struct Run {
     std::vector<Fact> facts;
 };
 
-// A run whose stored energy exceeds this many times what was there at the start and has been supplied since has diverged
-// (seen where the energy is probed; a value that is not finite is always seen).
+// A run whose stored energy exceeds this many times what was there at the start and has been supplied since has diverged, and so has one
+// with a value that is not finite. Status and rows are the same whether the energy is kept or not (looks.hpp).
 constexpr double energy_budget = 10;
 constexpr double long_run = 2;  // [s] of computing
 
 // True energy, as a part of what there was, that a scheme without a promised balance may gain and still count as sound.
 constexpr double gain_allowed_unpromised = 1e-2;
 
-// rows = round(duration x tap_rate) + 1. Denormals are flushed to zero while stepping. Throws Refusal or BadScene before the first step,
-// and BadScheme at any time; a run that fails on the way ends with its status and the rows that are valid.
+// round(duration x tap_rate) + 1. Throws BadScene where a row is longer than the run, Refusal where there are more than can be counted.
+long rows_of(const Scene&, const Settings&);
+
+// Denormals are flushed to zero while stepping. Throws Refusal or BadScene before the first step, and BadScheme at any time; a run that
+// fails on the way ends with its status and the rows that are valid.
 Run run(const Descriptor&, const Scene&, const Settings&, const RunOptions& = {});
 Run run(Scheme&, const Scene&, const Settings&, const RunOptions& = {});  // an existing scheme, from t = 0
 

@@ -29,6 +29,7 @@ void sample(Timed& t) {
     const auto scheme = make_scheme(*t.cell->scheme, *t.scene, t.cell->settings);
     RunOptions options;
     options.energy = t.added == Element::probe;
+    options.timed = true;
     double seconds = 0;
     const double from = processor_seconds();
     for (int k = 0; k < t.runs; ++k) {

@@ -217,7 +217,7 @@ void fused(benchmark::State& state, bool parabola) {
     scene.duration = 20e-3 - 0.5 / tap_rate;
     const auto scheme = make_scheme(modal_spatial_newton, scene, settings);
     long steps = 0;
-    for (auto _ : state) steps = run(*scheme, scene, settings).steps;
+    for (auto _ : state) steps = run(*scheme, scene, settings, {.timed = true}).steps;
     report(state, steps, error({r.trace.column(0).begin(), r.trace.column(0).end()}, parabola));
 }
 

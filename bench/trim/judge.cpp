@@ -56,7 +56,7 @@ double timed(Scheme& scheme, const Scene& scene, const Settings& settings) {
     double took = 0;
     int runs = 0;
     while (took < sample) {
-        run(scheme, scene, settings);
+        run(scheme, scene, settings, {.timed = true});
         took = compare::processor_seconds() - from;
         ++runs;
     }

@@ -16,10 +16,9 @@
 namespace jvari {
 namespace {
 
-// y doubles at each step: diverges on purpose.
+// y and its energy double at each row: diverges on purpose.
 class Doubling final : public Scheme {
 public:
-    explicit Doubling(long fails_at = -1) : fails_at_(fails_at) {}
     void reset() noexcept override { n_ = 0; }
     Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows; ++row, ++n_) {
@@ -28,14 +27,13 @@ public:
                 out.energy[row] = std::ldexp(1.0, static_cast<int>(n_));
                 out.energy[out.stride + row] = out.energy[2 * out.stride + row] = 0;
             }
-            if (n_ == fails_at_) return {Outcome::not_converged, 2 * n_};
         }
         return {};
     }
     int dofs() const override { return 1; }
 
 private:
-    long n_ = 0, fails_at_;
+    long n_ = 0;
 };
 
 Scene second() {
@@ -64,15 +62,15 @@ TEST(RunLoop, ATraceHasOneRowMoreThanItsDurationHasIntervals) {
     Doubling scheme;
     Scene s = second();
     s.duration = 0.06;
-    const auto r = run(scheme, s, {2000, 1000, 0, {}});
+    const auto r = run(scheme, s, {2000, 1000, 0, {}}, {.timed = true});
     EXPECT_EQ(r.trace.rows, 61);
     EXPECT_EQ(r.steps, 122);
 }
 
-TEST(RunLoop, ARunThatOverflowsEndsWithTheRowsThatAreValid) {
+TEST(RunLoop, ATimedRunThatOverflowsEndsWithTheRowsThatAreValid) {
     Doubling scheme;
     for (const int block : {1, 7, 64, 5000}) {
-        const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.block_rows = block});
+        const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.timed = true, .block_rows = block});
         EXPECT_EQ(r.status.outcome, Outcome::diverged);
         EXPECT_EQ(r.trace.rows, 512);  // 2^1024 is infinite
         EXPECT_EQ(r.status.step, 2 * 512);
@@ -80,20 +78,16 @@ TEST(RunLoop, ARunThatOverflowsEndsWithTheRowsThatAreValid) {
     }
 }
 
-TEST(RunLoop, ARunThatLeavesItsEnergyBudgetHasDiverged) {
+TEST(RunLoop, ARunThatLeavesItsEnergyBudgetHasDivergedWhetherItsEnergyIsKeptOrNot) {
     Doubling scheme;
-    const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.energy = true});
-    EXPECT_EQ(r.status.outcome, Outcome::diverged);
-    EXPECT_EQ(r.trace.rows, 4);  // stored 1, 2, 4, 8 and then 16 > 10 x 1
-}
-
-TEST(RunLoop, ARunThatFailsKeepsTheRowsUpToTheFailingStep) {
-    for (const int block : {1, 7, 64}) {
-        Doubling scheme(100);
-        const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.block_rows = block});
-        EXPECT_EQ(r.status.outcome, Outcome::not_converged);
-        EXPECT_EQ(r.trace.rows, 101);
-    }
+    for (const bool energy : {false, true})
+        for (const int block : {1, 7, 64, 5000}) {
+            const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.energy = energy, .block_rows = block});
+            EXPECT_EQ(r.status.outcome, Outcome::diverged);
+            EXPECT_EQ(r.status.step, 8);
+            EXPECT_EQ(r.trace.rows, 4);  // stored 1, 2, 4, 8 and then 16 > 10 x 1
+            EXPECT_EQ(r.trace.energy.empty(), !energy);
+        }
 }
 
 // A scheme that says and does what a test tells it to; a row is a step.
@@ -111,6 +105,93 @@ struct Odd final : Scheme {
     std::vector<Fact> facts() const override { return told(); }
 };
 
+TEST(RunLoop, ARunThatFailsKeepsTheRowsUpToTheFailingStep) {
+    for (const bool energy : {false, true})
+        for (const int block : {1, 7, 64}) {
+            Odd scheme;
+            scheme.act = [](const Block& out, long first) {
+                return first + out.rows > 100 ? Status{Outcome::not_converged, 200} : Status{};
+            };
+            const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.energy = energy, .block_rows = block});
+            EXPECT_EQ(r.status.outcome, Outcome::not_converged);
+            EXPECT_EQ(r.trace.rows, 101);
+        }
+}
+
+// A string of which stored and supplied energy are told row by row; a row is a step.
+Odd storing(std::function<double(long)> stored, std::function<double(long)> supplied) {
+    Odd scheme;
+    scheme.act = [=](const Block& out, long first) {
+        for (int n = 0; n < out.rows && out.energy; ++n) write_energy(out, n, stored(first + n), supplied(first + n), 0);
+        return Status{};
+    };
+    return scheme;
+}
+struct Met {
+    Outcome outcome;
+    long step, rows;
+    bool operator==(const Met&) const = default;
+};
+Met met(Odd scheme, const Scene& scene, const RunOptions& options) {
+    const auto r = run(scheme, scene, {1000, 1000, 0, {}}, options);
+    return {r.status.outcome, r.status.step, r.trace.rows};
+}
+void expect_met(const Odd& scheme, const Scene& scene, const Met& expected) {
+    for (const bool energy : {false, true})
+        for (const int block : {1, 7, 64, 5000}) EXPECT_EQ(met(scheme, scene, {.energy = energy, .block_rows = block}), expected) << block;
+}
+
+TEST(RunLoop, WhatAPluckSuppliesBelongsToTheBudget) {
+    Scene scene = second();
+    scene.strings.front().pluck = {.amplitude = 1, .duration = 0.01, .start = 0.4, .position = 0.1};
+    const auto supplied = [](long row) { return row > 400 && row <= 410 ? 1.0 : 0.0; };
+    const auto grown_to = [](double energy) { return [energy](long row) { return row > 410 ? energy : 0; }; };
+    expect_met(storing(grown_to(99), supplied), scene, {Outcome::ok, 0, 1001});
+    expect_met(storing(grown_to(101), supplied), scene, {Outcome::diverged, 411, 411});
+    expect_met(storing([](long row) { return row >= 404 ? 41 : 0; }, supplied), scene, {Outcome::diverged, 404, 404});  // 40 J by then
+}
+
+// Of a long pluck some rows tell what it supplies: what they let seem too much is looked at row by row.
+TEST(RunLoop, WhatALongPluckSuppliesIsSummedWhereItMatters) {
+    Scene scene = second();
+    scene.strings.front().pluck = {.amplitude = 1, .duration = 10, .start = 0.4, .position = 0.1};  // beyond the end
+    const auto supplied = [](long row) { return row == 403 ? 1.0 : 0.0; };                          // between two of them
+    const auto from = [](long first, double energy) { return [=](long row) { return row >= first ? energy : 0; }; };
+    expect_met(storing(from(403, 9.9), supplied), scene, {Outcome::ok, 0, 1001});
+    expect_met(storing(from(403, 10.1), supplied), scene, {Outcome::diverged, 403, 403});
+    expect_met(storing(from(402, 1), supplied), scene, {Outcome::diverged, 402, 402});
+    for (const long row : {404L, 512L, 700L, 701L, 999L, 1000L})
+        expect_met(storing([row](long n) { return n >= row   ? 10.1
+                                                  : n >= 403 ? 1.0
+                                                             : 0.0; }, supplied), scene,
+                   {Outcome::diverged, row, row});
+}
+
+TEST(RunLoop, ABudgetThatIsLeftNearTheEndIsSeen) {
+    for (const long row : {1L, 255L, 256L, 257L, 999L, 1000L}) {
+        const auto stored = [row](long n) { return n >= row ? 11.0 : 1.0; };
+        expect_met(storing(stored, [](long) { return 0; }), second(), {Outcome::diverged, row, row});
+    }
+}
+
+TEST(RunLoop, ASchemeThatFailsOnceItsBudgetIsLeftHasDivergedWhereItWasLeft) {
+    Odd scheme = storing([](long row) { return row >= 300 ? 11 : 1; }, [](long) { return 0; });
+    scheme.act = [stores = scheme.act](const Block& out, long first) {
+        stores(out, first);
+        return first + out.rows > 310 ? Status{Outcome::not_converged, 310} : Status{};
+    };
+    expect_met(scheme, second(), {Outcome::diverged, 300, 300});
+}
+
+TEST(RunLoop, ARowThatIsLongerThanTheRunIsNoRow) {
+    Odd scheme;
+    Scene scene = second();
+    for (const double row : {1.1, 2.0, 1000.0}) EXPECT_THROW(run(scheme, scene, {1000, 1 / row, 0, {}}), BadScene) << row;
+    EXPECT_EQ(run(scheme, scene, {1000, 1, 0, {}}).trace.rows, 2);
+    scene.duration = 1 / 44100.0;
+    EXPECT_EQ(run(scheme, scene, {44100, 44100, 0, {}}).trace.rows, 2);
+}
+
 TEST(RunLoop, AReferenceInContinuousTimeThatFailsKeepsItsRowsToo) {
     for (const bool energy : {false, true}) {
         Odd scheme;
@@ -123,22 +204,22 @@ TEST(RunLoop, AReferenceInContinuousTimeThatFailsKeepsItsRowsToo) {
 }
 
 TEST(RunLoop, FactsOfARunThatDivergesDoNotDependOnTheBlock) {
-    const auto met = [](int block_rows) {
+    const auto met = [](int block_rows, bool energy) {
         Odd scheme;  // stores 2^row, and tells the most that it has stored
         double most = 0;
         scheme.act = [&most](const Block& out, long first) {
             if (first == 0) most = 0;
-            for (int n = 0; n < out.rows; ++n) out.energy[n] = most = std::exp2(static_cast<double>(first + n));
-            for (int n = 0; n < out.rows; ++n) out.energy[out.stride + n] = out.energy[2 * out.stride + n] = 0;
+            most = std::exp2(static_cast<double>(first + out.rows - 1));
+            for (int n = 0; n < out.rows && out.energy; ++n) write_energy(out, n, std::exp2(static_cast<double>(first + n)), 0, 0);
             return Status{};
         };
         scheme.told = [&most] { return std::vector<Fact>{{{"most", "J", ""}, most}}; };
-        const auto r = run(scheme, second(), {1000, 1000, 0, {}}, {.energy = true, .block_rows = block_rows});
+        const auto r = run(scheme, second(), {1000, 1000, 0, {}}, {.energy = energy, .block_rows = block_rows});
         EXPECT_EQ(r.status.outcome, Outcome::diverged);
         return std::pair{r.trace.rows, r.facts.at(0).value};
     };
-    EXPECT_EQ(met(64), met(1));
-    EXPECT_EQ(met(64), met(7));
+    for (const bool energy : {false, true})
+        for (const int rows : {1, 7, 64}) EXPECT_EQ(met(rows, energy), met(64, true));
 }
 
 TEST(RunLoop, WhatASchemeCannotMeanIsASentence) {
