@@ -27,10 +27,11 @@ std::vector<Pair> in_both(const Named& before, const Named& after, Only& only) {
     return pairs;
 }
 
-std::vector<std::string> shared_columns(const store::Table& before, const store::Table& after) {
+// Those of `before` that are compared: an error whose column is gone is an error that is no longer known.
+std::vector<std::string> compared_columns(const store::Table& before, const store::Table& after) {
     std::vector<std::string> names;
     for (const std::string& name : before.columns)
-        if (after.column(name) >= 0) names.push_back(name);
+        if (!is_cost(name) && !is_skipped(name) && (after.column(name) >= 0 || is_judged(name))) names.push_back(name);
     return names;
 }
 
@@ -49,12 +50,11 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     d.cells_in_both = static_cast<int>(pairs.size());
     columns_alone(a.cells, b.cells, d.columns.before);
     columns_alone(b.cells, a.cells, d.columns.after);
-    const auto columns = shared_columns(a.cells, b.cells);
+    const auto columns = compared_columns(a.cells, b.cells);
     int other_truth = 0;
     for (const Pair& p : pairs) {
         bool same_truth = true;
         for (const std::string& column : columns) {
-            if (is_cost(column) || is_skipped(column)) continue;
             ++d.compared;
             const Turn turn = turn_of(column, a.cells, p.before, b.cells, p.after);
             if (turn == Turn::same) continue;
@@ -90,8 +90,7 @@ void compare_maps(const Folder& a, const Folder& b, Difference& d) {
         if (turn != Turn::same) d.findings.push_back({turn, "map " + p.name, "outcome", was, is, b.maps.at(p.after, "detail")});
     }
     const std::vector<std::string> lines{"map", "scheme", "x_key", "y_key", "y", "between"};
-    Only unfound;
-    for (const Pair& p : in_both(named_rows(a.boundaries, lines), named_rows(b.boundaries, lines), unfound)) {
+    for (const Pair& p : in_both(named_rows(a.boundaries, lines), named_rows(b.boundaries, lines), d.boundaries)) {
         ++d.compared;
         const auto low = [](const store::Table& t, std::size_t i) { return t.number(i, "x_low"); };
         const auto high = [](const store::Table& t, std::size_t i) { return t.number(i, "x_high"); };
@@ -100,8 +99,6 @@ void compare_maps(const Folder& a, const Folder& b, Difference& d) {
         d.findings.push_back({Turn::moved, "boundary " + p.name, "x_low", a.boundaries.at(p.before, "x_low"),
                               b.boundaries.at(p.after, "x_low"), "the brackets are apart"});
     }
-    for (const std::string& name : unfound.before) d.points.before.push_back("boundary " + name);
-    for (const std::string& name : unfound.after) d.points.after.push_back("boundary " + name);
 }
 }  // namespace
 
@@ -109,8 +106,12 @@ int Difference::count(Turn t) const {
     return static_cast<int>(std::count_if(findings.begin(), findings.end(), [t](const Finding& f) { return f.turn == t; }));
 }
 
+int Difference::missing() const {
+    return static_cast<int>(cells.before.size() + points.before.size() + modes.before.size());
+}
+
 bool Difference::nothing() const {
-    for (const Only* only : {&cells, &columns, &points, &modes})
+    for (const Only* only : {&cells, &columns, &points, &boundaries, &modes})
         if (!only->before.empty() || !only->after.empty()) return false;
     return findings.empty();
 }

@@ -23,13 +23,14 @@ struct Only {  // what one of the folders has alone
 
 struct Difference {
     std::vector<Finding> findings;  // of what both have; those of a row stand together, headline columns first
-    Only cells, columns, points, modes;
+    Only cells, columns, points, boundaries, modes;
     std::vector<std::string> notes;  // what could not be compared, and why
     int cells_in_both = 0;
     int compared = 0;  // fields
 
     int count(Turn) const;
-    bool worse() const { return count(Turn::worse) > 0; }
+    int missing() const;  // cells, points and modes that are no longer there
+    bool worse() const { return count(Turn::worse) > 0 || missing() > 0; }
     bool nothing() const;  // no finding, and nothing that one has alone
 };
 

@@ -76,13 +76,14 @@ std::string text_of(const Difference& d, const Folder& before, const Folder& aft
     std::string text;
     for (const auto& [name, f] : {std::pair{"before", &before}, std::pair{"after", &after}})
         text += fmt::format("{:<7} {}: commit {}, {}, {}\n", name, f->name, f->made.commit, f->made.date, f->made.machine());
-    text += fmt::format("{} cells in both, {} fields compared: {} worse, {} better, {} moved\n", d.cells_in_both, d.compared,
-                        d.count(Turn::worse), d.count(Turn::better), d.count(Turn::moved));
+    text += fmt::format("{} cells in both, {} fields compared: {} worse, {} better, {} moved{}\n", d.cells_in_both, d.compared,
+                        d.count(Turn::worse), d.count(Turn::better), d.count(Turn::moved),
+                        d.missing() > 0 ? fmt::format(", {} missing after, which counts as worse", d.missing()) : "");
     text += findings_text(d, Turn::worse, "worse", most);
     text += findings_text(d, Turn::better, "better", most);
     text += findings_text(d, Turn::moved, "moved: neither better nor worse for certain", most);
     const std::pair<const char*, const Only*> kinds[] = {
-        {"cells", &d.cells}, {"columns", &d.columns}, {"modes", &d.modes}, {"points of maps", &d.points}};
+        {"cells", &d.cells}, {"columns", &d.columns}, {"modes", &d.modes}, {"points of maps", &d.points}, {"boundaries", &d.boundaries}};
     for (const auto& [what, only] : kinds)
         text += only_text(what, "before", only->before, most) + only_text(what, "after", only->after, most);
     for (const std::string& note : d.notes) text += "\nnote: " + note + "\n";
@@ -100,20 +101,25 @@ std::string json_of(const Difference& d, const Folder& before, const Folder& aft
                             {"after", f.after},
                             {"detail", f.detail}});
     const auto only = [](const Only& o) { return Json{{"before", o.before}, {"after", o.after}}; };
-    return store::indented(
-        {{"status", d.worse()     ? "worse"
-                    : d.nothing() ? "same"
-                                  : "changed"},
-         {"before", json_of(before)},
-         {"after", json_of(after)},
-         {"cells_in_both", d.cells_in_both},
-         {"fields_compared", d.compared},
-         {"worse", d.count(Turn::worse)},
-         {"better", d.count(Turn::better)},
-         {"moved", d.count(Turn::moved)},
-         {"findings", findings},
-         {"only", {{"cells", only(d.cells)}, {"columns", only(d.columns)}, {"modes", only(d.modes)}, {"points", only(d.points)}}},
-         {"notes", d.notes}});
+    return store::indented({{"status", d.worse()     ? "worse"
+                                       : d.nothing() ? "same"
+                                                     : "changed"},
+                            {"before", json_of(before)},
+                            {"after", json_of(after)},
+                            {"cells_in_both", d.cells_in_both},
+                            {"fields_compared", d.compared},
+                            {"worse", d.count(Turn::worse)},
+                            {"better", d.count(Turn::better)},
+                            {"moved", d.count(Turn::moved)},
+                            {"missing", d.missing()},
+                            {"findings", findings},
+                            {"only",
+                             {{"cells", only(d.cells)},
+                              {"columns", only(d.columns)},
+                              {"modes", only(d.modes)},
+                              {"points", only(d.points)},
+                              {"boundaries", only(d.boundaries)}}},
+                            {"notes", d.notes}});
 }
 
 }  // namespace jvari::bench::diff

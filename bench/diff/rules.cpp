@@ -71,7 +71,8 @@ bool same_number(double before, double after, double tolerance) {
 
 // 1: larger is worse, -1: larger is better, 0: neither.
 int worse_where_larger(const std::string& column) {
-    if (column.starts_with("energy_residual") || column.starts_with("error_in_model")) return 1;
+    for (const char* name : {"energy_residual", "error_in_model", "certificate"})
+        if (column.starts_with(name)) return 1;
     for (const compare::Measure& m : compare::measures())
         if (column.starts_with(m.column)) return m.less_is_better ? 1 : -1;
     return 0;
@@ -96,6 +97,10 @@ bool is_cost(const std::string& column) {
            begins(column, {"cost_", "processor_", "wall_seconds"});
 }
 
+bool is_judged(const std::string& column) {
+    return worse_where_larger(column) != 0;
+}
+
 bool is_skipped(const std::string& column) {
     return column == "cell" || column == "below_floor";
 }
@@ -105,19 +110,22 @@ Turn turn_of(const std::string& column, const store::Table& before, std::size_t 
     const double was = before.number(i, column), is = after.number(k, column);
     if (same_number(was, is, tolerance_of(column, before, i))) return Turn::same;
     const int sign = worse_where_larger(column);
-    if (sign == 0 || std::isnan(was) || std::isnan(is)) return Turn::moved;
+    if (sign == 0) return Turn::moved;
+    if (std::isnan(was) || std::isnan(is)) return std::isnan(is) ? Turn::worse : Turn::better;
     const auto certain = [&](const store::Table& t, std::size_t at) {
         const double c = compare::bound_of(t, at, column).certificate;
         return std::isnan(c) ? 0 : c;
     };
-    if (!(std::abs(is - was) > certain(before, i) + certain(after, k))) return Turn::moved;
+    const double certain_before = certain(before, i);
+    if (!(std::abs(is - was) > certain_before + std::min(certain_before, certain(after, k)))) return Turn::moved;
     return sign * (is - was) > 0 ? Turn::worse : Turn::better;
 }
 
 Turn dispersion_turn(const std::string& column, double before, double after) {
     const double tolerance = column.starts_with("own_") ? 1e-8 : column == "trace_cents" ? 1e-4 : 1e-3;
     if (same_number(before, after, tolerance)) return Turn::same;
-    if (!column.ends_with("_cents") || std::isnan(before) || std::isnan(after)) return Turn::moved;
+    if (!column.ends_with("_cents")) return Turn::moved;
+    if (std::isnan(before) || std::isnan(after)) return std::isnan(after) ? Turn::worse : Turn::better;
     return std::abs(after) > std::abs(before) ? Turn::worse : Turn::better;
 }
 

@@ -12,8 +12,10 @@
 // floor of the row and 1e-6 of itself; residuals of the ledger by 1e-9 and that; an instant by two rows; a noise floor, which is rounding
 // itself, tenfold; what iterations counted and left, by a hundredth.
 //
-// An error that moved by more got worse, or better, where it moved by more than both certificates together: else neither is certain of the
-// truth, and it only moved.
+// An error that moved by more than that got worse or better if it moved by more than both certificates together. Otherwise neither side
+// knows the true error that well, and the error only moved. The certificate of the later side counts no more than that of the earlier one,
+// and a certificate that grew is worse itself: a result cannot be excused by knowing less. A number that was known and no longer is, is
+// worse.
 #pragma once
 
 #include <string>
@@ -27,8 +29,9 @@ const char* name_of(Turn);
 
 bool is_cost(const std::string& column);     // of a clock
 bool is_skipped(const std::string& column);  // a name, or what follows from the rest
+bool is_judged(const std::string& column);   // an error, a certificate or a residual: it gets worse or better
 
-// A field of a cell that is in both tables.
+// A field of a cell that is in both tables; a column that one of them lacks is empty there.
 Turn turn_of(const std::string& column, const store::Table& before, std::size_t i, const store::Table& after, std::size_t k);
 
 // A field of dispersion.csv.

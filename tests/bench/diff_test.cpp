@@ -101,6 +101,88 @@ TEST(Errors, GetWorseBeyondNoiseAndCertificatesAlone) {
     EXPECT_EQ(turn_between(was, cell("ok", "", INFINITY, 1e-12, 1e-3)), Turn::worse);
 }
 
+Turn turn_in(const Difference& d, const std::string& column) {
+    for (const auto& f : d.findings)
+        if (f.column == column) return f.turn;
+    return Turn::same;
+}
+
+TEST(Errors, ThatAreNoLongerKnownAreWorse) {
+    const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    for (const char* unknown : {"", "nan"}) {
+        Folder is = was;
+        is.cells.rows[0][4] = unknown;
+        EXPECT_EQ(turn_between(was, is), Turn::worse) << unknown;
+        EXPECT_EQ(turn_between(is, was), Turn::better) << unknown;
+        EXPECT_EQ(turn_between(is, is), Turn::same) << unknown;
+    }
+    Folder without = was;  // the whole column
+    without.cells.columns.erase(without.cells.columns.begin() + 4);
+    without.cells.rows[0].erase(without.cells.rows[0].begin() + 4);
+    EXPECT_EQ(turn_between(was, without), Turn::worse);
+}
+
+TEST(Errors, AreNotExcusedByACertificateThatGrew) {
+    const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    const Difference nine = difference(was, cell("ok", "", 0.45, 1e-12, 1e9));
+    EXPECT_EQ(turn_in(nine, "error_l2_50ms"), Turn::worse);
+    EXPECT_EQ(turn_in(nine, "certificate_l2_50ms"), Turn::worse);
+    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0519, 1e-12, 5e-3)), "error_l2_50ms"), Turn::moved);
+    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0521, 1e-12, 5e-3)), "error_l2_50ms"), Turn::worse);
+    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0512, 1e-12, 1e-4)), "error_l2_50ms"), Turn::worse);
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05, 1e-12, 2e-3)), Turn::worse);  // the certificate itself
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05, 1e-12, 5e-4)), Turn::better);
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05, 1e-12, NAN)), Turn::worse);
+}
+
+TEST(Cells, ThatAreMissingAfterAreWorse) {
+    Folder two = cell("ok", "", 0.05, 1e-12, 1e-3), one = two;
+    two.cells.rows.push_back({"b", "44100", "ok", "", "0.05", "1e-12", "1e-3"});
+    EXPECT_TRUE(difference(two, one).worse());
+    EXPECT_EQ(difference(two, one).missing(), 1);
+    EXPECT_FALSE(difference(one, two).worse());
+}
+
+Folder modes(const std::vector<std::string>& own_cents) {
+    Folder f;
+    f.dispersion.columns = {"scene", "scheme", "options", "rate", "mode", "own_cents", "own_decay_per_s"};
+    for (std::size_t k = 0; k < own_cents.size(); ++k)
+        f.dispersion.rows.push_back({"s", "a", "", "44100", std::to_string(k + 1), own_cents[k], "1"});
+    return f;
+}
+
+TEST(Dispersion, IsWorseWhereAModeIsFurtherFromItsPitchOnEitherSide) {
+    for (const auto& [before, after] : {std::pair{"1", "-3"}, {"-1", "-3"}, {"1", "3"}, {"-1", "3"}, {"1", ""}}) {
+        EXPECT_EQ(turn_in(difference(modes({before}), modes({after})), "own_cents"), Turn::worse) << before << " " << after;
+        EXPECT_EQ(turn_in(difference(modes({after}), modes({before})), "own_cents"), Turn::better) << before << " " << after;
+    }
+    EXPECT_EQ(turn_in(difference(modes({"1"}), modes({"1.000000001"})), "own_cents"), Turn::same);
+    EXPECT_TRUE(difference(modes({"1", "2"}), modes({"1"})).worse());
+}
+
+Folder boundary(const std::string& low, const std::string& high) {
+    Folder f;
+    f.boundaries.columns = {"map", "scheme", "x_key", "y_key", "y", "between", "x_low", "x_high"};
+    f.boundaries.rows = {{"m", "a", "rate", "", "", "sound and diverged", low, high}};
+    return f;
+}
+
+TEST(Boundaries, MovedWhereTheirBracketsAreApartOnEitherSide) {
+    const Folder was = boundary("10", "20");
+    for (const auto& [low, high] : {std::pair{"21", "30"}, {"1", "9"}})
+        EXPECT_EQ(turn_between(was, boundary(low, high)), Turn::moved) << low;
+    for (const auto& [low, high] : {std::pair{"20", "30"}, {"1", "10"}, {"12", "13"}, {"5", "50"}})
+        EXPECT_EQ(turn_between(was, boundary(low, high)), Turn::same) << low;
+}
+
+TEST(Boundaries, ThatAreGoneAreToldAndAreNotWorse) {
+    Folder one = boundary("10", "20"), two = one;
+    two.boundaries.rows.push_back({"m", "b", "rate", "", "", "sound and diverged", "1", "2"});
+    const Difference d = difference(two, one);
+    EXPECT_FALSE(d.worse());
+    EXPECT_FALSE(d.nothing());
+}
+
 TEST(Outcomes, ThatFailAreWorseAndFlagsToo) {
     const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
     EXPECT_EQ(turn_between(was, cell("diverged", "", 0.05, 1e-12, 1e-3)), Turn::worse);
@@ -118,6 +200,10 @@ TEST(Outcomes, OfMapsAreComparedPointByPoint) {
     EXPECT_EQ(d.findings[0].turn, Turn::worse);
     EXPECT_EQ(d.points.before.size(), 1u);
     EXPECT_EQ(d.points.after.size(), 1u);
+    b.maps.rows[0].back() = "sound";
+    EXPECT_TRUE(difference(a, b).worse());  // a point is missing
+    b.maps.rows[1] = a.maps.rows[1];
+    EXPECT_FALSE(difference(a, b).worse());
 }
 
 TEST(Folders, WithNothingInCommonAreRefused) {
@@ -164,6 +250,24 @@ TEST(Diff, RefusesBadFolders) {
     EXPECT_EQ(shell(scratch, "$J diff x").code, 2);
     EXPECT_EQ(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/stability").code, 2);
     EXPECT_EQ(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/smoke").code, 0);
+}
+
+TEST(Diff, EndsWith4WhereErrorsOrCellsOfTheFirstFolderAreGone) {
+    const Scratch scratch;
+    const std::string head = "scheme,rate,status,error_l2_50ms\\n", a = "a,1,ok,0.1\\n", b = "b,1,ok,0.1\\n";
+    const Outcome o =
+        shell(scratch,
+              "make() { mkdir $1; echo '{}' >$1/manifest.json; printf \"$2\" >$1/errors.csv; }\n"
+              "make both '" +
+                  head + a + b + "'; make one '" + head + a + "'; make empty '" + head +
+                  "a,1,ok,\\nb,1,ok,nan\\n'\n"
+                  "$J diff both empty --quiet; echo $?; $J diff both one --quiet; echo $?; $J diff one both --quiet; echo $?\n"
+                  "$J diff both one; $J diff both one --json");
+    EXPECT_EQ(o.out.substr(0, 6), "4\n4\n0\n") << o.err;
+    EXPECT_NE(o.out.find("1 missing after, which counts as worse"), std::string::npos) << o.out;
+    const auto j = nlohmann::json::parse(o.out.substr(o.out.find('{')));
+    EXPECT_EQ(j["status"], "worse");
+    EXPECT_EQ(j["missing"], 1);
 }
 
 TEST(Diff, HistoryComparesEachCommitWithTheOneBefore) {
