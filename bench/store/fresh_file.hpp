@@ -1,4 +1,5 @@
 // Files appear whole or not at all: written beside their place, then renamed onto it. Where a link stands there, its target is written.
+// What is written beside it has a name that nobody can foretell, and was not there before: no link that somebody planted is followed.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,7 @@ namespace jvari::bench::store {
 
 class FreshFile {
 public:
-    explicit FreshFile(std::filesystem::path);  // throws UsageError where it could not be written
+    explicit FreshFile(std::filesystem::path);  // throws UsageError, Unwritable
     ~FreshFile();                               // removes what was written where it was not kept
     FreshFile(const FreshFile&) = delete;
     FreshFile& operator=(const FreshFile&) = delete;
@@ -20,6 +21,7 @@ public:
 private:
     Undisturbed writing_;  // an interruption leaves no part behind
     std::filesystem::path path_, beside_;
+    int file_ = -1;
     bool kept_ = false;
 };
 
@@ -29,8 +31,7 @@ std::string read_whole(const std::filesystem::path&);                        // 
 // Throws UsageError where no file could be written there, before an hour of work is spent on it.
 void must_be_writable(const std::filesystem::path&);
 
-// Removes from a folder of ours what killed programs left: parts of files of processes that are no more, and that nobody has written to for
-// an hour (a process of another container is not seen from here); of another machine's, what nobody has written to for a day.
+// Removes from a folder of ours what killed programs left: parts of files that nobody has written to for a day.
 void sweep_parts(const std::filesystem::path& folder);
 
 }  // namespace jvari::bench::store

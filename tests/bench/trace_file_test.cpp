@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bench/store/fresh_file.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {
@@ -35,6 +36,35 @@ std::string scene_with(const std::string& taps) {
 }
 std::string tap(const std::string& name) {
     return "[[tap]]\nname = \"" + name + "\"\nquantity = \"nut_force\"\nstring = 0\n";
+}
+
+TEST(TraceFile, HasAnyNameThatTheFileSystemTakes) {
+    const Scratch scratch;
+    const std::string run = "$J run free_string --scheme modal_two_point --duration 0.002 --out ", longest(255, 'a');
+    for (const char* extension : {".csv", ".wav", ".h5"}) {
+        const std::string name = longest.substr(0, 255 - std::string(extension).size()) + extension;
+        EXPECT_EQ(shell(scratch, run + name).code, 0) << name;
+        EXPECT_TRUE(std::filesystem::exists(scratch / name));
+        const Outcome longer = shell(scratch, run + "a" + name);
+        EXPECT_EQ(longer.code, 2);
+        EXPECT_NE(longer.err.find("too long"), std::string::npos) << longer.err;
+    }
+}
+
+TEST(TraceFile, IsWrittenBesideItsPlaceUnderANameThatNobodyCanForetell) {
+    const Scratch scratch;
+    std::ofstream(scratch / "outside") << "mine";
+    // what a program of this process would have been foretold to write through
+    ASSERT_EQ(shell(scratch,
+                    "ln -s $PWD/outside .t.csv.$(hostname).$$.part\n"
+                    "exec $J run free_string --scheme modal_two_point --duration 0.002 --out t.csv")
+                  .code,
+              0);
+    EXPECT_EQ(content(scratch / "outside"), "mine");
+    EXPECT_FALSE(std::filesystem::is_symlink(scratch / "t.csv"));
+    const bench::store::FreshFile one(scratch / "x"), two(scratch / "x");
+    EXPECT_NE(one.path(), two.path());
+    EXPECT_TRUE(std::filesystem::is_regular_file(one.path()));  // there before anything is written: nobody else can make it
 }
 
 TEST(TraceFile, WhatOneDoesNotHoldIsSaidBeforeTheRun) {
