@@ -15,12 +15,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", "references"};
-constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".part"};
+constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".toml", ".part"};
 
 std::string what_is_in(const fs::path& manifest) {  // "" where that cannot be told
     try {
         const auto m = nlohmann::json::parse(store::read_whole(manifest));
-        if (m.contains("suite")) return "suite " + m.at("suite").get<std::string>();
+        if (m.contains("suite")) {
+            const std::string name = m.at("suite");
+            return name.starts_with("trim ") ? "trim of " + name.substr(5) : "suite " + name;
+        }
         return "comparison of " + m.at("scene").at("name").get<std::string>();
     } catch (const std::exception&) {
         return "";

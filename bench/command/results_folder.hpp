@@ -1,4 +1,4 @@
-// The folder that results go to: of one comparison or one suite, so that no page mixes what was measured apart.
+// The folder that results go to: of one comparison, one suite or one trimmed scene, so that no page mixes what was measured apart.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,8 @@
 namespace jvari::bench::command {
 
 // Before anything is run. Throws UsageError where the folder holds the results of something else than `what` ("comparison of tanpura_c3",
-// "suite smoke"); notes files that no such folder has, which stay where they are. A folder that is not there is empty.
+// "suite smoke", "trim of tanpura_c3"); notes files that no such folder has, which stay where they are. A folder that is not there is
+// empty.
 void must_be_ours(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
 
 // What they write into, once it is ours: made, found writable, and without the parts that a killed run left.

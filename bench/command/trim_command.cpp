@@ -8,6 +8,7 @@
 
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/results_folder.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
@@ -71,6 +72,7 @@ int trim_command(const TrimCall& r) {
     if (!r.out.empty())
         last_word.emplace(
             [&] { console.note("interrupted: what was judged is kept in " + r.out + "; the same command goes on from there"); });
+    if (!r.out.empty()) must_be_ours(r.out, "trim of " + compare::load_scene(r.scene, r.set, {}).name, console);
     trim::Judge judge(request, catalogue, console);
     const trim::Trimmed t = trim::trimmed(judge, request, catalogue, console);
     const std::string manifest = trim::manifest_of(t, judge, request);

@@ -14,6 +14,7 @@ namespace jvari::bench::trim {
 
 namespace {
 using Signal = std::span<const double>;
+constexpr double most_without_unit = 0.5;  // a larger tolerance is more likely meant in per cent
 
 double l2_50ms(Signal c, Signal r, double rate) {
     constexpr double end = 50e-3;  // or the run's, where that is sooner
@@ -100,6 +101,9 @@ Target target_of(const std::string& name, const std::string& within) {
     if (error != std::errc() || !std::isfinite(x) || !(x > 0) || (!unit.empty() && unit != found->unit))
         throw store::UsageError(
             fmt::format("--within {}: expected a tolerance of {}, as {}", within, found->name, relative ? "1%" : "1dB"));
+    if (relative && unit.empty() && x > most_without_unit)
+        throw store::UsageError(fmt::format("--within {}: without a unit this is {:.4g} %; say {}%, or {:.4g}% where that is meant", within,
+                                            100 * x, within, 100 * x));
     return {&*found, unit == "%" ? x / 100 : x};
 }
 

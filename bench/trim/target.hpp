@@ -19,7 +19,8 @@ struct Target {
     const Measure* measure;
     double most;  // 0.01 for 1 %; dB as they are
 };
-// "1%", "0.01", "1dB". Throws UsageError for a measure that there is not and for a tolerance in another unit than the measure's.
+// "1%", "0.01", "1dB". Throws UsageError for a measure that there is not, for a tolerance in another unit than the measure's, and for one
+// above 0.5 that says no unit.
 Target target_of(const std::string& measure, const std::string& within);
 std::string text_of(const Measure&, double error);  // "1.3 %", "0.8 dB"
 

@@ -24,6 +24,12 @@ Json number(double x) {
     return std::isfinite(x) ? Json(x) : Json();
 }
 
+std::string comment(std::string text) {  // a line of TOML, whatever stands in the names that it holds
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    return "#" + text + "\n";
+}
+
 std::string within_text(const Judge& judge) {
     return fmt::format("within {} of {} ({}), tap {}", text_of(*judge.target().measure, judge.target().most), judge.target().measure->name,
                        judge.target().measure->title, judge.tap().name);
@@ -64,31 +70,29 @@ std::string command_of(const Trimmed& t, const std::string& file) {
 
 std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
     const Step &full = t.full(), &last = t.last();
-    std::string text = fmt::format("# The cheapest model of {} that `jvari trim` found {}.\n", t.whole.name, within_text(judge));
-    text += "#   " + command_of(t, "trimmed.toml") + "\n";
+    const auto error_text = [&judge](double error) { return text_of(*judge.target().measure, error); };
+    std::string text = comment(fmt::format(" The cheapest model of {} that `jvari trim` found {}.", t.whole.name, within_text(judge)));
+    text += comment("   " + command_of(t, "trimmed.toml"));
     for (const Verified& v : t.verified)
-        text += fmt::format("# Error {}, and the reference is certain to {}; started from {}{}.\n",
-                            text_of(*judge.target().measure, v.error), text_of(*judge.target().measure, v.certificate), v.said,
-                            v.judged_by ? ""
-                            : v.within  ? ", which the search did not know"
-                                        : ", which the search did not know: not within");
-    if (!t.independent()) text += "# Every start that there is judged the search: none was left to verify it.\n";
-    text += fmt::format("# It costs {} s of computing per second of sound; {}, unasked, {} for an error of {}.\n",
-                        rounded(t.costs.back().median), full.model.settings_text(), rounded(t.costs.front().median),
-                        text_of(*judge.target().measure, full.error));
-    text += "#\n# What went:\n";
+        text += comment(fmt::format(" Error {}, and the reference is certain to {}; started from {}{}.", error_text(v.error),
+                                    error_text(v.certificate), v.said,
+                                    v.judged_by ? ""
+                                    : v.within  ? ", which the search did not know"
+                                                : ", which the search did not know: not within"));
+    if (!t.independent()) text += comment(" Every start that there is judged the search: none was left to verify it.");
+    text += comment(fmt::format(" It costs {} s of computing per second of sound; {}, unasked, {} for an error of {}.",
+                                rounded(t.costs.back().median), full.model.settings_text(), rounded(t.costs.front().median),
+                                error_text(full.error)));
+    text += comment("") + comment(" What went:");
     for (const int k : last.model.left_out) {
-        const auto need = std::ranges::find_if(t.needs, [&](const Need& n) {
-            return n.part == judge.reductions()[k].key &&
-                   (judge.reductions()[k].becomes.empty() || n.becomes == judge.reductions()[k].becomes);
-        });
-        text += fmt::format("#   {}{}\n", judge.reductions()[k].said(),
-                            need == t.needs.end() || std::isnan(need->error)
-                                ? ""
-                                : fmt::format(" (alone: error {})", text_of(*judge.target().measure, need->error)));
+        const Reduction& r = judge.reductions()[k];
+        const auto need =
+            std::ranges::find_if(t.needs, [&](const Need& n) { return n.part == r.key && (r.becomes.empty() || n.becomes == r.becomes); });
+        const bool known = need != t.needs.end() && !std::isnan(need->error);
+        text += comment("   " + r.said() + (known ? fmt::format(" (alone: error {})", error_text(need->error)) : ""));
     }
     if (t.own_duration > t.scene.duration)
-        text += fmt::format("#   duration = {:g} s in place of {:g} s: no more was judged\n", t.scene.duration, t.own_duration);
+        text += comment(fmt::format("   duration = {:g} s in place of {:g} s: no more was judged", t.scene.duration, t.own_duration));
     text += "\n";
     Scene named = t.scene;
     named.name = t.whole.name + "_trimmed";

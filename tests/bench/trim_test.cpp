@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "analysis/error.hpp"
@@ -46,7 +47,10 @@ TEST(Target, IsReadWithTheUnitOfItsMeasureAlone) {
     EXPECT_DOUBLE_EQ(trim::target_of("l2_50ms", "1%").most, 0.01);
     EXPECT_DOUBLE_EQ(trim::target_of("l2_50ms", "0.01").most, 0.01);
     EXPECT_DOUBLE_EQ(trim::target_of("third_octave_db", "1 dB").most, 1);
-    for (const char* wrong : {"1dB", "", "%", "-1%", "0%", "nan%", "1%%"})
+    EXPECT_DOUBLE_EQ(trim::target_of("l2_50ms", "0.5").most, 0.5);
+    EXPECT_DOUBLE_EQ(trim::target_of("l2_50ms", "100%").most, 1);
+    EXPECT_DOUBLE_EQ(trim::target_of("third_octave_db", "1").most, 1);
+    for (const char* wrong : {"1dB", "", "%", "-1%", "0%", "nan%", "1%%", "1", "0.51"})
         EXPECT_THROW(trim::target_of("l2_50ms", wrong), store::UsageError) << wrong;
     EXPECT_THROW(trim::target_of("decay", "1%"), store::UsageError);
     EXPECT_THROW(trim::target_of("l2", "1%"), store::UsageError);
@@ -91,6 +95,22 @@ TEST(Judge, KeepsWhatIsListenedTo) {
     }
     r.tap = "nuts";
     EXPECT_THROW(trim::Judge(r, catalogue(), silent), store::UsageError);
+}
+
+TEST(Judge, KeepsThreadAndBarriersWhereTheirForcesAreListenedTo) {
+    trim::Request r = request("tanpura_c3_release", "5%");
+    r.tap = "thread";
+    for (const char* quantity : {"thread_force", "bridge_force", "driving_force", "nut_force"}) {
+        r.set = {"tap.3.quantity=\"" + std::string(quantity) + "\""};
+        const trim::Judge judge(r, catalogue(), silent, counted);
+        int parts = 0;
+        for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k)
+            if (const Reduction& x = judge.reductions()[k]; x.part == Part::thread || x.part == Part::barrier) {
+                EXPECT_EQ(judge.may_go(k), quantity == std::string("nut_force")) << quantity << " without " << x.said();
+                ++parts;
+            }
+        EXPECT_EQ(parts, 2);
+    }
 }
 
 // Every number of modes at every rate, own and matched: with the parts that the search left out, and with all parts.
@@ -229,6 +249,23 @@ TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
     EXPECT_EQ(errors.size(), t.verified.size());
     const std::string toml = trim::trimmed_toml(t, judge);
     EXPECT_NE(toml.find(t.verified.back().said + ", which the search did not know"), std::string::npos) << toml;
+}
+
+TEST(Trim, WritesASceneThatIsReadWhateverItsNameHolds) {
+    const auto folder = std::filesystem::temp_directory_path() / ("jvari-trim-names-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    Scene scene = read_scene("free_string");
+    scene.name = "x\nduration = 7\n[[string]]\n#";
+    std::ofstream(folder / "scene.toml") << write_scene(scene);
+    trim::Request r = request((folder / "scene.toml").string(), "10%");
+    r.scheme = "modal_two_point";
+    trim::Judge judge(r, catalogue(), silent, counted);
+    const trim::Trimmed t = trim::trimmed(judge, r, catalogue(), silent);
+    ASSERT_TRUE(t.path.found);
+    const Scene back = parse_scene(trim::trimmed_toml(t, judge), "trimmed.toml");
+    EXPECT_EQ(back.name, scene.name + "_trimmed");
+    EXPECT_EQ(back.strings, t.scene.strings);
+    std::filesystem::remove_all(folder);
 }
 
 TEST(Trim, IsTakenUpWhereItWasStoppedAndVerifiedByAnotherStart) {
