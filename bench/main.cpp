@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
         return fail(json, bench::command::exit_code::bad_usage, "bad_scene", e.what());
     } catch (const BadScene& e) {
         return fail(json, bench::command::exit_code::bad_usage, "bad_scene", e.what());
-    } catch (const UnknownOption& e) {
+    } catch (const BadOption& e) {
         return fail(json, bench::command::exit_code::bad_usage, "bad_usage", e.what());
     } catch (const Refusal& e) {
         return fail(json, bench::command::exit_code::refused, "refused", e.what());

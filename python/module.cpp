@@ -30,7 +30,7 @@ void translate_exceptions(py::module_& m) {
             py::error_already_set(e.error).restore();
         } catch (const bench::store::UsageError& e) {
             raise_as(usage, e);
-        } catch (const UnknownOption& e) {
+        } catch (const BadOption& e) {
             raise_as(usage, e);
         } catch (const SceneFileError& e) {
             raise_as(scene, e);

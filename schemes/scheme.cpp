@@ -40,11 +40,14 @@ std::string listed(const Items& items, Word word) {
     return text;
 }
 
-void refuse_undeclared(const Descriptor& scheme, const Settings& settings) {
+void refuse_bad_options(const Descriptor& scheme, const Settings& settings) {
     for (const auto& [name, value] : settings.options) {
-        if (declares(scheme, name)) continue;
-        const std::string known = listed(scheme.options, [](const Option& o) { return o.name; });
-        throw UnknownOption("unknown option " + name + "; this scheme has " + (known.empty() ? "none" : known));
+        if (!declares(scheme, name)) {
+            const std::string known = listed(scheme.options, [](const Option& o) { return o.name; });
+            throw BadOption("unknown option " + name + "; this scheme has " + (known.empty() ? "none" : known));
+        }
+        if (std::ranges::count(settings.options, name, [](const auto& o) { return o.first; }) > 1)
+            throw BadOption("option " + name + ": found more than once, expected one value");
     }
     for (const Option& o : scheme.options)
         if (!o.words().empty()) choice_option(settings, o);
@@ -63,7 +66,7 @@ Features approximated(const Descriptor& scheme) {
 
 std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     refuse_missing(descriptor, scene);
-    refuse_undeclared(descriptor, settings);
+    refuse_bad_options(descriptor, settings);
     if (scene.strings.size() > 1 && !needed_by(scene).has(Feature::moving_body)) return several_strings(descriptor, scene, settings);
     auto scheme = heard("is made", [&] { return descriptor.make(descriptor, scene, settings); });
     if (!scheme)

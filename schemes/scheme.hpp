@@ -23,7 +23,7 @@ struct Block {
     int rows = 0, taps = 0;
     long stride = 0;           // rows of the whole trace
     double* tap = nullptr;     // one column per tap of the scene
-    double* energy = nullptr;  // three columns: stored, supplied, dissipated [J]; nullptr = not probed
+    double* energy = nullptr;  // three columns: stored, supplied, dissipated [J]; nullptr = not probed, in this block
 
     // Whether the caller wants no more of this run: advance() then returns at once, and nobody looks at what it returns or wrote. A scheme
     // asks within a row, every few milliseconds of work, so that a long row can be ended; between blocks the caller sees to it itself.
@@ -115,8 +115,8 @@ struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// An option that the scheme does not declare.
-struct UnknownOption : Refusal {
+// An option that the scheme does not declare, or that is given more than once.
+struct BadOption : Refusal {
     using Refusal::Refusal;
 };
 
@@ -189,8 +189,8 @@ struct Descriptor {
 Features approximated(const Descriptor&);
 
 // The only way to make a scheme: refuses features that the scheme does not represent, options that it does not
-// declare and words that an option does not take, then calls `make`, once for each string of the scene, or for all on a moving body.
-// Throws Refusal, BadScene, or BadScheme.
+// declare or finds twice and words that an option does not take, then calls `make`, once for each string of the scene, or for all on a
+// moving body. Throws Refusal, BadScene, or BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
 
 // The least margin that the scheme's limit leaves on a string of the scene; NaN where it has nothing to say.

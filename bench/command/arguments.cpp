@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "bench/command/console.hpp"
+#include "bench/store/keys.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/usage.hpp"
 
@@ -38,9 +39,10 @@ std::string a_number(const std::string& text, bool whole) {
     double x = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), x);
     if (error == std::errc() && stop == text.data() + text.size() && std::isfinite(x) && x > 0 &&
-        (!whole || (x == std::floor(x) && x < 1e7)))
+        (!whole || (x == std::floor(x) && x <= store::most_counted)))
         return {};
-    return fmt::format("found \"{}\", expected a {}number > 0", text, whole ? "whole " : "");
+    return fmt::format("found \"{}\", expected a {}", text,
+                       whole ? fmt::format("whole number from 1 to {}", store::most_counted) : "number > 0");
 }
 const CLI::Validator positive([](const std::string& text) { return a_number(text, false); }, "", "positive");
 const CLI::Validator counting([](const std::string& text) { return a_number(text, true); }, "", "counting");
@@ -307,9 +309,10 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     diff_verb->footer(
         "Example: jvari diff results/smoke report\n"
         "\n"
-        "Exit code 4 where something got worse: an error by more than noise and certificates, a status, an outcome of a map, or the cost "
-        "of\n"
-        "a scheme beyond its quartiles and the drift of all. Costs of two machines are not compared.");
+        "Exit code 4 where something got worse: an error by more than noise and certificates, a certificate, a status, an outcome of a "
+        "map,\n"
+        "or the cost of a scheme beyond its quartiles and the drift of all; and where a cell of A is missing in B. Costs of two machines\n"
+        "are not compared.");
     add_common(*diff_verb, diff);
 
     CheckRequest check;

@@ -99,9 +99,10 @@ int new_body(const std::string& name, const Console& console) {
 int new_command(const NewRequest& r) {
     const Console console(r.json, r.quiet);
     const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
-    if (r.name.empty() || !std::all_of(r.name.begin(), r.name.end(), plain))
+    if (r.name.empty() || r.name.front() == '-' || !std::all_of(r.name.begin(), r.name.end(), plain))
         throw store::UsageError(
-            fmt::format("new: found the name {}, expected letters, digits, _ and -: it becomes NAME.toml here", found_text(r.name)));
+            fmt::format("new: found the name {}, expected letters, digits, _ and -, the first of them no -: it becomes NAME.toml here",
+                        found_text(r.name)));
     if (r.instrument == "body") return new_body(r.name, console);
     const Template* chosen =
         std::find_if(std::begin(templates), std::end(templates), [&r](const Template& t) { return r.instrument == t.instrument; });

@@ -13,6 +13,7 @@
 #include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/controls.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari::bench::compare {
 
@@ -42,6 +43,12 @@ int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
     return fewest;
 }
 
+void add_option(OptionValues& to, const SchemeOption& o, const Descriptor& d) {
+    if (std::ranges::count(to, o.name, [](const auto& said) { return said.first; }) > 0)
+        throw store::UsageError(fmt::format("--option {}: found more than once for {}, expected one value", o.name, d.name));
+    to.emplace_back(o.name, o.value);
+}
+
 // The short form goes to the schemes that declare the name.
 OptionValues options_for(const CompareRequest& r, const Descriptor& d, std::vector<bool>& used) {
     OptionValues options;
@@ -49,7 +56,7 @@ OptionValues options_for(const CompareRequest& r, const Descriptor& d, std::vect
         const SchemeOption& o = r.options[k];
         if (o.scheme.empty() ? !declares(d, o.name) : o.scheme != d.name) continue;
         used[k] = true;
-        options.emplace_back(o.name, o.value);
+        add_option(options, o, d);
     }
     return options;
 }
@@ -114,7 +121,7 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
         if (stepped) s.sample_rate *= oversampling;
         for (std::size_t k = 0; k < r.options.size(); ++k)
             if (r.options[k].scheme == d.name) {
-                s.options.emplace_back(r.options[k].name, r.options[k].value);
+                add_option(s.options, r.options[k], d);
                 used[k] = true;
             }
         choices.push_back({&d, s, note, stepped ? oversampling : 0, catalogue.is_reference(d)});
@@ -154,6 +161,7 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
     settings.sample_rate = rates.back();
     if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+    rows_of(scene, settings);  // throws where that is none
 
     Plan plan;
     std::vector<bool> used(r.options.size(), false);

@@ -39,12 +39,19 @@ store::Table read_table(const fs::path& path) {
     }
 }
 
+void must_have_rows(const store::Table& t, const fs::path& path) {
+    if (!t.columns.empty() && t.rows.empty())
+        throw store::UsageError(fmt::format("{}: it has no row below its header; make the results again", path.string()));
+}
+
 // cells.csv; of a committed record, which has none, errors.csv with the columns of cost.csv beside them: both hold the same runs in the
 // same order.
 store::Table read_cells(const fs::path& folder) {
     store::Table cells = read_table(folder / "cells.csv");
+    must_have_rows(cells, folder / "cells.csv");
     if (!cells.columns.empty()) return cells;
     cells = read_table(folder / "errors.csv");
+    must_have_rows(cells, folder / "errors.csv");
     const store::Table cost = read_table(folder / "cost.csv");
     if (cells.columns.empty() || cost.columns.empty()) return cells;
     const auto must_agree = [&](bool agree) {

@@ -14,14 +14,6 @@ Kind<double> number_that(const char* says, const char* unit, bool (*holds)(doubl
                 return *x;
             }};
 }
-
-Kind<int> whole_that(const std::string& says, int least, int most) {
-    return {says, [says, least, most](const Entry& e) {
-                const auto n = e.whole();
-                if (!n || *n < least || *n > most) e.refuse(says);
-                return static_cast<int>(*n);
-            }};
-}
 }  // namespace
 
 Kind<std::string> text() {
@@ -50,11 +42,16 @@ Kind<double> not_negative(const char* unit) {
 }
 
 Kind<int> whole(int least, int most) {
-    return whole_that("a whole number from " + std::to_string(least) + " to " + std::to_string(most), least, most);
+    const std::string says = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+    return {says, [says, least, most](const Entry& e) {
+                const auto n = e.whole();
+                if (!n || *n < least || *n > most) e.refuse(says);
+                return static_cast<int>(*n);
+            }};
 }
 
 Kind<int> count() {
-    return whole_that("a whole number > 0", 1, 9'999'999);
+    return whole(1, most_counted);
 }
 
 Kind<bool> yes_or_no() {

@@ -32,8 +32,9 @@ Kind<std::string> name_of_file();            // lower-case letters, digits, _ an
 Kind<double> number(const char* unit = "");  // finite, as all numbers here
 Kind<double> positive(const char* unit = "");
 Kind<double> not_negative(const char* unit = "");
+constexpr int most_counted = 9'999'999;  // modes, repeats, jobs
 Kind<int> whole(int least, int most);
-Kind<int> count();  // 1 ... 9999999
+Kind<int> count();  // 1 ... most_counted
 Kind<bool> yes_or_no();
 Kind<std::array<double, 2>> from_to(const Kind<double>&);
 

@@ -1,6 +1,8 @@
 // Reads by scenes/document.hpp, the one reader of TOML there is, and by declared keys (store/keys.hpp).
 #include "bench/suite/suite_file.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -21,13 +23,15 @@ using store::needed;
 
 // ---- A set of cells
 
+constexpr double most_cells = 1e6;
+
 store::Kind<std::optional<int>> reference_modes() {
-    const char* says = "a whole number, 0 or more, or \"cell\"";
-    return {says, [says](const store::Entry& e) -> std::optional<int> {
-                if (e.is_text() && e.text() == "cell") return {};
-                const auto n = e.whole();
-                if (!n || *n < 0 || *n >= 10'000'000) e.refuse(says);
-                return static_cast<int>(*n);
+    const auto modes = store::whole(0, store::most_counted);
+    const std::string says = modes.says + ", or \"cell\"";
+    return {says, [says, modes](const store::Entry& e) -> std::optional<int> {
+                if (!e.is_text()) return modes.read(e);
+                if (e.text() != "cell") e.refuse(says);
+                return {};
             }};
 }
 
@@ -86,7 +90,18 @@ std::vector<store::Key<CellSet>> set_keys() {
     return keys;
 }
 
+void must_be_few(const CellSet& s, const store::Entry& e) {
+    double cells = 1;
+    const auto times = [&cells](std::size_t listed) { cells *= static_cast<double>(std::max<std::size_t>(1, listed)); };
+    for (const std::size_t listed : {s.scenes.size(), s.schemes.size(), s.rates.size(), s.modes.size(), s.elements.size() + 1})
+        times(listed);
+    for (const SweptKey& k : s.sweep) times(k.values.size());
+    for (const VariedOption& o : s.options) times(o.values.size());
+    if (cells > most_cells) e.fail(fmt::format("found {} cells, expected at most {}: each is a run", cells, most_cells));
+}
+
 void hold_together(CellSet& s, const store::Entry& e) {
+    must_be_few(s, e);
     if (s.modes.size() > 1 && !e.at("reference_modes"))
         s.reference_modes = 0;  // a truth that shrank with the cells would call the fewest best
     if (s.measures(measured::cost) && !s.measures(measured::errors))

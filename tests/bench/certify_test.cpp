@@ -245,7 +245,7 @@ TEST(CertifyCommand, RefusesWhatItCannotDoAsTheOtherVerbsDo) {
     const std::pair<const char*, const char*> cases[] = {
         {"certify", "scene"},
         {"certify free_strin", "did you mean \"free_string\""},
-        {"certify free_string --modes 0", "whole number > 0"},
+        {"certify free_string --modes 0", "whole number from 1 to 9999999"},
         {"certify free_string --tap-rate x", "number > 0"},
         {"certify free_string --duration 1e9", "memory"},
         {"certify free_string --out a.txt", ".json"},

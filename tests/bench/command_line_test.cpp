@@ -36,14 +36,19 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"run free_string --scheme modal_two_point --duration 1e12", "memory"},
         {"run free_string --scheme modal_two_point --tap-rate -5", "number > 0"},
         {"run free_string --scheme modal_two_point --tap-rate 30000", "whole multiple"},
-        {"run free_string --scheme modal_two_point --modes 0", "whole number > 0"},
-        {"run free_string --scheme modal_two_point --modes 1.5", "whole number > 0"},
+        {"run free_string --scheme modal_two_point --modes 0", "whole number from 1 to 9999999"},
+        {"run free_string --scheme modal_two_point --modes 10000000", "from 1 to 9999999"},
+        {"run free_string --scheme modal_two_point --modes 1.5", "whole number from 1 to 9999999"},
+        {"run free_string --scheme exact_contact --duration 0.004 --tap-rate 0.001", "no less than a row"},
         {"run free_string --scheme modal_two_point --set tension", "KEY.PATH=VALUE"},
         {"run free_string --scheme modal_two_point --set string.0.tensoin=1", "tension"},
         {"run free_string --scheme modal_two_point --set string.0.tension=-3", "tension"},
         {"run free_string --scheme modal_two_point --option none=1", "unknown option none"},
         {"run free_string --scheme modal_two_point --option none", "NAME=VALUE"},
         {"run free_string --scheme modal_two_point --option other:a=1", "this run is of modal_two_point"},
+        {"run free_string --scheme modal_two_point --option compliance=own --option compliance=matched", "found more than once"},
+        {"run free_string --scheme modal_two_point --option compliance=own --option modal_two_point:compliance=own",
+         "found more than once"},
         {"run free_string --scheme modal_two_point --out trace.mp3", ".csv, .wav, .flac or .h5"},
         {"run free_string --scheme modal_two_point --out nowhere/trace.csv", "no folder"},
         {"run free_string --scheme modal_two_point --out /tmp", "extension"},
@@ -58,8 +63,14 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"compare free_string --schemes modal_two_pont", "did you mean"},
         {"compare free_string --reference exact_liner", "did you mean \"exact_linear\""},
         {"compare free_string --option none=1 --duration 0.01", "no compared scheme has it"},
-        {"compare free_string --repeats 0", "whole number > 0"},
-        {"compare free_string --jobs 0", "whole number > 0"},
+        {"compare free_string --option compliance=own --option compliance=own --duration 0.01", "found more than once"},
+        {"compare free_string --option compliance=own --option modal_two_point:compliance=matched --duration 0.01", "found more than once"},
+        {"compare free_string --option exact_linear:a=1 --option exact_linear:a=2 --duration 0.01", "found more than once"},
+        {"compare free_string --schemes modal_two_point --rates 44100 --duration 0.004 --tap-rate 1", "no less than a row"},
+        {"trim free_string --within 1", "say 1%"},
+        {"trim free_string --within 10% --duration 0.004 --tap-rate 1 --jobs 1", "no less than a row"},
+        {"compare free_string --repeats 0", "whole number from 1 to 9999999"},
+        {"compare free_string --jobs 0", "whole number from 1 to 9999999"},
         {"compare free_string --out /proc/nowhere", "/proc/nowhere"},
         {"report nowhere", "nowhere/cells.csv"},
     };
@@ -105,6 +116,20 @@ TEST(CommandLine, AFailedRunEndsWith4AndWhatWasWrittenSoFarStaysValid) {
     EXPECT_EQ(json.at("smallest_contact_force"), -0.5);
     EXPECT_TRUE(json.at("deepest_penetration").is_null());
     EXPECT_EQ(scratch.files(), 1) << "a file was left half-written";
+}
+
+TEST(CommandLine, ARunThatBlowsUpFailsWhetherItsEnergyIsProbedOrNot) {
+    const Scratch scratch;
+    const std::string run = "run tanpura_c3_release --scheme modal_strang --set string.0.barrier.0.stiffness=1e8 --duration 0.004 --json ";
+    const Outcome bare = jvari(scratch, run + "--out " + (scratch / "t.csv")), probed = jvari(scratch, run + "--energy");
+    EXPECT_EQ(bare.code, 4) << bare.err;
+    EXPECT_EQ(probed.code, 4) << probed.err;
+    const auto one = nlohmann::json::parse(bare.out), other = nlohmann::json::parse(probed.out);
+    for (const char* key : {"status", "step", "rows"}) EXPECT_EQ(one.at(key), other.at(key)) << key;
+    EXPECT_EQ(one.at("status"), "diverged");
+    const bench::store::Table t = bench::store::read_csv(content(scratch / "t.csv"));
+    EXPECT_EQ(static_cast<long>(t.rows.size()), one.at("rows").get<long>());
+    for (std::size_t i = 0; i < t.rows.size(); ++i) EXPECT_LT(std::abs(t.number(i, "nut")), 1e4) << i;
 }
 
 TEST(CommandLine, RunReportsEveryKeyOfTheContract) {
@@ -414,7 +439,8 @@ TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {
     EXPECT_EQ(there.code, 2);
     EXPECT_NE(there.err.find("mine.toml is there already"), std::string::npos) << there.err;
     EXPECT_EQ(content(scratch / "mine.toml"), "mine");
-    for (const char* name : {"a/b", "../a", "''", "'a b'"}) EXPECT_EQ(shell(scratch, std::string("$J new guitar ") + name).code, 2) << name;
+    for (const char* name : {"a/b", "../a", "''", "'a b'", "-- -rf"})
+        EXPECT_EQ(shell(scratch, std::string("$J new guitar ") + name).code, 2) << name;
     EXPECT_NE(shell(scratch, "$J new gitar a").err.find("did you mean \"guitar\""), std::string::npos);
     EXPECT_EQ(scratch.files(), 1);
 }
@@ -507,6 +533,27 @@ TEST(ResultsFolder, OfAnotherSceneIsRefusedAndWhatIsForeignIsNamed) {
                                          "rates = [44100]\nduration = 0.002\n";
     EXPECT_EQ(shell(scratch, "$J suite s.toml --out r").code, 2);
     EXPECT_EQ(nlohmann::json::parse(content(scratch / "r/manifest.json")).at("scene").at("name"), "free_string");
+}
+
+TEST(ResultsFolder, OfAComparisonIsNotOverwrittenByATrimmedSceneAndTheOtherWayRound) {
+    const Scratch scratch;
+    const std::string compare =
+                          "$J compare free_string --schemes modal_two_point --rates 44100 --modes 5 --duration 0.002 --repeats 1 --out ",
+                      trim = "$J trim free_string --within 10% --scheme modal_two_point --duration 0.005 --jobs 1 --out ";
+    ASSERT_EQ(shell(scratch, compare + "compared").code, 0);
+    const std::string manifest = content(scratch / "compared/manifest.json"), page = content(scratch / "compared/report.html");
+    const Outcome over = shell(scratch, trim + "compared");
+    EXPECT_EQ(over.code, 2);
+    EXPECT_NE(over.err.find("holds the comparison of free_string"), std::string::npos) << over.err;
+    EXPECT_EQ(content(scratch / "compared/manifest.json"), manifest);
+    EXPECT_EQ(content(scratch / "compared/report.html"), page);
+    ASSERT_EQ(shell(scratch, trim + "trimmed").code, 0);
+    const Outcome again = shell(scratch, trim + "trimmed");
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(again.err.find("holds what is not of"), std::string::npos) << again.err;
+    const Outcome back = shell(scratch, compare + "trimmed");
+    EXPECT_EQ(back.code, 2);
+    EXPECT_NE(back.err.find("holds the trim of free_string"), std::string::npos) << back.err;
 }
 
 TEST(SuiteFiles, ScenesAreLookedForBesideTheSuite) {

@@ -84,6 +84,25 @@ TEST(Report, AFolderWithoutResultsIsRefused) {
     EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
 }
 
+TEST(Report, ATableThatWasCutAfterItsHeaderIsRefusedAndThePageStays) {
+    for (const char* table : {"cells.csv", "errors.csv"}) {
+        const MadeUp folder({"manifest.json", "maps.csv"});
+        std::ofstream(folder / table) << "scheme,rate\n";
+        std::ofstream(folder / "report.html") << "the page";
+        const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+        EXPECT_EQ(o.code, 2);
+        EXPECT_NE(o.err.find(std::string(table) + ": it has no row"), std::string::npos) << o.err;
+        EXPECT_EQ(content(folder / "report.html"), "the page");
+    }
+}
+
+TEST(Report, APipeInPlaceOfAFileIsRefused) {
+    const MadeUp folder(every_file);
+    const Outcome o = shell(folder, "rm manifest.json; mkfifo manifest.json; timeout 20 $J report .");
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("manifest.json: something that is no file"), std::string::npos) << o.err;
+}
+
 TEST(Report, TextsThatAreNoUtf8AreShownAsFarAsTheyAre) {
     const MadeUp folder(every_file);
     std::string cells = content(folder / "cells.csv");

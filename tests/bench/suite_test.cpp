@@ -63,7 +63,7 @@ TEST(SuiteFile, TheTruthDoesNotShrinkWithTheModesThatVary) {
     EXPECT_EQ(truth("modes = [5, 10]\nreference_modes = \"cell\"\n"), std::nullopt);
     EXPECT_EQ(truth("modes = 5\n"), std::nullopt);
     EXPECT_EQ(truth(""), std::nullopt);
-    EXPECT_NE(refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n").find("a whole number, 0 or more, or \"cell\""),
+    EXPECT_NE(refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n").find("a whole number from 0 to 9999999, or \"cell\""),
               std::string::npos)
         << refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n");
 }
@@ -117,13 +117,27 @@ TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {
         {"[[cells]]\nscenes = []", "a.toml:2: cells.0.scenes: found an array, expected at least one value"},
         {"[[cells]]\nscenes = [\"b\", 3]", "a.toml:2: cells.0.scenes.1: found 3, expected a text"},
         {"[[cells]]\nscenes = [\"b\"]\nrates = [-1]", "a.toml:3: cells.0.rates.0: found -1, expected a number > 0"},
-        {"[[cells]]\nscenes = [\"b\"]\nmodes = 1.5", "a.toml:3: cells.0.modes: found 1.5, expected a whole number > 0"},
+        {"[[cells]]\nscenes = [\"b\"]\nmodes = 1.5", "a.toml:3: cells.0.modes: found 1.5, expected a whole number from 1 to 9999999"},
         {"[[cells]]\nscenes = [\"b\"]\nsweep = { x = 3 }", "expected an array"},
         {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"eror\"]", "unknown measure"},
         {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"cost\"]", "no speed without an error"},
+        {"[[cells]]\nscenes = [\"b\"]\nreference_modes = 10000000", "from 0 to 9999999"},
         {"[[cells]]\nscenes = [\"b\"", "no TOML"},
     };
     for (const auto& [text, expected] : cases) EXPECT_NE(refusal_of(text).find(expected), std::string::npos) << refusal_of(text);
+}
+
+TEST(SuiteFile, OfMoreCellsThanCanBeRunIsRefusedBeforeTheyArePlanned) {
+    const auto listed = [](int count) {
+        std::string text = "[1";
+        for (int k = 2; k <= count; ++k) text += ", " + std::to_string(k);
+        return text + "]";
+    };
+    const std::string head = "[[cells]]\nscenes = [\"b\"]\nrates = " + listed(100) + "\nmodes = " + listed(100);
+    EXPECT_NO_THROW(bench::suite::parse_suite(head + "\nsweep = { x = " + listed(100) + " }", "a.toml"));
+    for (const std::string& one_more : {"\nsweep = { x = " + listed(101) + " }", "\noptions = { x = " + listed(101) + " }",
+                                        "\nsweep = { x = " + listed(51) + ", y = " + listed(2) + " }"})
+        EXPECT_NE(refusal_of(head + one_more).find("a.toml:1: cells.0: found 10"), std::string::npos) << refusal_of(head + one_more);
 }
 
 TEST(SuiteFile, EverySuiteOfTheLibraryCanBePlanned) {

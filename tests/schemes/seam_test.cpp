@@ -108,7 +108,7 @@ TEST(Options, EveryDeclaredOneIsAcceptedWithEachOfItsWords) {
         }
 }
 
-TEST(Options, AnUndeclaredOneIsRefusedBeforeTheSchemeIsAsked) {
+TEST(Options, OneThatIsUndeclaredOrGivenTwiceIsRefusedBeforeTheSchemeIsAsked) {
     static bool asked;
     asked = false;
     Descriptor careless = schemes()[0];
@@ -118,11 +118,13 @@ TEST(Options, AnUndeclaredOneIsRefusedBeforeTheSchemeIsAsked) {
     };
     const auto scene = std::find_if(library().begin(), library().end(), [&careless](const Scene& s) { return represents(careless, s); });
     ASSERT_NE(scene, library().end());
-    EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"no_such_option", "1"}})), UnknownOption);
+    EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"no_such_option", "1"}})), BadOption);
     EXPECT_FALSE(asked);
     constexpr static Option word{"word", "a", "for the test", {"a", "b"}};
     careless.options = {&word, 1};
     EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "c"}})), Refusal);
+    for (const char* second : {"a", "b"})
+        EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "a"}, {"word", second}})), BadOption);
     EXPECT_FALSE(asked);
     EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "b"}})), BadScheme);  // asked, it makes nothing
     EXPECT_TRUE(asked);
