@@ -182,7 +182,7 @@ TEST_P(Matched, GivesTheSameBitsWhateverTheBlockAndTheProbe) {
     for (Scene scene : {c3_release(), c3_pluck()}) {
         scene.duration = 0.02;
         const auto a = run(scheme(GetParam()), scene, matched(GetParam(), 88200, 50)),
-                   b = run(scheme(GetParam()), scene, matched(GetParam(), 88200, 50), {true, 7});
+                   b = run(scheme(GetParam()), scene, matched(GetParam(), 88200, 50), {.energy = true, .block_rows = 7});
         for (int k = 0; k < a.trace.taps(); ++k)
             for (long n = 0; n < a.trace.rows; ++n) ASSERT_EQ(a.trace.column(k)[n], b.trace.column(k)[n]);
     }
@@ -277,7 +277,7 @@ TEST_P(Several, CloseTheirLedgerAndNeverPull) {
 TEST_P(Several, GiveTheSameBitsWhateverTheBlockAndTheProbe) {
     const Scene scene = parabola(1.3, true, true);
     const Settings s = at(88200, 60, {{"compliance", "matched"}, {"points", "6"}});
-    const auto a = run(scheme(GetParam()), scene, s), b = run(scheme(GetParam()), scene, s, {true, 7});
+    const auto a = run(scheme(GetParam()), scene, s), b = run(scheme(GetParam()), scene, s, {.energy = true, .block_rows = 7});
     for (int k = 0; k < a.trace.taps(); ++k)
         for (long n = 0; n < a.trace.rows; ++n) ASSERT_EQ(a.trace.column(k)[n], b.trace.column(k)[n]);
 }
