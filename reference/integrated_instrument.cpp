@@ -73,6 +73,7 @@ public:
                 {facts::slope_evaluations, effort.slopes},
                 {facts::integrator_tolerance, tolerance_},
                 {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
+                {facts::largest_contact_force, effort.largest_force},
                 {facts::deepest_penetration, effort.deepest}};
     }
 

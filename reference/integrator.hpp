@@ -41,7 +41,7 @@ public:
 
     struct Effort {  // and what the steps met
         double steps = 0, slopes = 0, solves = 0;
-        double deepest = 0, smallest_force = HUGE_VAL;  // [m], [N]
+        double deepest = 0, smallest_force = HUGE_VAL, largest_force = 0;  // [m], [N]
     };
     Effort effort() const noexcept;
     void forget_effort() noexcept;

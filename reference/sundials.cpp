@@ -328,7 +328,9 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
         for (int a = 0; a < contacts; ++a) {
             if (!l.equations.touched[a]) continue;
             l.effort.deepest = std::max(l.effort.deepest, l.depth[a].eta);
-            l.effort.smallest_force = std::min(l.effort.smallest_force, l.equations.contact_force(a, l.state()));
+            const double force = l.equations.contact_force(a, l.state());
+            l.effort.smallest_force = std::min(l.effort.smallest_force, force);
+            l.effort.largest_force = std::max(l.effort.largest_force, force);
         }
         if (l.time >= target) {
             if (target == to) break;

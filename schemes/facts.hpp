@@ -15,6 +15,7 @@ struct FactName {
 // clang-format off
 #define JVARI_FACTS(FACT)                                                                                                              \
     FACT(smallest_contact_force, "N", "least force that a contact put on the string; below 0 it pulls")                                \
+    FACT(largest_contact_force, "N", "greatest force that a contact put on the string")                                                \
     FACT(deepest_penetration, "m", "deepest that the string went below an obstacle's surface")                                         \
     FACT(contact_points, "", "points at which the obstacle's force acts")                                                              \
     FACT(contact_solves, "", "contact equations solved")                                                                               \

@@ -213,7 +213,7 @@ Verdict stays_sound_over_a_map(const Case& c) {
         if (!takes(d, p.scene, p.settings)) continue;
         if (d.limit.margin && d.limit.margin(p.scene, p.settings) < 0) continue;  // on the unsound side, as it says itself
         const jvari::Run r = run(d, p.scene, p.settings, {.energy = true});
-        const map::Judgement j = map::judge(map::figures_of(d, p.scene, p.settings, r, nullptr));
+        const map::Judgement j = map::judge(map::figures_of(d, p.scene, r, nullptr));
         if (j.verdict == map::Verdict::diverged || j.verdict == map::Verdict::not_converged || j.verdict == map::Verdict::energy_gaining)
             return broken(fmt::format("{} with {}: {}", name_of(j.verdict), p.name, j.detail));
         ++sound;

@@ -69,8 +69,10 @@ std::string text_for(const compare::Summary& s) {
         line("energy residual",
              fmt::format("{:.2e} of one row, {:.2e} accumulated", s.energy_residual_per_step, s.energy_residual_accumulated));
     if (!std::isnan(s.smallest_contact_force)) line("smallest contact force", fmt::format("{:.6g} N", s.smallest_contact_force));
+    if (!std::isnan(s.largest_contact_force)) line("largest contact force", fmt::format("{:.6g} N", s.largest_contact_force));
     if (!std::isnan(s.deepest_penetration)) line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
     for (const Fact& f : s.facts) line(f.name.c_str(), fmt::format("{:.6g} {}", f.value, f.unit));
+    for (const compare::Flag& f : compare::flags_of(s)) text += "\n! " + f.sentence;
     return text;
 }
 
@@ -89,7 +91,10 @@ Json json_of(const compare::Summary& s) {
     j["energy_residual_per_step"] = s.energy_residual_per_step;
     j["energy_residual_accumulated"] = s.energy_residual_accumulated;
     j[facts::smallest_contact_force.name] = s.smallest_contact_force;
+    j[facts::largest_contact_force.name] = s.largest_contact_force;
     j[facts::deepest_penetration.name] = s.deepest_penetration;
+    j["flags"] = Json::object();
+    for (const compare::Flag& f : compare::flags_of(s)) j["flags"][f.name] = f.sentence;
     j["facts"] = Json::object();
     for (const Fact& f : s.facts) j["facts"][f.name] = f.value;
     return j;
@@ -126,6 +131,7 @@ void add_attributes(store::TraceFile& file, const compare::Summary& s) {
         if (!std::isnan(value)) add("fact." + name, store::text_of(value));
     };
     fact(facts::smallest_contact_force.name, s.smallest_contact_force);
+    fact(facts::largest_contact_force.name, s.largest_contact_force);
     fact(facts::deepest_penetration.name, s.deepest_penetration);
     for (const Fact& f : s.facts) fact(f.name, f.value);
 }
@@ -201,8 +207,9 @@ int run_command(const RunRequest& r) {
     }
     if (vega) {
         const std::string rate = std::isnan(summary.rate) ? "continuous time" : fmt::format("{:g} kHz", summary.rate / 1000);
-        draw(r.plot, {fmt::format("{} on {}", d.name, scene.name), fmt::format("{}, {}", rate, scene.source), d.name, scene, result.trace},
-             *vega);
+        const std::string flags = names_of(compare::flags_of(summary));
+        const std::string subtitle = fmt::format("{}, {}{}", rate, scene.source, flags.empty() ? "" : "; not to be trusted: " + flags);
+        draw(r.plot, {fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, result.trace}, *vega);
         json["plot"] = r.plot;
         text += fmt::format("\n  {:<28}{}", "drawn", r.plot);
     }

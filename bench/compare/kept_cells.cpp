@@ -51,6 +51,7 @@ void each_number(Summary_& s, Number number) {
     number("energy_residual_per_step", s.energy_residual_per_step);
     number("energy_residual_accumulated", s.energy_residual_accumulated);
     number("smallest_contact_force", s.smallest_contact_force);
+    number("largest_contact_force", s.largest_contact_force);
     number("deepest_penetration", s.deepest_penetration);
 }
 }  // namespace

@@ -1,6 +1,9 @@
 #include "bench/compare/summary.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
+#include <limits>
 
 #include "analysis/energy.hpp"
 #include "bench/store/records.hpp"
@@ -48,10 +51,47 @@ Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& sett
     s.energy_residual_per_step = silent ? store::nan : balance.step;
     s.energy_residual_accumulated = silent ? store::nan : balance.accumulated;
     s.smallest_contact_force = fact(run.facts, facts::smallest_contact_force);
+    s.largest_contact_force = fact(run.facts, facts::largest_contact_force);
     s.deepest_penetration = fact(run.facts, facts::deepest_penetration);
+    const auto told_above = [](const Fact& f) {
+        return f.name == facts::smallest_contact_force.name || f.name == facts::largest_contact_force.name ||
+               f.name == facts::deepest_penetration.name;
+    };
     for (const Fact& f : run.facts)
-        if (f.name != facts::smallest_contact_force.name && f.name != facts::deepest_penetration.name) s.facts.push_back(f);
+        if (!told_above(f)) s.facts.push_back(f);
     return s;
+}
+
+double pull_of(double least, double largest) {
+    if (least >= -pull_floor) return 0;
+    return -least / std::fmax(largest, std::numeric_limits<double>::min());  // of an unknown one and 0 the other
+}
+
+std::vector<Flag> flags_of(const Summary& s) {
+    std::vector<Flag> flags;
+    if (pull_of(s.smallest_contact_force, s.largest_contact_force) > pull_allowed)
+        flags.push_back(
+            {"adhesion",
+             fmt::format("the contact pulls with {:.2g} N{}: only a contact with loss may pull", -s.smallest_contact_force,
+                         s.largest_contact_force > 0 ? fmt::format(", and pushes with {:.2g} N at most", s.largest_contact_force) : "")});
+    if (const double stuck = fact(s.facts, facts::psi_out_of_contact); stuck > psi_allowed)
+        flags.push_back(
+            {facts::psi_gap.name,
+             fmt::format("the quadratised contact stores energy while the string is clear of it: psi is {:.2g} of its largest value",
+                         stuck)});
+    if (s.energy_residual_accumulated > energy_allowed)
+        flags.push_back(
+            {"energy", fmt::format("the energy ledger is open by {:.2g} of the largest stored energy", s.energy_residual_accumulated)});
+    if (const double aliased = fact(s.facts, facts::modes_above_nyquist); aliased > 0)
+        flags.push_back(
+            {facts::modes_above_nyquist.name, fmt::format("{:.0f} modes lie at or above half the sample rate and alias", aliased)});
+    return flags;
+}
+
+std::string names_of(const std::vector<Flag>& flags) {
+    std::string names;
+    for (const Flag& f : flags) names += (names.empty() ? "" : " ") + f.name;
+    return names;
 }
 
 }  // namespace jvari::bench::compare

@@ -117,7 +117,7 @@ Tried run_trial(const Trial& t, Truths& truths, const compare::ProgressOf& progr
         const Truths::Truth& truth = truths.of(t, progress);
         tried.steps = r.steps;
         tried.reference = truth.name;
-        tried.figures = figures_of(*t.scheme, scene, t.settings, r, truth.name.empty() ? nullptr : &truth.trace);
+        tried.figures = figures_of(*t.scheme, scene, r, truth.name.empty() ? nullptr : &truth.trace);
         tried.judgement = judge(tried.figures);
     } catch (const Refusal& e) {
         tried.figures = {{}, store::nan, store::nan, store::nan, store::nan, t.scheme->balance};

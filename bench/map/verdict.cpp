@@ -42,9 +42,9 @@ Judgement judge(const Figures& f) {
     if (f.displacement > std::sqrt(energy_budget))
         return {Verdict::diverged, fmt::format("displacement {:.3g} times what its energy allows", f.displacement), 0};
     if (stopped) return {Verdict::not_converged, fmt::format("at step {}", f.status.step), f.status.step};
-    if (f.energy_gain > (f.balance == Balance::exact ? gain_allowed : gain_allowed_unpromised))
+    if (f.energy_gain > (f.balance == Balance::exact ? compare::energy_allowed : gain_allowed_unpromised))
         return {Verdict::energy_gaining, fmt::format("{:.3g} of its energy gained", f.energy_gain), 0};
-    if (f.pull > pull_allowed) return {Verdict::adhesive, fmt::format("pulls by {:.3g} of the largest contact force", f.pull), 0};
+    if (f.pull > compare::pull_allowed) return {Verdict::adhesive, fmt::format("pulls by {:.3g} of the largest contact force", f.pull), 0};
     if (f.error > error_allowed) return {Verdict::inaccurate, fmt::format("error {:.3g}", f.error), 0};
     if (std::isnan(f.displacement) && std::isnan(f.energy_gain) && std::isnan(f.pull) && std::isnan(f.error))
         return {Verdict::unjudged, "no energy, no smallest contact force and no reference to judge it by", 0};
@@ -61,20 +61,18 @@ Scene listened(Scene scene) {
         scene.taps.push_back({"z" + of, Quantity::displacement, k, listening_points[1] * L});
         scene.taps.push_back({"nut" + of, Quantity::nut_force, k, 0});
     }
-    const auto touched = [](const String& s) { return !s.barriers.empty(); };
-    if (std::any_of(scene.strings.begin(), scene.strings.end(), touched))
-        scene.taps.push_back({"contact", Quantity::bridge_force, std::nullopt, 0});
     return scene;
 }
 
-Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& settings, const Run& run, const Trace* reference) {
+Figures figures_of(const Descriptor& d, const Scene& scene, const Run& run, const Trace* reference) {
     Figures f;
     f.status = run.status;
     f.balance = d.balance;
     const EnergyGain energy = energy_gain(run.trace);
     f.energy_gain = energy.largest;
-    f.displacement = f.pull = f.error = store::nan;
-    const double least = compare::fact(run.facts, facts::smallest_contact_force);
+    f.displacement = f.error = store::nan;
+    f.pull =
+        compare::pull_of(compare::fact(run.facts, facts::smallest_contact_force), compare::fact(run.facts, facts::largest_contact_force));
     for (int k = 0; k < run.trace.taps(); ++k) {
         const Tap& tap = scene.taps[k];
         if (tap.quantity == Quantity::displacement) {
@@ -84,10 +82,6 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Settings& sett
                                 : energy.budget > 0 ? most / std::sqrt(energy.budget * s.length / (2 * s.tension))
                                                     : store::nan;
             f.displacement = std::fmax(f.displacement, part);
-        } else if (tap.quantity == Quantity::bridge_force && !std::isnan(least)) {
-            // a row is the mean over its steps: one step may have pushed as many times harder
-            const double pushed = largest(run.trace.column(k)) * std::max(1.0, settings.sample_rate / settings.tap_rate);
-            f.pull = least < 0 ? -least / std::max(pushed, std::numeric_limits<double>::min()) : 0;
         } else if (tap.quantity == Quantity::nut_force && reference && reference->rows == run.trace.stride) {
             f.error = std::fmax(f.error, relative_l2(run.trace.column(k), reference->column(k), run.trace.tap_rate));
         }

@@ -6,12 +6,10 @@
 //                   |y| <= sqrt(E L/(2 T)) on a string under tension T, E = stored at the start and supplied since (a scheme beyond its
 //                   limit can keep an indefinite energy constant to rounding while the string flies off)
 //   not_converged   the run's own status: the contact equation was left unsolved
-//   energy_gaining  stored energy above the ledger (in which a negative loss counts as none: obstacles add no energy) by more than 1e-6 of
-//   E where the scheme promises a balance to rounding (the threshold
-//                   of compare's flag), 1e-2 where it promises none: there the true energy is no invariant, and wavers by
-//                   O((omega dt)^2) in stable runs
-//   adhesive        the contact pulls by more than 1e-6 of its largest force: rounding is four decades and more below that at any stiffness
-//                   whose force does not vanish beside the string's
+//   energy_gaining  stored energy above the ledger (in which a negative loss counts as none: obstacles add no energy) by more than
+//                   energy_allowed of E where the scheme promises a balance to rounding, 1e-2 where it promises none: there the true energy
+//                   is no invariant, and wavers by O((omega dt)^2) in stable runs
+//   adhesive        the contact pulls by more than pull_allowed of its largest push (both: compare/summary.hpp)
 //   inaccurate      relative L2 error of the nut force over the run above 10 %: the headline signal of compare, and the threshold of its
 //                   predictability horizon
 //   unjudged        none of these, and no figure at all that could have told: no energy reported, no smallest contact force, no reference
@@ -29,15 +27,13 @@ enum class Verdict { sound, unjudged, inaccurate, adhesive, energy_gaining, not_
 std::span<const Verdict> verdicts();
 const char* name_of(Verdict);
 
-constexpr double gain_allowed = 1e-6;  // of E, where a balance is promised; gain_allowed_unpromised where none is
-constexpr double pull_allowed = 1e-6;  // of the largest contact force
 constexpr double error_allowed = 0.1;  // relative L2
 
 struct Figures {              // NaN where a run has no such figure
     Status status;            // of the run
     double displacement = 0;  // largest |y| over sqrt(E L/(2T))
     double energy_gain = 0;   // largest excess over the ledger, over E
-    double pull = 0;          // -smallest contact force over the largest
+    double pull = 0;          // compare::pull_of the run
     double error = 0;         // relative L2 of the nut force
     Balance balance = Balance::exact;
 };
@@ -49,11 +45,11 @@ struct Judgement {
 };
 Judgement judge(const Figures&);
 
-// What maps listen to in place of the scene's own taps: the displacement of every string at two points, its nut force, and the contact
-// force of all where there is a barrier. The worst string decides.
+// What maps listen to in place of the scene's own taps: the displacement of every string at two points, and its nut force. The worst string
+// decides.
 Scene listened(Scene);
 
 // Of a run of listened(scene) with its energy probed. `reference`: on the same rows; nullptr where there is none.
-Figures figures_of(const Descriptor&, const Scene&, const Settings&, const Run&, const Trace* reference);
+Figures figures_of(const Descriptor&, const Scene&, const Run&, const Trace* reference);
 
 }  // namespace jvari::bench::map

@@ -227,7 +227,7 @@ Verdict Judge::verdict(const Model& m, int start, double limit) {
         const double from = compare::processor_seconds();
         const Run r = run(*scheme, scene, m.settings, options);
         v.seconds = compare::processor_seconds() - from;
-        const std::string flags = compare::flags_of(compare::summary_of(*m.scheme, scene, m.settings, r));
+        const std::string flags = names_of(compare::flags_of(compare::summary_of(*m.scheme, scene, m.settings, r)));
         v.status = r.status.outcome != Outcome::ok ? name_of(r.status.outcome) : flags.empty() ? "ok" : flags;
         v.dofs = r.dofs;
         if (r.status.outcome == Outcome::ok)

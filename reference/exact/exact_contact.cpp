@@ -32,7 +32,7 @@ constexpr double negligible = 1e-18;
 constexpr long phases_between_questions = 64;  // (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
 
 struct Extremes {  // of the run so far
-    double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, deepest = 0, tolerance = 0;
+    double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, largest_force = 0, deepest = 0, tolerance = 0;
 };
 
 std::vector<BarrierLaw> laws_of(const String& s, const std::optional<InSeries>& series) {
@@ -406,13 +406,15 @@ void ExactContact::move_on(double by, double left) noexcept {
 }
 
 void ExactContact::measure(int a, double end, bool leaves) noexcept {
-    const Gap g = gap(a, window_.size);                             // touching: the gap's sign is turned, so this is the penetration
-    if (leaves && g.depth_bound(end) <= extremes_.deepest) return;  // nothing new, and contact forces are not negative in between
+    const Gap g = gap(a, window_.size);  // touching: the gap's sign is turned, so this is the penetration
+    const double bound = g.depth_bound(end);
+    const bool nothing_new = bound <= extremes_.deepest && (window_.contacts == 1 || law_[a].elastic(bound) <= extremes_.largest_force);
+    if (leaves && nothing_new) return;  // contact forces are not negative in between
     const auto start = g.at_start(), last = g.at(end, g.terms_until(end));
     double deepest = std::max(start.g, last.g);
     extremes_.smallest_force =
         std::min(extremes_.smallest_force, law_[a].force(std::max(0.0, leaves ? start.g : std::min(start.g, last.g)), 0));
-    if (start.slope > 0 && last.slope < 0 && g.depth_bound(end) > extremes_.deepest) {
+    if (start.slope > 0 && last.slope < 0 && !nothing_new) {
         double low = 0, high = end, x = 0.5 * end;  // Newton's iteration for the turning point, kept inside
         for (int i = 0; i < 30 && high - low > 1e-9 * end; ++i) {
             const auto now = g.at(x);
@@ -424,6 +426,7 @@ void ExactContact::measure(int a, double end, bool leaves) noexcept {
         }
     }
     extremes_.deepest = std::max(extremes_.deepest, deepest);
+    extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
 }
 
 double ExactContact::stored(double F_e) const noexcept {
@@ -452,6 +455,7 @@ std::vector<Fact> ExactContact::facts() const {
             {facts::window_terms, double(window_.terms)},
             {facts::contact_steps, extremes_.steps},
             {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
+            {facts::largest_contact_force, extremes_.largest_force},
             {facts::deepest_penetration, window_.series() && !law_.empty() ? law_[0].law.depth(extremes_.deepest) : extremes_.deepest},
             {facts::detection_tolerance, extremes_.tolerance}};
 }

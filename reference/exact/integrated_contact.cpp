@@ -230,6 +230,7 @@ std::vector<Fact> IntegratedContact::facts() const {
         {facts::linear_solves, effort.solves},
         {facts::integrator_tolerance, choice_.integrator.tolerance},
         {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
+        {facts::largest_contact_force, effort.largest_force},
         {facts::deepest_penetration, series() && equations_.contacts > 0 ? series()->points.law.depth(effort.deepest) : effort.deepest}};
     if (choice_.exact_flight) facts.push_back({facts::detection_tolerance, flight_.tolerance()});
     return facts;

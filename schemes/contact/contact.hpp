@@ -30,6 +30,14 @@ struct ContactLaw {
     }
 };
 
+struct ForceRange {  // of the forces of contacts on the string, over a run [N]
+    double least = 0, most = 0;
+    void note(double force) {
+        least = std::min(least, force);
+        most = std::max(most, force);
+    }
+};
+
 struct ContactSolution {
     double r = 0;        // increment of the contact point [m]
     double force = 0;    // mean force on the string over the step, >= 0 [N]

@@ -70,7 +70,7 @@ bool ExplicitPoints::solve(const double* now, const double* outer, double share,
         if (p < n) lost_ += x_[i] * x_[i];  // D r^2
     }
     for (std::size_t a = 0; a < n; ++a) {
-        least_ = std::min(least_, force[a]);
+        range_.note(force[a]);
         deepest_ = std::max(deepest_, heights_[a] - now[a]);
     }
     return true;
@@ -89,12 +89,14 @@ double ExplicitPoints::loss(double r_c) const {
 }
 
 void ExplicitPoints::clear() {
-    least_ = deepest_ = lost_ = 0;
+    range_ = {};
+    deepest_ = lost_ = 0;
 }
 
 std::vector<Fact> ExplicitPoints::facts() const {
     return {{facts::contact_points, static_cast<double>(laws_.size())},
-            {facts::smallest_contact_force, least_},
+            {facts::smallest_contact_force, range_.least},
+            {facts::largest_contact_force, range_.most},
             {facts::deepest_penetration, deepest_}};
 }
 

@@ -42,7 +42,8 @@ private:
     double span_ = 1, lost_ = 0;                      // [s], by the contacts in the last step [J]
     std::vector<double> resist_, root_, x_, matrix_;  // S [N/m], its root, the unknowns, I + S^1/2 Theta S^1/2 and its factor
     std::vector<int> held_;                           // points with S > 0
-    double least_ = 0, deepest_ = 0;
+    ForceRange range_;
+    double deepest_ = 0;
 };
 
 }  // namespace jvari

@@ -115,7 +115,8 @@ void ObstacleStep::settle(double* force) noexcept {
 std::vector<Fact> ObstacleStep::facts() const {
     return {{facts::contact_points, static_cast<double>(contacts_)},
             {facts::coupled_contact_points, static_cast<double>(coupled())},
-            {facts::smallest_contact_force, tally_.smallest_force},
+            {facts::smallest_contact_force, tally_.force.least},
+            {facts::largest_contact_force, tally_.force.most},
             {facts::deepest_penetration, tally_.deepest},
             {facts::contact_iterations_mean,
              tally_.solves > 0 ? static_cast<double>(tally_.iterations) / static_cast<double>(tally_.solves) : 0},
@@ -150,7 +151,7 @@ bool ObstacleStep::solve_points(const double* older, const double* free, double*
         }
         for (int a = 0; a < n; ++a) {
             thread -= thread_.answer(a, force[a]);
-            tally_.smallest_force = std::min(tally_.smallest_force, force[a]);
+            tally_.force.note(force[a]);
             tally_.deepest = std::max(tally_.deepest, eta_[a] - r_[a]);
         }
         ++tally_.solves;
@@ -256,7 +257,7 @@ bool ObstacleStep::solve_in_series(const double* older, const double* free, doub
         x = law.law.alpha == 1 ? solve_linear_contact(law.both, zeta, b, s.theta) : solve_series_contact(law, zeta, b, s.theta);
         force[0] = x.force;
         if (x.force > 0 || zeta > 0) {
-            tally_.smallest_force = std::min(tally_.smallest_force, x.force);
+            tally_.force.note(x.force);
             tally_.deepest = std::max(tally_.deepest, law.depth(zeta - x.r));
             ++tally_.solves;
             tally_.iterations += x.iterations;

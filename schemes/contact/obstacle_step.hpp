@@ -60,7 +60,8 @@ public:
     void forces(const double* reading, int level, double* force) const;  // of each point at that level, of what is in series
 
     struct Tally {  // over the solves since clear()
-        double smallest_force = 0, deepest = 0, residual = 0;
+        ForceRange force;
+        double deepest = 0, residual = 0;
         long solves = 0, iterations = 0;
         int most_iterations = 0;
     };

@@ -81,10 +81,11 @@ inline QuadratisedStep solve_quadratised(const QuadratisedLaw& q, double eta, do
 
 // What a run of a quadratised scheme has to say about itself.
 struct QuadratisedFacts {
-    double least_force = 0, depth = 0, gap = 0, stuck = 0, largest = 0, energy_gap = 0;
+    ForceRange range;
+    double depth = 0, gap = 0, stuck = 0, largest = 0, energy_gap = 0;
 
     void note(double force, double psi, double eta, double true_psi) {
-        least_force = std::min(least_force, force);
+        range.note(force);
         depth = std::max(depth, eta);
         gap = std::max(gap, std::abs(psi - true_psi));
         if (true_psi == 0) stuck = std::max(stuck, std::abs(psi));
@@ -93,11 +94,9 @@ struct QuadratisedFacts {
     }
     std::vector<Fact> list() const {
         const double scale = largest > 0 ? largest : 1;
-        return {{facts::smallest_contact_force, least_force},
-                {facts::deepest_penetration, depth},
-                {facts::psi_gap, gap / scale},
-                {facts::psi_out_of_contact, stuck / scale},
-                {facts::energy_gap, energy_gap}};
+        return {{facts::smallest_contact_force, range.least}, {facts::largest_contact_force, range.most},
+                {facts::deepest_penetration, depth},          {facts::psi_gap, gap / scale},
+                {facts::psi_out_of_contact, stuck / scale},   {facts::energy_gap, energy_gap}};
     }
 };
 

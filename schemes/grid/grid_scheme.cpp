@@ -24,7 +24,8 @@ std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) 
     if (g.narrowest > 0) f.push_back({facts::narrowest_contact, g.narrowest});
     if (obstacle.contacts() > 0) {
         const ObstacleStep::Tally& t = obstacle.tally();
-        f.push_back({facts::smallest_contact_force, t.smallest_force});
+        f.push_back({facts::smallest_contact_force, t.force.least});
+        f.push_back({facts::largest_contact_force, t.force.most});
         f.push_back({facts::deepest_penetration, t.deepest});
         f.push_back({facts::contact_points, static_cast<double>(obstacle.contacts())});
         if (obstacle.coupled() > 1) f.push_back({facts::coupled_contact_points, static_cast<double>(obstacle.coupled())});

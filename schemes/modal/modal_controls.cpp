@@ -44,17 +44,21 @@ namespace {
 struct TrueEnergyContact {  // what both have in common
     static constexpr int dofs = 0;
     ContactLaw law;
-    double least_force = 0, depth = 0, force = 0;
+    ForceRange range;
+    double depth = 0, force = 0;
 
     void begin(double) {}
     bool solved() const { return true; }
     void settle(double eta, double) {
-        least_force = std::min(least_force, force);
+        range.note(force);
         depth = std::max(depth, eta);
     }
     double energy(double eta, double eta_old) const { return 0.5 * (law.potential(eta) + law.potential(eta_old)); }
     double energy_next(double eta, double eta_old) const { return energy(eta, eta_old); }
-    std::vector<Fact> facts() const { return {{facts::smallest_contact_force, least_force}, {facts::deepest_penetration, depth}}; }
+    std::vector<Fact> facts() const {
+        return {
+            {facts::smallest_contact_force, range.least}, {facts::largest_contact_force, range.most}, {facts::deepest_penetration, depth}};
+    }
 };
 
 struct ExplicitContact : TrueEnergyContact {

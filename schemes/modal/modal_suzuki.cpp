@@ -89,6 +89,7 @@ public:
     std::vector<Fact> facts() const override {
         if (m_.g_b.empty()) return {};
         return {{facts::smallest_contact_force, least_},
+                {facts::largest_contact_force, most_},
                 {facts::deepest_penetration, most_ > 0 ? std::pow(most_ / m_.barrier.k, 1 / m_.barrier.alpha) : 0},
                 {facts::series_compliance, points_[0].law.S}};
     }

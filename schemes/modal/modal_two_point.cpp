@@ -168,7 +168,8 @@ public:
         m_.u_b = g_b_ ? two_point_dot(g_b_, u0_, m_.size) : 0;
         m_.y_c = g_c_ ? two_point_dot(g_c_, y0_, m_.size) : 0;
         m_.u_c = g_c_ ? two_point_dot(g_c_, u0_, m_.size) : 0;
-        m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.least_force = m_.depth = m_.iterations = m_.iterations_most = 0;
+        m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.iterations = m_.iterations_most = 0;
+        m_.least_force = m_.most_force = m_.depth = 0;
         m_.status = {};
     }
     Status advance(const Block& out) noexcept override { return advance_(m_, out); }
@@ -197,6 +198,7 @@ public:
         std::vector<Fact> f = {{facts::start_phase_offset, offset_}};
         if (g_b_) {
             f.push_back({facts::smallest_contact_force, m_.least_force});
+            f.push_back({facts::largest_contact_force, m_.most_force});
             const SeriesLaw& law = m_.series.step.points.law;
             f.push_back({facts::deepest_penetration, law.S > 0 ? law.depth(m_.depth) : m_.depth});
             f.push_back(law.S > 0 ? Fact{facts::series_compliance, law.S} : Fact{facts::static_compliance, compliance_});

@@ -60,6 +60,7 @@ struct SeriesForce {
     std::vector<Fact> facts() const {
         return {
             {facts::smallest_contact_force, now.least_force},
+            {facts::largest_contact_force, now.most_force},
             {facts::deepest_penetration, now.most_force > 0 ? std::pow(now.most_force / points.law.law.k, 1 / points.law.law.alpha) : 0},
             {facts::series_compliance, points.law.S},
             {facts::stable_stiffness_limit, limit}};

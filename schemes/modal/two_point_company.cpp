@@ -166,6 +166,7 @@ void TwoPointCompany::advance(std::span<Lane> all) noexcept {
         TwoPoint& m = *members_[k].string;
         m.step = company_.step;
         m.least_force = company_.least_force.of[k];
+        m.most_force = company_.most_force.of[k];
         m.depth = company_.depth.of[k];
         all[members_[k].place].status = {};
     }

@@ -123,7 +123,8 @@ std::vector<SitarTap> sitar_taps(const Scene& scene, SitarString& s) {
 void BridgeLedger::report(std::vector<Fact>& facts) const {
     facts.push_back({facts::bridge_energy_added, added});
     facts.push_back({facts::bridge_energy_taken, taken});
-    facts.push_back({facts::smallest_contact_force, smallest_force});
+    facts.push_back({facts::smallest_contact_force, force.least});
+    facts.push_back({facts::largest_contact_force, force.most});
 }
 
 }  // namespace jvari

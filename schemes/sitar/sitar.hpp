@@ -19,6 +19,7 @@
 
 #include <vector>
 
+#include "schemes/contact/contact.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -72,7 +73,7 @@ std::vector<SitarTap> sitar_taps(const Scene&, SitarString&);
 // What the bridge rule exchanged with the string.
 struct BridgeLedger {
     double added = 0, taken = 0;  // energy over the run [J], both >= 0
-    double smallest_force = 0;    // over the steps [N]
+    ForceRange force;             // over the steps [N]
     double impulse = 0;           // since the last row [N s]
     double dissipated = 0;        // by losses and the rule since the last row, of either sign [J]
 

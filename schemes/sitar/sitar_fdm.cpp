@@ -86,7 +86,7 @@ void SitarFdm::meet_bridge() noexcept {
     slopes_ += change;
     ledger_.exchange(s_.wave_energy(change));
     ledger_.impulse += s_.impedance() * moved;
-    ledger_.smallest_force = std::min(ledger_.smallest_force, s_.impedance() * moved / s_.dt);
+    ledger_.force.note(s_.impedance() * moved / s_.dt);
 }
 
 // Differences of the two travelling waves over two cells, squared: y(n+1, m) - loss y(n, m+1) is one of y_r, with m and m + 1 exchanged one

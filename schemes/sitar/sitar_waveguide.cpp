@@ -94,7 +94,7 @@ private:
     void strike(double corrections) noexcept {  // their impulse on the string
         const double impulse = s_.impedance() * corrections;
         ledger_.impulse += impulse;
-        ledger_.smallest_force = std::min(ledger_.smallest_force, impulse / s_.dt);
+        ledger_.force.note(impulse / s_.dt);
     }
 
     Waves w_;

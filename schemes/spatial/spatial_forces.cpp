@@ -221,7 +221,7 @@ Outcome SpatialForces::solve(long n) noexcept {
         effort_.iterations += s.iterations;
         effort_.most = std::max(effort_.most, double(s.iterations));
         effort_.residual = std::max(effort_.residual, s.residual);
-        effort_.smallest_force = std::min(effort_.smallest_force, force[z]);
+        effort_.force.note(force[z]);
         effort_.deepest = std::max(effort_.deepest, contact.height - coming[z]);
         if (!s.converged) outcome = Outcome::not_converged;
         if (!std::isfinite(free[z])) outcome = Outcome::diverged;
@@ -276,7 +276,8 @@ void SpatialForces::add_facts(std::vector<Fact>& facts) const {
     if (!theta_.empty()) return;
     if (series_) {
         const ObstacleStep::Tally& t = series_->step.tally();
-        facts.push_back({facts::smallest_contact_force, t.smallest_force});
+        facts.push_back({facts::smallest_contact_force, t.force.least});
+        facts.push_back({facts::largest_contact_force, t.force.most});
         facts.push_back({facts::deepest_penetration, t.deepest});
         facts.push_back({facts::contact_points, double(contacts_.size())});
         facts.push_back({facts::contact_iterations_mean, t.solves > 0 ? double(t.iterations) / double(t.solves) : 0});
@@ -286,7 +287,8 @@ void SpatialForces::add_facts(std::vector<Fact>& facts) const {
         facts.push_back({facts::compliance_excess, series_->missing.excess});
         return;
     }
-    facts.push_back({facts::smallest_contact_force, effort_.smallest_force});
+    facts.push_back({facts::smallest_contact_force, effort_.force.least});
+    facts.push_back({facts::largest_contact_force, effort_.force.most});
     facts.push_back({facts::deepest_penetration, effort_.deepest});
     facts.push_back({facts::contact_points, double(contacts_.size())});
     facts.push_back({facts::contact_solves, effort_.solves});

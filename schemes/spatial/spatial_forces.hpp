@@ -63,7 +63,8 @@ private:
         std::vector<double> reach;  // increment of each read per force [m/N]
     };
     struct Effort {
-        double solves = 0, iterations = 0, most = 0, residual = 0, smallest_force = 0, deepest = 0;
+        double solves = 0, iterations = 0, most = 0, residual = 0, deepest = 0;
+        ForceRange force;
     };
     std::vector<Contact> contacts_;
     std::vector<Coil> threads_;  // one or none, as plucks_

@@ -132,15 +132,27 @@ TEST(CommandLine, ARunThatBlowsUpFailsWhetherItsEnergyIsProbedOrNot) {
     for (std::size_t i = 0; i < t.rows.size(); ++i) EXPECT_LT(std::abs(t.number(i, "nut")), 1e4) << i;
 }
 
+TEST(CommandLine, RunSaysWhatSpeaksAgainstItAsCompareDoes) {
+    const Scratch scratch;
+    const std::string run = "run tanpura_c3_release --scheme modal_quadratised_two_point_raw --duration 0.02";
+    const Outcome o = jvari(scratch, run);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.out.find("\n! the contact pulls with "), std::string::npos) << o.out;
+    const auto flags = nlohmann::json::parse(jvari(scratch, run + " --json --quiet").out).at("flags");
+    EXPECT_TRUE(flags.contains("adhesion")) << flags;
+    const Outcome honest = jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --energy");
+    EXPECT_EQ(honest.out.find("! "), std::string::npos) << honest.out;
+}
+
 TEST(CommandLine, RunReportsEveryKeyOfTheContract) {
     const Scratch scratch;
     const Outcome o = jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.01 --json --quiet");
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_EQ(o.err, "");
     const auto json = nlohmann::json::parse(o.out);
-    for (const char* key :
-         {"scheme", "scene", "rate", "modes", "dofs", "steps", "rows", "wall_seconds", "ns_per_step", "times_real_time", "status",
-          "energy_residual_per_step", "energy_residual_accumulated", "smallest_contact_force", "deepest_penetration", "facts"})
+    for (const char* key : {"scheme", "scene", "rate", "modes", "dofs", "steps", "rows", "wall_seconds", "ns_per_step", "times_real_time",
+                            "status", "energy_residual_per_step", "energy_residual_accumulated", "smallest_contact_force",
+                            "largest_contact_force", "deepest_penetration", "flags", "facts"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(json.at("rows"), 442);
     EXPECT_EQ(json.at("modes"), 133);

@@ -10,6 +10,7 @@
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/convergence_table.hpp"
 #include "bench/compare/record/pareto.hpp"
+#include "bench/compare/summary.hpp"
 #include "bench/compare/truth.hpp"
 #include "reference/agreement.hpp"
 #include "schemes/run.hpp"
@@ -241,6 +242,27 @@ TEST(Errors, OfATonePitchedAndLoudAsTheyAre) {
     EXPECT_NEAR(e[0][place_of("error_l2_whole")], 1, 1e-12);
 }
 
+// ---- Flags
+
+TEST(Flags, EachIsRaisedAboveItsThresholdAndSaysWhatHappened) {
+    bench::compare::Summary s{};
+    s.largest_contact_force = 30;
+    s.smallest_contact_force = -0.9e-6 * 30;
+    s.energy_residual_accumulated = 0.9e-6;
+    s.facts = {{"psi_out_of_contact", 0.9e-9, ""}, {"modes_above_nyquist", 0, ""}};
+    EXPECT_EQ(names_of(bench::compare::flags_of(s)), "");
+    s.smallest_contact_force = -0.55;
+    EXPECT_EQ(names_of(bench::compare::flags_of(s)), "adhesion");
+    EXPECT_EQ(bench::compare::flags_of(s)[0].sentence,
+              "the contact pulls with 0.55 N, and pushes with 30 N at most: only a contact with loss may pull");
+    s.facts = {{"psi_out_of_contact", 1.1e-9, ""}, {"modes_above_nyquist", 12, ""}};
+    s.energy_residual_accumulated = 1.1e-6;
+    EXPECT_EQ(names_of(bench::compare::flags_of(s)), "adhesion psi_gap energy modes_above_nyquist");
+    s.smallest_contact_force = s.energy_residual_accumulated = std::nan("");
+    s.facts.clear();
+    EXPECT_EQ(names_of(bench::compare::flags_of(s)), "");
+}
+
 // ---- The table of cells
 
 TEST(CellsTable, EachColumnHasWhatItsNameSays) {
@@ -261,7 +283,7 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     bench::compare::Summary& s = cell.summary;
     s.modes = 133, s.dofs = 266, s.steps = 8820, s.rows = 4411, s.duration = 0.1;
     s.energy_residual_per_step = 1e-13, s.energy_residual_accumulated = 2e-12;
-    s.smallest_contact_force = -0.25, s.deepest_penetration = 3e-8;
+    s.smallest_contact_force = -0.25, s.largest_contact_force = 30, s.deepest_penetration = 3e-8;
     s.facts = {{"static_compliance", 0.9, ""}};
     cell.errors = errors_from(1000);
     c.floor = errors_from(5000);

@@ -26,7 +26,6 @@ Scene string_over_barrier() {
 
 struct MadeUp {  // 100 rows at 1 kHz of a string that swings with 1 J: |y| <= sqrt(1 J 2 m/(2 x 4 N)) = 0.5 m
     Scene scene = bench::map::listened(string_over_barrier());
-    Settings settings{2000, 1000, 0, {}};
     Run run;
     Trace truth;
 
@@ -38,16 +37,15 @@ struct MadeUp {  // 100 rows at 1 kHz of a string that swings with 1 J: |y| <= s
         for (int k = 0; k < 2; ++k)
             for (int n = 0; n < 100; ++n) t.tap.push_back(0.4 * std::cos(0.1 * n));
         for (int n = 0; n < 100; ++n) t.tap.push_back(std::cos(0.1 * n));  // nut force [N]
-        t.tap.resize(400, 3.0);                                            // contact [N]
         t.energy.assign(100, 1.0);
         t.energy.resize(300, 0.0);
-        run.facts = {{"smallest_contact_force", 0, "N"}};
+        run.facts = {{"smallest_contact_force", 0, "N"}, {"largest_contact_force", 6, "N"}};
         truth = t;
     }
     double& energy(int column, int row) { return run.trace.energy[100 * column + row]; }
     bench::map::Judgement judgement(Balance b = Balance::exact, bool with_truth = true) {
         const Descriptor d = promising(b);
-        return bench::map::judge(bench::map::figures_of(d, scene, settings, run, with_truth ? &truth : nullptr));
+        return bench::map::judge(bench::map::figures_of(d, scene, run, with_truth ? &truth : nullptr));
     }
     bench::map::Verdict verdict(Balance b = Balance::exact) { return judgement(b).verdict; }
 };
@@ -134,11 +132,15 @@ TEST(Outcome, ARunThatIsNotEvenNumbersHasDiverged) {
     EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::map::Verdict::diverged);
 }
 
-TEST(Outcome, APullIsMeasuredAgainstTheHardestPushOfOneStep) {
-    MadeUp m;  // 3 N over a row of two steps: 6 N at most
+TEST(Outcome, APullIsMeasuredAgainstTheHardestPush) {
+    MadeUp m;
     m.run.facts[0].value = -0.9 * 6e-6;
     EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
     m.run.facts[0].value = -1.1 * 6e-6;
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::adhesive);
+    m.run.facts = {{"smallest_contact_force", -0.9e-9, "N"}, {"largest_contact_force", 0, "N"}};  // it hardly touches
+    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
+    m.run.facts = {{"smallest_contact_force", -1.1e-9, "N"}};  // and does not say how it pushes
     EXPECT_EQ(m.verdict(), bench::map::Verdict::adhesive);
 }
 

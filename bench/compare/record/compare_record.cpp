@@ -8,6 +8,7 @@
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/pareto.hpp"
+#include "bench/compare/summary.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/records.hpp"
@@ -92,7 +93,7 @@ void add_row(store::Table& table, const Comparison& c, const Cell& cell, const s
     row.number("rate", cell.scheme->clock == Clock::continuous ? store::nan : cell.settings.sample_rate);
     row.count("modes", cell.modes(), cell.modes() > 0);
     row.text("status", status_of(cell));
-    row.text("flags", ran ? flags_of(s) : "");
+    row.text("flags", ran ? names_of(flags_of(s)) : "");
     for (std::size_t k = 0; k < measures().size(); ++k)
         row.number(measures()[k].column, error_in(cell, c.headline.tap(measures()[k]), static_cast<int>(k)));
     const double seconds = ran && s.duration > 0 ? s.duration : store::nan, wall = ran ? cell.wall.median : store::nan;
@@ -178,18 +179,6 @@ Json certificate_json(const Comparison& c) {
 }
 }  // namespace
 
-std::string flags_of(const Summary& s) {
-    std::string flags;
-    const auto flag = [&flags](bool raised, const char* name) {
-        if (raised) flags += (flags.empty() ? "" : " ") + std::string(name);
-    };
-    flag(s.smallest_contact_force < -1e-9, "adhesion");                          // the contact pulls, [N]
-    flag(fact(s.facts, facts::psi_out_of_contact) > 1e-9, facts::psi_gap.name);  // quadratised: energy stored where there is no contact
-    flag(s.energy_residual_accumulated > 1e-6, "energy");                        // the ledger does not close
-    flag(fact(s.facts, facts::modes_above_nyquist) > 0, facts::modes_above_nyquist.name);  // they alias
-    return flags;
-}
-
 store::Table cells_of(const Comparison& c) {
     store::Table table;
     const auto facts = fact_names(c);
@@ -218,6 +207,7 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
     Json facts = Json::object(), floor = Json::object(), taps = Json::array(), schemes = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
     facts[facts::smallest_contact_force.name] = c.reference_summary.smallest_contact_force;
+    facts[facts::largest_contact_force.name] = c.reference_summary.largest_contact_force;
     facts[facts::deepest_penetration.name] = c.reference_summary.deepest_penetration;
     for (std::size_t k = 0; k < measures().size(); ++k) floor[measures()[k].column] = c.floor[c.headline.tap(measures()[k])][k];
     for (std::size_t tap = 0; tap < c.scene.taps.size(); ++tap) {

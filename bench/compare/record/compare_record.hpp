@@ -13,9 +13,6 @@
 
 namespace jvari::bench::compare {
 
-// What a run's own figures say against it, whatever its error: balance is necessary, never sufficient. "" for nothing.
-std::string flags_of(const Summary&);
-
 store::Table cells_of(const Comparison&);
 std::string manifest_of(const Comparison&, const CompareRequest&);  // JSON
 

@@ -35,7 +35,7 @@ public:
     static constexpr int lanes = vectors * width;
 
     static void begin(Company& m) {
-        m.F_b = m.F_c = m.F_e = m.impulse_b = m.impulse_c = m.supplied = m.dissipated = m.least_force = m.depth = {};
+        m.F_b = m.F_c = m.F_e = m.impulse_b = m.impulse_c = m.supplied = m.dissipated = m.least_force = m.most_force = m.depth = {};
         m.step = m.steady_until = 0;
         m.read_at = -1;
         sum_at_points<of_y>(m, m.y_b, m.y_c);
@@ -216,6 +216,7 @@ private:
             both.b[v] = before_b + F_b;
             set(m.F_b, v, F_b);
             set(m.least_force, v, hn::Min(get(m.least_force, v), F_b));
+            set(m.most_force, v, hn::Max(get(m.most_force, v), F_b));
             set(m.depth, v, hn::Max(get(m.depth, v), eta));
         }
     }

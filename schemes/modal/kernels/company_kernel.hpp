@@ -45,16 +45,16 @@ struct Company {
     PerString theta_bb, theta_bc, theta_cc, theta_be, theta_ce;
 
     // what changes from step to step
-    long step = -1;                  // -1: not begun
-    long steady_until = 0;           // no pluck begins or ends before
-    bool plucked = false;            // until then
-    long read_at = -1;               // the step at which a pass summed reads.front()
-    PerString y_b, y_c, r_b, r_c;    // dots of the present state
-    PerString F_b, F_c, F_e;         // of the step before [N]
-    PerString impulse_b, impulse_c;  // sums of forces since the last row [N]
-    PerString supplied, dissipated;  // since the last row [J]
-    PerString least_force, depth;    // over the run
-    std::vector<PerString> rows;     // that wait to be handed out, [row][quantity]
+    long step = -1;                            // -1: not begun
+    long steady_until = 0;                     // no pluck begins or ends before
+    bool plucked = false;                      // until then
+    long read_at = -1;                         // the step at which a pass summed reads.front()
+    PerString y_b, y_c, r_b, r_c;              // dots of the present state
+    PerString F_b, F_c, F_e;                   // of the step before [N]
+    PerString impulse_b, impulse_c;            // sums of forces since the last row [N]
+    PerString supplied, dissipated;            // since the last row [J]
+    PerString least_force, most_force, depth;  // over the run
+    std::vector<PerString> rows;               // that wait to be handed out, [row][quantity]
 };
 enum CompanyWeight { on_bridge, on_thread, on_c, on_loss, company_weights };
 

@@ -68,7 +68,8 @@ struct TwoPoint {
     double y_b = 0, y_c = 0, u_b = 0, u_c = 0;   // dots of the present state
     double impulse_b = 0, impulse_c = 0;         // sums of forces since the last row [N]
     double supplied = 0, dissipated = 0;         // since the last row [J]
-    double least_force = 0, depth = 0;           // over the run
+    double least_force = 0, most_force = 0;      // over the run [N]
+    double depth = 0;                            // [m]
     double iterations = 0, iterations_most = 0;  // of the contact solver
     Status status;
 };

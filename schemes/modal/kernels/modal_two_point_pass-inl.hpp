@@ -70,6 +70,7 @@ HWY_INLINE void take(TwoPoint& m, const Dots& next) {
 template <ContactKind kind>
 HWY_INLINE void note(TwoPoint& m, const ContactSolution& x, double eta) {
     m.least_force = x.force < m.least_force ? x.force : m.least_force;
+    m.most_force = x.force > m.most_force ? x.force : m.most_force;
     m.depth = eta > m.depth ? eta : m.depth;
     m.impulse_b += x.force;
     if constexpr (kind == ContactKind::power) {
