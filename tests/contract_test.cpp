@@ -1,9 +1,12 @@
 // Every scheme and reference keeps every promise of bench/check, on every scene: each promise, scheme and scene is a test.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/check/allocations.hpp"
 #include "bench/check/promise.hpp"
 #include "reference/references.hpp"
+#include "schemes/controls.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::check {
@@ -15,7 +18,7 @@ public:
     void TestBody() override {
         const Verdict v = ask(promise_, case_);
         EXPECT_FALSE(v.broken()) << case_.scheme.name << ": " << v.why;
-        if (v.answer == Verdict::Answer::not_asked) GTEST_SKIP() << v.why;
+        if (v.answer == Verdict::Answer::excused || v.answer == Verdict::Answer::not_asked) GTEST_SKIP() << v.why;
     }
 
 private:
@@ -38,6 +41,18 @@ TEST(Allocations, AreCounted) {
     const Allocations allocations;
     const std::vector<Scene> scenes(1);
     EXPECT_GT(allocations.count(), 0);
+}
+
+TEST(Excuses, AreOfControlsThatNeedThem) {
+    for (const Excuse& e : excuses()) {
+        const auto d = std::ranges::find_if(schemes(), [&e](const Descriptor& one) { return one.name == std::string(e.scheme); });
+        const auto p = std::ranges::find_if(promises(), [&e](const Promise& one) { return one.name == std::string(e.promise); });
+        ASSERT_TRUE(d != schemes().end() && p != promises().end()) << e.scheme << " " << e.promise;
+        EXPECT_TRUE(is_control(*d)) << e.scheme;
+        EXPECT_TRUE(
+            std::ranges::any_of(cases_of(*d, p->asked), [&](const Case& c) { return ask(*p, c).answer == Verdict::Answer::excused; }))
+            << e.scheme << " keeps " << e.promise;
+    }
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // What every scheme owes the program: the one list of promises. `jvari check` asks them of a scheme, the tests ask them of all.
 //
 // A promise is asked on every scene that the scheme represents, on every scene that it does not, or once. Claims in numbers rest on all
-// others, and are asked where these are kept: so what breaks a promise fails by its name. tests/contract_plugins has a scheme for each that
-// breaks it and keeps all others.
+// others, and are asked where these are kept: so what breaks a promise fails by its name. The last rests on the claims before it as well: a
+// scheme that moves otherwise than the scene is at no instant of it. tests/contract_plugins has a scheme for each that breaks it and keeps
+// all others.
 #pragma once
 
 #include <span>
@@ -14,8 +15,8 @@
 namespace jvari::bench::check {
 
 struct Verdict {
-    enum class Answer { kept, broken, not_asked } answer = Answer::kept;
-    std::string why;  // what was found, or why it could not be asked
+    enum class Answer { kept, broken, excused, not_asked } answer = Answer::kept;  // excused: broken, as it is known of this scheme
+    std::string why;                                                               // what was found, or why it could not be asked
     bool broken() const { return answer == Answer::broken; }
 };
 Verdict kept(std::string found = "");
@@ -29,7 +30,7 @@ struct Case {  // a scheme, a scene, and settings at which it is asked
     Settings settings;
 };
 
-enum class Asked { on_represented_scenes, on_other_scenes, once, once_all_others_are_kept };
+enum class Asked { on_represented_scenes, on_other_scenes, once, once_all_others_are_kept, once_all_before_are_kept };
 
 struct Promise {
     const char* name;      // "AllocatesNothingWhileStepping"
@@ -39,9 +40,16 @@ struct Promise {
 };
 std::span<const Promise> promises();  // in the order in which they are best read
 
+// A scheme of this tree that is known to break a promise: a control, which a comparison has to find.
+struct Excuse {
+    const char *scheme, *promise, *why;
+};
+std::span<const Excuse> excuses();
+
 std::vector<Case> cases_of(const Descriptor&, Asked);
 
-// Never throws: what the scheme throws breaks the promise; a scene that it refuses for a reason of its own is not asked.
+// Never throws: what the scheme throws breaks the promise; a scene that it refuses for a reason of its own is not asked. Who breaks what it
+// is excused from has the answer `excused`.
 Verdict ask(const Promise&, const Case&);
 
 }  // namespace jvari::bench::check

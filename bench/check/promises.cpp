@@ -27,16 +27,36 @@ constexpr Promise all[] = {
     {"StoresNoNegativeEnergyAndDissipates", "stores no negative energy and dissipates", on_represented_scenes, stores_no_negative_energy},
     {"AllocatesNothingWhileStepping", "allocates nothing while stepping", on_represented_scenes, allocates_nothing},
     {"CarriesNoMoreStateThanTheSceneNeeds", "carries no more state than the scene needs", on_represented_scenes, carries_no_more_state},
+    {"NeverPulls", "never pulls the string towards an obstacle", on_represented_scenes, never_pulls},
     {"PartialsAreWhereItsOwnRelationSays", "sounds the partials that its own relation gives", once_all_others_are_kept,
      partials_are_its_own_relations},
-    {"ConvergesToTheReference", "comes nearer to the reference with the rate, on three scenes", once_all_others_are_kept,
+    {"ConvergesToTheReference", "comes nearer to the reference with the rate, in every tap on three scenes", once_all_others_are_kept,
      converges_to_the_reference},
     {"StaysSoundOverAMap", "neither diverges nor gains energy at 20 points of a map", once_all_others_are_kept, stays_sound_over_a_map},
+    {"WritesEachRowAtItsInstant", "writes each row at its instant, to a tenth of a step", once_all_before_are_kept,
+     writes_rows_at_their_instants},
 };
+
+// The one list of what is known to be broken.
+constexpr const char* stale_psi = "a control: its psi may stay behind when the string leaves, and pulls it back";
+constexpr Excuse known[] = {{"modal_quadratised_two_point_constrained", "NeverPulls", stale_psi},
+                            {"modal_quadratised_two_point_raw", "NeverPulls", stale_psi},
+                            {"modal_quadratised_three_point_constrained", "NeverPulls", stale_psi},
+                            {"modal_quadratised_three_point_raw", "NeverPulls", stale_psi}};
+Verdict excused(const Promise& p, const Case& c, Verdict v) {
+    if (v.broken())
+        for (const Excuse& e : known)
+            if (c.scheme.name == std::string(e.scheme) && p.name == std::string(e.promise))
+                return {Verdict::Answer::excused, v.why + " (" + e.why + ")"};
+    return v;
+}
 }  // namespace
 
 std::span<const Promise> promises() {
     return all;
+}
+std::span<const Excuse> excuses() {
+    return known;
 }
 
 Verdict kept(std::string found) {
@@ -49,7 +69,7 @@ Verdict not_asked(std::string why) {
     return {Verdict::Answer::not_asked, std::move(why)};
 }
 const char* name_of(Verdict::Answer a) {
-    constexpr const char* names[] = {"kept", "broken", "not asked"};
+    constexpr const char* names[] = {"kept", "broken", "excused", "not asked"};
     return names[static_cast<int>(a)];
 }
 
@@ -79,7 +99,7 @@ Run fresh(const Case& c, const RunOptions& options) {
 }
 
 std::vector<Case> cases_of(const Descriptor& d, Asked asked) {
-    if (asked == once || asked == once_all_others_are_kept) return {{d, {}, {}}};
+    if (asked == once || asked == once_all_others_are_kept || asked == once_all_before_are_kept) return {{d, {}, {}}};
     std::vector<Case> cases;
     for (const Scene& scene : contract_scenes())
         if (represents(d, scene) == (asked == on_represented_scenes)) cases.push_back({d, scene, settings_for(d, scene)});
@@ -96,7 +116,7 @@ Verdict ask(const Promise& p, const Case& c) {
             } catch (const BadScene& e) {
                 return not_asked(e.what());
             }
-        return p.of(c);
+        return excused(p, c, p.of(c));
     } catch (const std::exception& e) {
         return broken(fmt::format("it throws: {}", e.what()));
     } catch (...) {

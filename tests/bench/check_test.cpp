@@ -33,6 +33,14 @@ TEST(Check, ASchemeOfTheTreeKeepsWhatItPromises) {
     EXPECT_EQ(claims, 3);
 }
 
+TEST(Check, ExcusesAKnownBadControlByNameAndSaysSo) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch, "check modal_quadratised_two_point_raw");
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+    EXPECT_TRUE(std::regex_search(o.out, std::regex("excused    NeverPulls .*pulls with .* N.*a control"))) << o.out;
+    EXPECT_NE(o.out.find("keeps what it promises, but for what it is known to break: NeverPulls"), std::string::npos) << o.out;
+}
+
 TEST(Check, WritesWhatContinuousIntegrationReads) {
     const Scratch scratch;
     const Outcome o = jvari(scratch, "check --plugin " JVARI_GIVES_NAN " --json --quiet --junit " + (scratch / "check.xml"));
