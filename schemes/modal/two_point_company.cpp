@@ -1,7 +1,5 @@
 #include "schemes/modal/two_point_company.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 
 namespace jvari {
@@ -54,10 +52,10 @@ bool alike(const TwoPoint& a, const TwoPoint& b) {
                       [&](const TwoPointTap* x, const TwoPointTap* y) { return same(a, x->on_y, y->on_y) && same(a, x->on_u, y->on_u); });
 }
 
-std::size_t first_level_cache() {  // [bytes]
-    static const long bytes = sysconf(_SC_LEVEL1_DCACHE_SIZE);
-    return bytes > 0 ? bytes : 32768;
-}
+// [bytes] The first-level cache of most processors of the last twenty years. It is not asked for: whether strings go together decides how
+// their sums are rounded, and the digits of a result must not depend on the machine's cache.
+constexpr std::size_t first_level_cache = 32768;
+
 bool worth_it(std::span<const Member> some, std::size_t lanes) {  // strings that differ, in as many lanes
     std::size_t most = 0, sum = 0;
     for (const Member& m : some) {
@@ -66,7 +64,7 @@ bool worth_it(std::span<const Member> some, std::size_t lanes) {  // strings tha
         sum += modes;
     }
     const std::size_t bytes = sizeof(double) * lanes * most * (2 + company_weights + 1);  // state, weights, a tap
-    return 4 * sum >= 3 * lanes * most && bytes <= first_level_cache();
+    return 4 * sum >= 3 * lanes * most && bytes <= first_level_cache;
 }
 
 }  // namespace
