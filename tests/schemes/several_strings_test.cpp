@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <hwy/highway.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <typeinfo>
@@ -16,6 +18,7 @@
 #include "schemes/modal/kernels/company_kernel.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
+#include "schemes/vector_instructions.hpp"
 #include "tests/c3.hpp"
 
 namespace jvari {
@@ -268,6 +271,18 @@ void with_each_target(Do act) {
     }
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(targets);
+}
+
+TEST(VectorInstructions, AreThoseThatAKernelRunsWith) {
+    std::vector<std::string> compiled;
+    for (std::int64_t left = HWY_TARGETS; left != 0; left &= left - 1) compiled.emplace_back(hwy::TargetName(left & ~(left - 1)));
+    const auto is_compiled = [&compiled](const std::string& name) { return std::ranges::count(compiled, name) > 0; };
+    EXPECT_TRUE(is_compiled(vector_instructions())) << vector_instructions();
+    with_each_target([&](const char* target) {
+        if (is_compiled(target)) {
+            EXPECT_EQ(vector_instructions(), target);
+        }
+    });
 }
 
 TEST(SeveralStrings, ThatAreAlikeRunInLanesAsAlone) {
