@@ -1,7 +1,7 @@
 # Writes OUT with what this build is made of, from SOURCE; leaves OUT alone where nothing changed.
 #   JVARI_COMMIT        git describe, "unknown" outside git: for people
 #   JVARI_RUN_SOURCES   a hash of all that the numbers of a run depend on: scenes, schemes, references
-#   JVARI_CELL_SOURCES  the same with what measures them: analysis, and bench below its report
+#   JVARI_CELL_SOURCES  the same with what measures them: analysis, and every room of bench but those of text and the benchmarks
 set(commit "unknown")
 find_program(git_program git)
 if(git_program)
@@ -26,7 +26,9 @@ function(hash_folders OUTPUT)
     set(${OUTPUT} ${hash} PARENT_SCOPE)
 endfunction()
 hash_folders(run_sources scenes schemes reference)
-hash_folders(cell_sources scenes schemes reference analysis bench/store bench/trust bench/compare bench/map bench/suite)
+file(GLOB rooms RELATIVE ${SOURCE} ${SOURCE}/bench/*)
+list(FILTER rooms EXCLUDE REGEX "^bench/(report|command|kernels)$")  # no number that is kept is made there
+hash_folders(cell_sources scenes schemes reference analysis ${rooms})
 set(text "#define JVARI_COMMIT \"${commit}\"\n#define JVARI_RUN_SOURCES \"${run_sources}\"\n#define JVARI_CELL_SOURCES \"${cell_sources}\"\n")
 set(old "")
 if(EXISTS ${OUT})

@@ -1,0 +1,36 @@
+#!/bin/sh
+# The key of a kept number covers every source that it depends on: a changed line in a room of bench, in the analysis or in a scheme changes the
+# hash, a new room counts from its first file, and text changes nothing. usage: provenance.sh CMAKE [TREE]
+cmake=$1
+tree=$(cd "${2:-$(dirname "$0")/..}" && pwd) || exit 2
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+mkdir "$scratch/tree"
+cp -r "$tree/scenes" "$tree/schemes" "$tree/reference" "$tree/analysis" "$tree/bench" "$scratch/tree/" || exit 2
+status=0
+hash_of() {  # hash_of NAME: of the scratch tree now
+    "$cmake" -DSOURCE="$scratch/tree" -DOUT="$scratch/provenance.hpp" -P "$scratch/tree/bench/provenance.cmake" || exit 2
+    sed -n "s/^#define $1 //p" "$scratch/provenance.hpp"
+}
+plant() {  # plant FILE NAME other|same: a line more in FILE makes hash NAME another, or leaves it
+    before=$(hash_of "$2")
+    mkdir -p "$(dirname "$scratch/tree/$1")"
+    [ -f "$scratch/tree/$1" ] && cp "$scratch/tree/$1" "$scratch/kept" || rm -f "$scratch/kept"
+    echo "// planted" >>"$scratch/tree/$1"
+    after=$(hash_of "$2")
+    [ -f "$scratch/kept" ] && cp "$scratch/kept" "$scratch/tree/$1" || rm "$scratch/tree/$1"
+    case $3 in
+        other) [ -n "$after" ] && [ "$before" != "$after" ] ;;
+        same) [ -n "$after" ] && [ "$before" = "$after" ] ;;
+    esac && return
+    echo "a line in $1 leaves $2 $([ "$3" = same ] && echo changed || echo unchanged): expected $3" >&2
+    status=1
+}
+for file in bench/trim/target.cpp bench/sound/radiation.cpp bench/diff/rules.cpp bench/check/claims.cpp bench/store/keys.hpp bench/compare/errors.cpp \
+    bench/map/verdict.cpp bench/suite/figure_facets.cpp bench/trust/kept_run.cpp bench/new_room/new.cpp analysis/error.cpp reference/sundials.cpp \
+    schemes/modal/modal_two_point.cpp schemes/modal/kernels/modal_pass-inl.hpp schemes/schemes.def scenes/damping.cpp; do
+    plant $file JVARI_CELL_SOURCES other
+done
+for file in schemes/modal/modal_two_point.cpp reference/exact/exact_contact.cpp scenes/damping.cpp; do plant $file JVARI_RUN_SOURCES other; done
+for file in bench/report/page.cpp bench/command/console.cpp bench/kernels/two_point_benchmark.cpp bench/README.md; do plant $file JVARI_CELL_SOURCES same; done
+exit $status
