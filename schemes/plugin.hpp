@@ -2,13 +2,15 @@
 //
 //     JVARI_PLUGIN(table)    // an array of Descriptor
 //
-// The program and the plugin pass C++ structures to each other, so both must lay them out alike: `plugin_abi` is a hash of the sizes and
-// offsets of all that crosses and of the compiler, and a plugin with another hash is refused. The macro also writes down how the plugin
-// was compiled, for the manifest of what it was timed in.
+// The program and the plugin pass C++ structures to each other, and call each other's virtual functions. So both must lay them out alike:
+// `plugin_abi` is a hash of the sizes and offsets of all that crosses, of the places and types of the virtual functions, and of the
+// compiler. A plugin with another hash is refused. The macro also writes down how the plugin was compiled, for the manifest of what it was
+// timed in.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <initializer_list>
 #include <iterator>
 #include <span>
@@ -36,14 +38,14 @@ constexpr std::uint32_t layout_hash(std::initializer_list<std::size_t> numbers, 
     }()
 // NOLINTEND
 
-// Raised by hand where what changes is not in a layout: the virtual functions of Scheme, the meaning of a field.
+// Raised by hand where the meaning of a field changes, and no layout.
 constexpr std::size_t interface_version = 4;
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"  // GCC and clang define it for every class without virtual bases
 #endif
-constexpr std::uint32_t plugin_abi = layout_hash({
+constexpr std::uint32_t plugin_layout = layout_hash({
     interface_version, static_cast<std::size_t>(feature_count), JVARI_LAYOUT(NoDamping),
         JVARI_LAYOUT(PolynomialDamping, JVARI_AT(sigma0), JVARI_AT(sigma1), JVARI_AT(sigma3)),
         JVARI_LAYOUT(QualityFactorDamping, JVARI_AT(diameter), JVARI_AT(air_viscosity), JVARI_AT(air_density), JVARI_AT(viscoelastic_angle),
@@ -67,9 +69,10 @@ constexpr std::uint32_t plugin_abi = layout_hash({
         JVARI_LAYOUT(BodyMode, JVARI_AT(mass), JVARI_AT(stiffness), JVARI_AT(damping)),
         JVARI_LAYOUT(Body, JVARI_AT(bridge), JVARI_AT(nut), JVARI_AT(sections), JVARI_AT(modes)),
         JVARI_LAYOUT(Scene, JVARI_AT(name), JVARI_AT(source), JVARI_AT(duration), JVARI_AT(strings), JVARI_AT(taps), JVARI_AT(body)),
-        JVARI_LAYOUT(Block, JVARI_AT(rows), JVARI_AT(taps), JVARI_AT(stride), JVARI_AT(tap), JVARI_AT(energy)),
+        JVARI_LAYOUT(Block, JVARI_AT(rows), JVARI_AT(taps), JVARI_AT(stride), JVARI_AT(tap), JVARI_AT(energy), JVARI_AT(stop),
+                     JVARI_AT(caller)),
         JVARI_LAYOUT(Status, JVARI_AT(outcome), JVARI_AT(step)), JVARI_LAYOUT(Fact, JVARI_AT(name), JVARI_AT(value), JVARI_AT(unit)),
-        JVARI_LAYOUT(FreeMode, JVARI_AT(omega), JVARI_AT(sigma)),
+        JVARI_LAYOUT(FreeMode, JVARI_AT(omega), JVARI_AT(sigma)), JVARI_LAYOUT(Lane, JVARI_AT(scheme), JVARI_AT(out), JVARI_AT(status)),
         JVARI_LAYOUT(Settings, JVARI_AT(sample_rate), JVARI_AT(tap_rate), JVARI_AT(modes), JVARI_AT(options)),
         JVARI_LAYOUT(FactName, JVARI_AT(name), JVARI_AT(unit), JVARI_AT(meaning)),
         JVARI_LAYOUT(Option, JVARI_AT(name), JVARI_AT(fallback), JVARI_AT(meaning), JVARI_AT(choices)),
@@ -95,10 +98,33 @@ constexpr std::uint32_t plugin_abi = layout_hash({
 #pragma GCC diagnostic pop
 #endif
 
+// ---- The table of virtual functions.
+
+// Of a virtual function: its place in the table, which a pointer to it holds (Itanium C++ ABI: GCC and clang), and its type, which the name
+// of this instance holds. No constant expression can read the place.
+template <class Function>
+std::size_t place_of(Function function) {
+    std::size_t words[sizeof(Function) / sizeof(std::size_t)];
+    std::memcpy(words, &function, sizeof words);
+    std::uint32_t hash = layout_hash({});
+    for (const std::size_t word : words) hash = layout_hash({word}, hash);
+    for (const char* c = __PRETTY_FUNCTION__; *c; ++c) hash = layout_hash({static_cast<std::size_t>(*c)}, hash);
+    return hash;
+}
+struct PastTheTable : Scheme {
+    virtual void place() = 0;  // the first after those of Scheme: it moves where one is added
+};
+
+inline std::uint32_t plugin_abi() {
+    return layout_hash({plugin_layout, place_of(&Scheme::reset), place_of(&Scheme::advance), place_of(&Scheme::dofs),
+                        place_of(&Scheme::facts), place_of(&Scheme::free_modes), place_of(&Scheme::meet), place_of(&Scheme::advance_all),
+                        place_of(&PastTheTable::place)});
+}
+
 // ---- What a plugin exports.
 
 struct Plugin {
-    std::uint32_t abi;  // plugin_abi; read before all else
+    std::uint32_t abi;  // plugin_abi(); read before all else
     const Descriptor* table;
     int count;
     const char* compiler;  // "12.2.0"
@@ -143,7 +169,7 @@ struct Plugin {
 // Exported although all else is compiled with -fvisibility=hidden.
 #define JVARI_PLUGIN(schemes)                                                                                                         \
     extern "C" __attribute__((visibility("default")))                                                                                 \
-    const jvari::Plugin jvari_plugin = {jvari::plugin_abi,                                                                            \
+    const jvari::Plugin jvari_plugin = {jvari::plugin_abi(),                                                                          \
                                         std::data(schemes),                                                                           \
                                         static_cast<int>(std::size(schemes)),                                                         \
                                         __VERSION__,                                                                                  \

@@ -52,9 +52,9 @@ const Plugin& load_plugin(const std::string& path) {
     if (!library) throw std::runtime_error("cannot load plugin " + path + ": " + dlerror());
     const auto* plugin = static_cast<const Plugin*>(dlsym(library, "jvari_plugin"));
     if (!plugin) throw std::runtime_error("plugin " + path + " does not export jvari_plugin");
-    if (plugin->abi != plugin_abi)
+    if (plugin->abi != plugin_abi())
         throw std::runtime_error("plugin " + path + " has interface " + std::to_string(plugin->abi) + ", this program has " +
-                                 std::to_string(plugin_abi) + ": compile it with the headers and the compiler of this program");
+                                 std::to_string(plugin_abi()) + ": compile it with the headers and the compiler of this program");
     const auto must = [&path](bool good, const std::string& wrong) {
         if (!good) throw std::runtime_error("plugin " + path + " " + wrong);
     };

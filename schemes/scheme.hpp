@@ -85,6 +85,13 @@ public:
     // supplied and dissipated energy are sums over the same interval. Allocates nothing.
     virtual Status advance(const Block& out) noexcept = 0;
 
+    virtual int dofs() const = 0;                           // doubles of state carried: no more than the scene needs
+    virtual std::vector<Fact> facts() const { return {}; }  // of the run so far; between blocks only
+
+    // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread; none where the scheme has no relation in
+    // closed form.
+    virtual std::vector<FreeMode> free_modes() const { return {}; }
+
     // Told once, before the first step, of those that it is stepped with from now on: all are reset together, and advanced by advance_all
     // of this one alone. What that needs is allocated here.
     virtual void meet(std::span<Scheme* const>) {}
@@ -95,12 +102,7 @@ public:
         for (Lane& lane : all) lane.status = lane.scheme->advance(lane.out);
     }
 
-    virtual int dofs() const = 0;                           // doubles of state carried: no more than the scene needs
-    virtual std::vector<Fact> facts() const { return {}; }  // of the run so far; between blocks only
-
-    // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread; none where the scheme has no relation in
-    // closed form.
-    virtual std::vector<FreeMode> free_modes() const { return {}; }
+    // New virtual functions come here, and their names into plugin_abi() of plugin.hpp.
 };
 
 struct Settings {
