@@ -26,7 +26,7 @@ bool surely_less(const Cell& a, const Cell& b) {
     return work_of(a) > 0 && less_work * work_of(a) <= work_of(b);
 }
 
-bool trusted(const Cell& c, double error) {
+bool usable(const Cell& c, double error) {
     return !c.refused && c.reason.empty() && flags_of(c.summary).empty() && std::isfinite(error);
 }
 
@@ -45,12 +45,12 @@ void mark_needed(std::vector<Cell>& cells, const std::vector<double>& errors, do
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return work_of(cells[a]) < work_of(cells[b]); });
     for (const std::size_t i : order) {
         const auto instead = [&](std::size_t k) { return surely_less(cells[k], cells[i]) && does_as_well(errors[k], errors[i], certain); };
-        const bool failed = cells[i].refused || !cells[i].reason.empty(), good = trusted(cells[i], errors[i]);
+        const bool failed = cells[i].refused || !cells[i].reason.empty(), good = usable(cells[i], errors[i]);
         const bool may_go = cells[i].searched && !failed;  // a failure at the modes that it takes unasked is a finding
         const auto found = may_go ? std::find_if(kept.begin(), kept.end(), instead) : kept.end();
         if (!good && cells[i].added) {
             cells[i].needed = false;
-            if (!failed) cells[i].reason = "not to be trusted: " + flags_of(cells[i].summary);
+            if (!failed) cells[i].reason = "not to be trusted: " + names_of(flags_of(cells[i].summary));
         } else if (found != kept.end()) {
             const Cell& other = cells[*found];
             cells[i].needed = false;

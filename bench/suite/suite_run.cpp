@@ -139,7 +139,7 @@ private:
         try {
             trace = compare::run_cell(cell, point.scene, compare::within(limit, told));
             if (known) {
-                const compare::Reference* own = model->truth ? compare::of_modes(cell, *model->reference(), *truth->truth) : nullptr;
+                const compare::Reference* own = model->truth() ? compare::of_modes(cell, *model->reference(), *truth->truth()) : nullptr;
                 compare::judge(cell, trace, *truth->trace(), own ? &own->run.trace : nullptr);
             }
         } catch (const Refusal& e) {
