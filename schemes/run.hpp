@@ -10,8 +10,8 @@ namespace jvari {
 
 struct RunOptions {
     bool energy = false;  // keep the energy columns
-    bool timed = false;   // no energy is asked for but what is kept: another run tells whether this one stays within its energy
     int block_rows = 64;  // rows per advance(); the output does not depend on it
+    bool timed = false;   // no energy is asked for but what is kept: another run tells whether this one stays within its energy
 
     // Told how far the run is, every few hundredths of a second where the scheme asks within its rows (Block::stop), else between blocks,
     // which are then as short as that. What it throws ends the run and comes out of it.

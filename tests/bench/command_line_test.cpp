@@ -467,6 +467,8 @@ TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
     const Outcome late = jvari(scratch, "run tanpura_drone --scheme finite_difference_explicit --duration 0.01");
     EXPECT_NE(late.err.find("string 1 of tanpura_drone stays silent: its pluck begins at 1.2 s"), std::string::npos) << late.err;
     EXPECT_EQ(late.err.find("string 0"), std::string::npos);
+    const Outcome at_the_end = jvari(scratch, "run tanpura_c3 --scheme modal_two_point --duration 0.01 --set string.0.pluck.start=0.01");
+    EXPECT_NE(at_the_end.err.find("string 0 of tanpura_c3 stays silent: its pluck begins at 0.01 s"), std::string::npos) << at_the_end.err;
     EXPECT_EQ(jvari(scratch, "run tanpura_c3 --scheme modal_two_point --duration 0.01").err, "");
     const std::string sympathetic = "run sitar_sympathetic --scheme modal_two_point --duration 0.01";
     EXPECT_EQ(jvari(scratch, sympathetic).err, "") << "its bridge shakes the strings that nobody plucks";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare_plan.hpp"
@@ -13,6 +14,7 @@
 #include "bench/compare/summary.hpp"
 #include "bench/compare/truth.hpp"
 #include "reference/agreement.hpp"
+#include "scenes/modes.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari {
@@ -339,6 +341,21 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     EXPECT_DOUBLE_EQ(t.number(0, "certificate_l2_whole_thread"), 0.042);
 }
 
+TEST(Facts, OfSeveralStringsTheLeastContactForceAndTheMostOfAnythingElseStand) {
+    const std::vector<Fact> facts{{"string.0.smallest_contact_force", -1, "N"},
+                                  {"string.1.smallest_contact_force", -2, "N"},
+                                  {"string.2.smallest_contact_force", 0, "N"},
+                                  {"string.0.deepest_penetration", 1, "m"},
+                                  {"string.1.deepest_penetration", 3, "m"},
+                                  {"string.2.deepest_penetration", 2, "m"},
+                                  {"contact_points", 5, ""},
+                                  {"string.0.contact_points", 7, ""}};
+    EXPECT_EQ(bench::compare::fact(facts, "smallest_contact_force"), -2);
+    EXPECT_EQ(bench::compare::fact(facts, "deepest_penetration"), 3);
+    EXPECT_EQ(bench::compare::fact(facts, "contact_points"), 5);  // said of all
+    EXPECT_TRUE(std::isnan(bench::compare::fact(facts, "points")));
+}
+
 // ---- Equal modes
 
 bench::compare::Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes, int modes = 0) {
@@ -378,6 +395,24 @@ TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSa
     EXPECT_EQ(asked.references.front().settings.modes, 300);
 }
 
+TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
+    bench::compare::CompareRequest r;
+    r.scene = "tanpura_c3_release";
+    r.schemes = {"modal_two_point", "modal_strang"};
+    r.rates = {44100};
+    r.options = {{"", "compliance", "matched"}};
+    static const bench::compare::Catalogue catalogue;
+    const Scene scene = bench::compare::load_scene(r.scene, {}, {});
+    const OptionValues matched{{"compliance", "matched"}};
+    const auto reference = [&] { return bench::compare::plan_of(r, catalogue, scene).references.front(); };
+    EXPECT_TRUE(declares(*reference().scheme, "compliance"));
+    EXPECT_EQ(reference().settings.options, OptionValues());
+    for (const bench::compare::Cell& c : bench::compare::plan_of(r, catalogue, scene).cells)
+        EXPECT_EQ(c.settings.options, c.scheme->name == std::string("modal_two_point") ? matched : OptionValues());
+    r.options.push_back({reference().scheme->name, "compliance", "matched"});
+    EXPECT_EQ(reference().settings.options, matched);
+}
+
 // ---- The truth: the modes that the reference is given
 
 bench::compare::Truth truth_of(int modes, const std::function<double(const Trace&)>& enough = {}) {
@@ -415,6 +450,23 @@ TEST(Truth, ModesAreDoubledUntilADoublingChangesTheHeadlineByLittleEnough) {
 TEST(Truth, OneDoublingIsMadeWhereNoErrorIsShownAndAGivenNumberIsTaken) {
     EXPECT_EQ(truth_of(0, [](const Trace&) { return HUGE_VAL; }).reference.choice.settings.modes, 266);
     EXPECT_EQ(truth_of(200).reference.choice.settings.modes, 200);
+}
+
+TEST(Truth, SaysTheModesThatItHasWhereNoMoreWereMeasured) {
+    Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.005);
+    String& s = scene.strings.front();
+    const Modes modes = modes_of(s, 200);
+    TableDamping table;
+    for (int i = 0; i < 200; ++i) {
+        table.frequency_hz.push_back(modes.omega0[i] / (2 * std::numbers::pi));
+        table.decay_rate.push_back(modes.sigma[i]);
+    }
+    s.damping = table;
+    bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
+    for (auto& c : plan.references) c.kept = false;
+    const auto truth = bench::compare::run_truth(plan.references, scene, 0, 1, bench::store::Listener());
+    EXPECT_EQ(truth.reference.choice.settings.modes, 133);
+    EXPECT_EQ(truth.said.rfind("133 modes", 0), 0u) << truth.said;
 }
 
 }  // namespace

@@ -46,6 +46,15 @@ TEST(Diagnosis, ExtrapolatesWhereErrorsFallByAPowerAndCallsItThat) {
     EXPECT_NEAR(std::stod(text.substr(static_cast<std::size_t>(at) + 3)), 5 * 352.8, 0.1 * 5 * 352.8) << text;
 }
 
+TEST(Diagnosis, ExtrapolatesFromThreeRatesAtLeastAndNotBeyond64TimesTheHighest) {
+    std::vector<Sample> two = falling(1, 0.4), three = two;
+    two.resize(2), three.resize(3);
+    EXPECT_FALSE(says(why(two, 0.01), "extrapolated")) << why(two, 0.01);
+    EXPECT_TRUE(says(why(three, 0.01), "extrapolated")) << why(three, 0.01);
+    EXPECT_TRUE(says(why(falling(1, 0.4), 0.05 / 60), "extrapolated"));  // 0.05 at the highest rate
+    EXPECT_FALSE(says(why(falling(1, 0.4), 0.05 / 70), "extrapolated"));
+}
+
 TEST(Diagnosis, SaysForHowLongWaveformsStayTogetherWhereNoRateWillDo) {
     std::vector<Sample> guitar = falling(0.15, 0.16);
     guitar[2].octaves = 0.9;

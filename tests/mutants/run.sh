@@ -2,7 +2,7 @@
 # Do the tests see a fault? Plants one at a time (faults.txt) in a copy of the sources, builds the one test that should see it, and prints
 # a table. A fault that is caught where it stands has its test; one that survives asks for one.
 #   tests/mutants/run.sh [FOLDER] [NAME ...]     FOLDER: where copy and build lie, kept for the next time (default: build/mutants)
-# Half a minute a fault where others share the two cores, and a whole build before the first. Ends with 1 where fewer than 18 of 20 are caught.
+# Half a minute a fault where others share the two cores, and a whole build before the first. Ends with 1 where more than two survive.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${1:-$source/build/mutants}
@@ -57,4 +57,4 @@ while IFS='|' read -r name file test filter script; do
     cp "$source/$file" "$copy/$file"
 done <"$folder/faults.now"
 echo "$caught of $planted caught"
-[ $# -gt 0 ] || [ "$caught" -ge 18 ]
+[ $# -gt 0 ] || [ "$caught" -ge $((planted - 2)) ]

@@ -4,11 +4,13 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <random>
 
+#include "reference/exact/springs.hpp"
 #include "reference/gauss_legendre.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
@@ -155,6 +157,30 @@ TEST(FirstNegative, SeesADipThatNoSamplingWouldAndSkipsTheRootItStandsOn) {
 }
 
 // One mode over one spring of a given height, no loss: circular arcs in two phase planes, pieced together by atan2.
+// Whatever touches, and however strong the thread's damper: rho makes the majorant of springs.hpp small enough for the Taylor series.
+TEST(Springs, GrowAtARateThatBoundsTheirSeriesWithTheThreadsDamper) {
+    for (const double damping : {0.0, 1.2, 30.0, 1000.0}) {
+        Scene scene = few_modes();
+        String& s = scene.strings[0];
+        s.thread->damping = damping;
+        const Modes modes = modes_of(s, 40);
+        const Oscillators osc(modes);
+        const Springs springs(modes, osc, s);
+        for (const auto& touching : {std::array<char, 3>{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}) {
+            const double rho = springs.growth(touching.data());
+            for (int a = 0; a < springs.points; ++a) {
+                double sum = 0;
+                for (int b = 0; b < springs.points; ++b) {
+                    if (b < springs.contacts && !touching[b]) continue;
+                    for (int i = 1; i < longest_series; ++i)
+                        sum += std::abs(springs.h(a, b)[i]) * std::pow(rho, -i - 1) * (springs.k[b] + springs.r[b] * rho);
+                }
+                EXPECT_LE(sum, 0.9 * (1 + 1e-12)) << damping << " point " << a << " rho " << rho;
+            }
+        }
+    }
+}
+
 TEST(ExactContact, OneModeOnAOneSidedSpringIsArcsOfTwoSinusoids) {
     Scene scene = c3(false);
     String& s = scene.strings[0];

@@ -209,6 +209,22 @@ TEST(ContactGram, WorkOfTheForcesIsTheLossOfPotential) {
     }
 }
 
+// Each pushes its neighbours alone: all of them are one system, whatever their order.
+TEST(ContactGram, ContactsInAChainAreSolvedTogether) {
+    Draw draw;
+    const int order[] = {3, 0, 4, 1, 2};  // of five along the string
+    for (int trial = 0; trial < 100; ++trial) {
+        Problem p = draw.contacts(5);
+        p.theta.assign(25, 0.0);
+        for (int i = 0; i < 5; ++i) p.theta[order[i] * 6] = 3e-4;
+        for (int i = 1; i < 5; ++i) p.theta[order[i] * 5 + order[i - 1]] = p.theta[order[i - 1] * 5 + order[i]] = 1e-4;
+        const Answer want = sweep_reference(p);
+        const Solved got = solve(p);
+        ASSERT_TRUE(got.info.converged) << trial;
+        for (int a = 0; a < 5; ++a) EXPECT_LE(std::abs(got.r[a] - want.r[a]), 1e-13L * reach(p, got.f, a)) << trial << " contact " << a;
+    }
+}
+
 TEST(ContactGram, UncoupledContactsAreScalarSolvesToTheBit) {
     Draw draw;
     for (int trial = 0; trial < 100; ++trial) {

@@ -70,7 +70,7 @@ TEST(RunLoop, ATraceHasOneRowMoreThanItsDurationHasIntervals) {
 TEST(RunLoop, ATimedRunThatOverflowsEndsWithTheRowsThatAreValid) {
     Doubling scheme;
     for (const int block : {1, 7, 64, 5000}) {
-        const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.timed = true, .block_rows = block});
+        const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.block_rows = block, .timed = true});
         EXPECT_EQ(r.status.outcome, Outcome::diverged);
         EXPECT_EQ(r.trace.rows, 512);  // 2^1024 is infinite
         EXPECT_EQ(r.status.step, 2 * 512);
