@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bench/compare/bound.hpp"
@@ -122,16 +123,17 @@ inline Column run_many(const std::vector<py::object>& scenes, const std::string&
 }
 
 inline py::object compare_rows(const py::object& scene, const std::vector<std::string>& schemes, const std::vector<double>& rates,
-                               int modes, const std::string& reference, std::optional<int> reference_modes, bool controls,
-                               std::optional<double> duration, std::optional<double> tap_rate, const py::dict& options, int repeats,
-                               int jobs) {
+                               const std::variant<int, std::vector<int>>& modes, const std::string& reference, int reference_modes,
+                               bool controls, std::optional<double> duration, std::optional<double> tap_rate, const py::dict& options,
+                               int repeats, int jobs) {
     const NamedScene s = NamedScene::of(scene);
     compare::CompareRequest r;
     r.scene = s.name;
     r.set = s.set;
     r.schemes = schemes;
     r.rates = rates;
-    r.modes = modes;
+    if (const int* n = std::get_if<int>(&modes)) r.modes.assign(*n > 0 ? 1 : 0, *n);
+    else r.modes = std::get<std::vector<int>>(modes);
     r.reference = reference;
     r.reference_modes = reference_modes;
     r.controls = controls;

@@ -78,8 +78,8 @@ def run_many(
     tap_rate: float | None = None, options: Mapping[str, _Value] = {}, jobs: int = 0,
 ) -> NDArray[np.float64]: ...  # shape (run, time, tap); NaN after a failure
 def compare(
-    scene: Scene | str, schemes: Sequence[str] = [], rates: Sequence[float] = [], modes: int = 0, reference: str = "",
-    reference_modes: int | None = None, controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
+    scene: Scene | str, schemes: Sequence[str] = [], rates: Sequence[float] = [], modes: int | Sequence[int] = 0, reference: str = "",
+    reference_modes: int = 0, controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
     options: Mapping[str, _Value] = {}, repeats: int = 5, jobs: int = 0,
 ) -> list[_Row]: ...
 def suite(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> list[_Row]: ...

@@ -119,12 +119,14 @@ void add_run(py::module_& m) {
 
 void add_studies(py::module_& m) {
     using python::TrimmedRows;
-    m.def("compare", &python::compare_rows, py::arg("scene"), py::arg("schemes") = std::vector<std::string>(),
-          py::arg("rates") = std::vector<double>(), py::arg("modes") = 0, py::arg("reference") = "",
-          py::arg("reference_modes") = py::none(), py::arg("controls") = false, py::arg("duration") = py::none(),
-          py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("repeats") = 5, py::arg("jobs") = 0,
-          "Schemes x rates [Hz] against a reference, as `jvari compare`: a dict per cell, its keys the columns of cells.csv and the bounds "
-          "of the errors. None where nothing is known.");
+    m.def(
+        "compare", &python::compare_rows, py::arg("scene"), py::arg("schemes") = std::vector<std::string>(),
+        py::arg("rates") = std::vector<double>(), py::arg("modes") = 0, py::arg("reference") = "", py::arg("reference_modes") = 0,
+        py::arg("controls") = false, py::arg("duration") = py::none(), py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(),
+        py::arg("repeats") = 5, py::arg("jobs") = 0,
+        "Schemes x modes x rates [Hz] against a reference, as `jvari compare`: modes may be a number or several, and so may the values of "
+        "options. A dict per cell, its keys the columns of cells.csv and the bounds "
+        "of the errors. None where nothing is known.");
     m.def("suite", &python::suite_rows, py::arg("file"), py::arg("out") = "", py::arg("resume") = false, py::arg("jobs") = 0,
           "The cells of a suite, a dict each, its maps aside. out: the folder that keeps them, as `jvari suite --out` does.");
     m.def(

@@ -34,7 +34,10 @@ inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& opti
     for (const auto& [key, value] : options) {
         const auto name = key.cast<std::string>();
         const auto colon = name.find(':');
-        all.push_back({colon == std::string::npos ? "" : name.substr(0, colon), name.substr(colon + 1), text_of(value)});
+        const std::string scheme = colon == std::string::npos ? "" : name.substr(0, colon), option = name.substr(colon + 1);
+        if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
+            for (const auto& one : value) all.push_back({scheme, option, text_of(one)});
+        else all.push_back({scheme, option, text_of(value)});
     }
     return all;
 }

@@ -53,11 +53,14 @@ void add_common(CLI::App& verb, Common& c) {
     verb.add_flag("--quiet", c.quiet, "errors only: no messages, no progress, no result as text (`list` still lists)");
 }
 
-void add_scene(CLI::App& verb, std::string& scene, std::vector<std::string>& set, int& modes) {
+void add_scene(CLI::App& verb, std::string& scene, std::vector<std::string>& set) {
     verb.add_option("scene", scene, "a scene file, or a name that `jvari list scenes` shows")->required()->type_name("SCENE");
     verb.add_option("--set", set, "overrides a key of the scene, as string.0.barrier.0.stiffness=1e9 (repeatable)")
         ->type_name("KEY.PATH=VALUE")
         ->allow_extra_args(false);
+}
+
+void add_modes(CLI::App& verb, int& modes) {
     verb.add_option("--modes", modes,
                     "modes of each string, or interior nodes for a scheme on a grid; absent: every mode below min(20 kHz, rate/2)")
         ->type_name("N")
@@ -68,7 +71,7 @@ void add_options(CLI::App& verb, std::vector<std::string>& options) {
     verb.add_option(
             "--option", options,
             "an option of a scheme, as NAME=VALUE or SCHEME:NAME=VALUE (repeatable). In compare the short form goes to every compared "
-            "scheme that knows the name, never to the reference")
+            "scheme that knows the name, never to the reference; several values, as compliance=own,matched, are run one by one")
         ->type_name("[SCHEME:]NAME=VALUE")
         ->allow_extra_args(false);
 }
@@ -90,6 +93,31 @@ std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>
                                 colon == std::string::npos ? key : key.substr(colon + 1), text.substr(equals + 1)};
         if (o.name.empty() || colon == 0) throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
         options.push_back(std::move(o));
+    }
+    return options;
+}
+
+std::optional<int> modes_of_reference(const std::string& text) {
+    if (text == "cell") return std::nullopt;
+    if (text == "0") return 0;
+    if (!a_number(text, true).empty())
+        throw store::UsageError(
+            fmt::format("--reference-modes: found \"{}\", expected a whole number from 0 to {}, or cell", text, store::most_counted));
+    return std::stoi(text);
+}
+
+// Each value of a list for itself; an option is named once.
+std::vector<compare::SchemeOption> one_by_one(const std::vector<compare::SchemeOption>& lists) {
+    std::vector<compare::SchemeOption> options;
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+        const compare::SchemeOption& list = lists[k];
+        for (std::size_t j = 0; j < k; ++j)
+            if (lists[j].scheme == list.scheme && lists[j].name == list.name)
+                throw store::UsageError(fmt::format("--option {}: found more than once; several values stand in one list, {}={},{}",
+                                                    list.name, list.name, lists[j].value, list.value));
+        std::istringstream values(list.value);
+        for (std::string value; std::getline(values, value, ',');) options.push_back({list.scheme, list.name, value});
+        if (list.value.empty()) options.push_back(list);
     }
     return options;
 }
@@ -132,7 +160,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     RunRequest run;
     std::vector<std::string> run_options;
     auto* run_verb = app.add_subcommand("run", "one scheme on one scene");
-    add_scene(*run_verb, run.scene, run.set, run.modes);
+    add_scene(*run_verb, run.scene, run.set);
+    add_modes(*run_verb, run.modes);
     add_options(*run_verb, run_options);
     run_verb->add_option("--scheme", run.scheme, "a scheme or a reference")->required()->type_name("NAME");
     run_verb->add_option("--rate", run.rate, "sample rate; 44100 where absent")->type_name("HZ")->check(positive);
@@ -156,8 +185,15 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
 
     CompareCall compare;
     std::vector<std::string> compare_options;
+    std::string reference_modes = "0";
     auto* compare_verb = app.add_subcommand("compare", "schemes at several rates against a reference: error and cost of each");
-    add_scene(*compare_verb, compare.scene, compare.set, compare.modes);
+    add_scene(*compare_verb, compare.scene, compare.set);
+    compare_verb
+        ->add_option("--modes", compare.modes,
+                     "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many where they lie below rate/2")
+        ->delimiter(',')
+        ->type_name("N,...")
+        ->check(counting);
     add_options(*compare_verb, compare_options);
     compare_verb->add_option("--schemes", compare.schemes, "absent: every scheme that represents the scene, but for controls")
         ->delimiter(',')
@@ -172,11 +208,11 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->add_option("--reference", compare.reference, "a reference or a scheme; absent: the highest reference that represents the scene")
         ->type_name("NAME");
     compare_verb
-        ->add_option("--reference-modes", compare.reference_modes,
-                     "modes of the reference; 0: doubled until nothing moves, and the points of a profile with them; absent: until no "
-                     "error that is shown depends on it")
-        ->type_name("N")
-        ->check(CLI::NonNegativeNumber);
+        ->add_option(
+            "--reference-modes", reference_modes,
+            "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
+            "of the schemes")
+        ->type_name("N|cell");
     compare_verb->add_option("--duration", compare.duration, "in place of the scene's")->type_name("S")->check(positive);
     compare_verb
         ->add_option("--tap-rate", compare.tap_rate,
@@ -259,7 +295,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
 
     CertifyRequest certify;
     auto* certify_verb = app.add_subcommand("certify", "how far the references agree on a scene: what an error can be believed to");
-    add_scene(*certify_verb, certify.scene, certify.set, certify.modes);
+    add_scene(*certify_verb, certify.scene, certify.set);
+    add_modes(*certify_verb, certify.modes);
     certify_verb->add_option("--duration", certify.duration, "in place of the scene's; compare uses a certificate as far as it reaches")
         ->type_name("S")
         ->check(positive);
@@ -347,7 +384,8 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     must_be_assignments(certify.set);
     must_be_assignments(trim.set);
     run.options = scheme_options(run_options);
-    compare.options = scheme_options(compare_options);
+    compare.options = one_by_one(scheme_options(compare_options));
+    compare.reference_modes = modes_of_reference(reference_modes);
     if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts" && list.what != "keys")
         throw store::UsageError("--markdown goes with `jvari list schemes`, `jvari list options`, `jvari list facts` or `jvari list keys`");
 

@@ -12,6 +12,7 @@
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
 #include "bench/compare/bound.hpp"
+#include "bench/compare/diagnosis.hpp"
 #include "bench/compare/kept_cells.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"
@@ -53,26 +54,28 @@ std::string floor_text(const compare::Comparison& c) {
     return text;
 }
 
-// What the reference is, and for how long two of its kind stay together: beyond that no waveform error says anything.
+// What the reference is, and from when on waveforms cannot be compared, where that is before the end.
 std::string truth_text(const compare::Comparison& c) {
-    const auto until = [&c](double t) { return t >= c.scene.duration - 1e-3 ? std::string("to the end") : fmt::format("to {:.4g} s", t); };
-    std::string text = "reference: " + c.truth;
-    text +=
-        fmt::format("\nits horizon: within 10 % of itself {} when started 1e-12 apart", until(compare::horizon_of(c.floor, c.headline)));
-    if (!std::isnan(c.horizon)) text += fmt::format(", {} with half of its modes", until(c.horizon));
+    std::string text =
+        "reference: " + (c.truth.empty() ? fmt::format("{} modes, those of the schemes", c.reference_summary.modes) : c.truth);
+    const auto until = [&](double t, const char* who) {
+        if (t < c.scene.duration - 1e-3) text += fmt::format("\n{} agree within 10 % for the first {} only", who, compare::time_text(t));
+    };
+    until(compare::horizon_of(c.floor, c.headline), "two runs of it whose starts differ by 1e-12");
+    until(c.horizon, "it and a run with half of its modes");
     return text + "\n";
 }
 
 std::string certificate_text(const compare::Comparison& c) {
     const trust::Trust& t = c.trust;
-    if (!t.any()) return "no certificate: " + t.missing;
+    const std::string note = c.reference_note.empty() ? "" : "\n" + c.reference_note;
+    if (!t.any()) return "its uncertainty is unknown, so no error is certain" + note;
     std::string by = t.against;
     if (!t.doubled.empty()) by += (by.empty() ? "doubling its " : " and by doubling its ") + t.doubled;
     return fmt::format(
-               "{} is certain to the figures of the first line, by {}{}", c.reference_name, by,
+               "its uncertainty is in the first line of the table, by {}{}", by,
                t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + (t.of_this_program ? ")" : ", of another program)")) +
-           (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
-           (t.missing.empty() ? "" : "; for the rest: " + t.missing) + (c.reference_note.empty() ? "" : "\n" + c.reference_note);
+           (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") + note;
 }
 }  // namespace
 

@@ -18,21 +18,22 @@ std::string column_of(const char* what, const std::string& error_column) {  // e
 }  // namespace
 
 double Bound::most() const {
-    return std::isnan(certificate) ? error : error + certificate;
+    return error + certificate;
 }
 
 double Bound::least() const {
-    return std::isnan(certificate) ? error : std::fmax(0, error - certificate);
+    return std::isinf(error) ? error : std::isnan(certificate) ? 0 : std::fmax(0, error - certificate);
 }
 
 Bound::Says Bound::says() const {
     if (std::isnan(error)) return Says::nothing;
-    if (std::isinf(error) || !(certificate > small_share * error)) return Says::measured;
+    if (std::isinf(error) || certificate <= small_share * error) return Says::measured;
+    if (std::isnan(certificate)) return Says::unsure;
     return most() < nothing_is_right ? Says::at_most : Says::unknown;
 }
 
 double Bound::shown() const {
-    return says() == Says::measured ? error : most();
+    return says() == Says::measured || says() == Says::unsure ? error : most();
 }
 
 bool Bound::decides() const {
@@ -43,8 +44,8 @@ Bound bound_of(const store::Table& cells, std::size_t row, const std::string& er
     Bound b;
     b.error = cells.number(row, error_column);
     b.floor = cells.number(row, "floor_" + error_column);
-    if (error_column.starts_with("error_l2_") || error_column.starts_with("error_in_model_l2_"))
-        b.certificate = cells.number(row, column_of("certificate", error_column));
+    const bool waveform = error_column.starts_with("error_l2_") || error_column.starts_with("error_in_model_l2_");
+    b.certificate = waveform ? cells.number(row, column_of("certificate", error_column)) : 0;
     return b;
 }
 
@@ -52,10 +53,15 @@ std::string error_text(const Bound& b, const char* format) {
     switch (b.says()) {
         case Bound::Says::nothing: return "-";
         case Bound::Says::measured: return fmt::format(fmt::runtime(format), b.error);
+        case Bound::Says::unsure: return fmt::format(fmt::runtime(format), b.error) + "?";
         case Bound::Says::at_most: return "\u2264" + fmt::format(fmt::runtime(format), b.most());
         case Bound::Says::unknown: break;
     }
     return "not known";
+}
+
+bool reached(const store::Table& cells, std::size_t row) {
+    return cells.at(row, "status") == "ok" || cells.at(row, "status") == "not_needed";
 }
 
 bool trusted(const store::Table& cells, std::size_t row) {
@@ -73,7 +79,7 @@ store::Table with_bounds(store::Table cells) {
         std::vector<std::string> texts;
         for (std::size_t i = 0; i < cells.rows.size(); ++i) {
             const Bound b = bound_of(cells, i, column);
-            const bool known = !std::isnan(b.certificate) && b.says() != Bound::Says::unknown && b.says() != Bound::Says::nothing;
+            const bool known = b.says() == Bound::Says::measured || b.says() == Bound::Says::at_most;
             texts.push_back(known ? store::text_of(b.most()) : "");
         }
         cells.columns.push_back(column_of("bound", column));

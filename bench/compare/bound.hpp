@@ -1,8 +1,9 @@
 // What is known of an error, and which error stands where one has to. Tables, text, JSON, pictures, the Pareto front and the cheapest all
 // ask here.
 //
-// A cell is measured against a reference (e); the reference itself is certain to c, its certificate. By the triangle inequality the cell
-// differs from the truth by e + c at most and by e - c at least, relative to the norm of the reference.
+// A cell is measured against a reference (e), which is itself uncertain by c, its certificate. By the triangle inequality the cell differs
+// from the motion of the scene by e + c at most and by e - c at least, relative to the norm of the reference. Where c is unknown nothing
+// follows from e. Spectral measures have no certificate and count as measured.
 #pragma once
 
 #include <limits>
@@ -12,19 +13,22 @@
 
 namespace jvari::bench::compare {
 
+constexpr double accuracies[] = {0.1, 0.01, 0.001};  // of a waveform, that the cheapest scheme is named for
+
 struct Bound {
     double error = std::numeric_limits<double>::quiet_NaN();        // as measured; NaN: none
-    double certificate = std::numeric_limits<double>::quiet_NaN();  // NaN: none, and what was measured is all there is
+    double certificate = std::numeric_limits<double>::quiet_NaN();  // NaN: unknown
     double floor = std::numeric_limits<double>::quiet_NaN();        // of noise, NaN: none
 
-    double most() const;   // e + c
-    double least() const;  // e - c, 0 at least
+    double most() const;   // e + c; NaN where c is unknown
+    double least() const;  // e - c, 0 at least; 0 where c is unknown
 
     enum class Says {
         nothing,   // there is no error
-        measured,  // e: c is a tenth of it or less, or there is none
+        measured,  // e: c is a tenth of it or less
         at_most,   // e + c
-        unknown    // e + c reaches 1, where nothing of the waveform is right: c is too large to tell
+        unknown,   // e + c reaches 1, where nothing of the waveform is right: c is too large to tell
+        unsure     // e, but c is unknown
     };
     Says says() const;
     double shown() const;  // what stands in a picture: e, or e + c where that is what is known
@@ -34,9 +38,12 @@ struct Bound {
 // Of a row of cells.csv, or of a table like it, and one of its error columns.
 Bound bound_of(const store::Table& cells, std::size_t row, const std::string& error_column);
 
-std::string error_text(const Bound&, const char* format);  // "1.30e-02", "\u22645.13e-02", "not known", "-" where there is no error
+// "1.30e-02", "\u22645.13e-02", "1.30e-02?" (unsure), "not known", "-" where there is no error
+std::string error_text(const Bound&, const char* format);
 
-// The rows' own figures say nothing against them: they reached their end, and have no flags.
+// They reached the end of their run; those that are not needed were run over the headline's window alone.
+bool reached(const store::Table& cells, std::size_t row);
+// The rows' own figures say nothing against them: they reached the end of the whole run, and have no flags.
 bool trusted(const store::Table& cells, std::size_t row);
 
 // The column that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else the whole run; the first with a finite

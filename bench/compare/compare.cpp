@@ -11,10 +11,12 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/cost.hpp"
 #include "bench/compare/kept_cells.hpp"
+#include "bench/compare/needed_cells.hpp"
 #include "bench/compare/time_limit.hpp"
 #include "bench/compare/truth.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/records.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "reference/agreement.hpp"
@@ -131,20 +133,68 @@ Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
     return std::move(result.trace);
 }
 
-void judge(Cell& cell, const Trace& done, const Trace& truth, const Trace& model) {
+void judge(Cell& cell, const Trace& done, const Trace& truth, const Trace* model) {
     cell.errors = errors_of(done, truth);
-    cell.in_model = &model == &truth ? cell.errors : errors_of(done, model);
+    cell.in_model = !model ? Errors{} : model == &truth ? cell.errors : errors_of(done, *model);
 }
 
 namespace {
-// The least headline error of the cells that reached the end of its window [s]; infinite where none did.
-double least_error(const Comparison& c, const std::vector<Trace>& cells, const Trace& truth, double window) {
-    double least = HUGE_VAL;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        if (!c.cells[i].refused && c.cells[i].reason.empty())
-            least =
-                std::min(least, relative_difference(cells[i].column(c.headline.nut), truth.column(c.headline.nut), truth.tap_rate, window));
-    return least;
+using EachCell = std::function<void(const char* label, const std::function<void(std::size_t, const ProgressOf&)>&)>;
+
+// What of a comparison is known before a cell runs; messages of its reference.
+void describe(Comparison& c, const CompareRequest& request, const Truth& truth, const Reference& model, const store::Listener& listener) {
+    const Reference& reference = truth.reference;
+    c.truth = truth.said;
+    c.horizon = truth.horizon;
+    c.model_trust = model.trust;
+    c.reference = reference.choice.scheme;
+    c.reference_name = reference.choice.name();
+    c.reference_settings = reference.choice.settings;
+    c.trust = reference.trust;
+    c.reference_note = reference.choice.note;
+    c.reference_summary = summary_of(*c.reference, c.scene, c.reference_settings, reference.run);
+    c.floor = errors_of(reference.moved.trace, reference.run.trace);
+    c.reference_sound = store::sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
+    if (!c.reference_note.empty()) listener.note(c.reference_note);
+    if (!c.trust.any())
+        listener.note(
+            reference.choice.oversampled
+                ? fmt::format("the uncertainty of {} is unknown: {}", c.reference_name, c.trust.missing)
+                : fmt::format(
+                      "the uncertainty of {} is unknown: twice its modes were not run, and there is no certificate. To make one: {}",
+                      c.reference_name, certify_command(request, c)));
+    if (reference.run.status.outcome != Outcome::ok)
+        listener.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
+                                  name_of(reference.run.status.outcome), c.reference_summary.duration));
+}
+
+// Errors of the windows that a shorter run covers; of the whole run nothing is known.
+Errors covered_by(Errors errors, double window) {
+    for (auto& tap : errors)
+        for (std::size_t k = 0; k < measures().size(); ++k)
+            if (!(measures()[k].window <= window)) tap[k] = store::nan;
+    return errors;
+}
+
+// Runs all cells over the headline's window, marks those that are needed, and takes out what was sought and cannot be made.
+void search(Comparison& c, const Trace& reference, const EachCell& each_cell) {
+    Scene shown = c.scene;
+    shown.duration = std::min(shown.duration, headline_window(shown.duration));
+    const int nut = c.headline.nut;
+    std::vector<Cell> tried = c.cells;
+    std::vector<double> errors(tried.size(), HUGE_VAL);
+    each_cell("search", [&](std::size_t i, const ProgressOf& progress) {
+        const Trace trace = run_cell(tried[i], shown, progress);
+        tried[i].errors = covered_by(errors_of(trace, reference), shown.duration < c.scene.duration ? shown.duration : HUGE_VAL);
+        if (tried[i].reason.empty())
+            errors[i] = relative_difference(trace.column(nut), reference.column(nut), reference.tap_rate, shown.duration);
+    });
+    for (std::size_t i = 0; i < tried.size(); ++i) tried[i].refused = c.cells[i].refused;
+    const std::size_t window = shown.duration >= 50e-3 ? 1 : shown.duration >= 10e-3 ? 0 : 2;
+    mark_needed(tried, errors, c.trust.of_scene(static_cast<std::size_t>(nut), window));
+    for (std::size_t i = 0; i < tried.size(); ++i)
+        if (!tried[i].needed) c.cells[i] = tried[i];
+    std::erase_if(c.cells, [](const Cell& cell) { return cell.refused && cell.added; });
 }
 }  // namespace
 
@@ -161,16 +211,18 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     const Plan plan = plan_of(request, catalogue, c.scene);
     for (const std::string& note : plan.notes) listener.note(note);
     c.cells = plan.cells;
-
     const Reference model = run_reference(plan.references, c.scene, request.jobs, listener);
+    const Truth truth = request.reference_modes ? run_truth(plan.references, c.scene, *request.reference_modes, request.jobs, listener)
+                                                : Truth{model, {}, {}};
+    describe(c, request, truth, model, listener);
 
-    std::vector<double> sizes;
-    for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0));
-    const auto each_cell = [&](const char* label, const std::function<void(std::size_t, const ProgressOf&)>& work) {
+    const EachCell each_cell = [&](const char* label, const std::function<void(std::size_t, const ProgressOf&)>& work) {
+        std::vector<double> sizes;
+        for (const Cell& cell : c.cells) sizes.push_back(std::max(cell.settings.sample_rate, 44100.0) * std::max(1, cell.settings.modes));
         store::side_by_side(
             sizes, request.jobs, listener, label,
             [&](std::size_t i, store::Done& done) {
-                if (c.cells[i].refused) return;
+                if (c.cells[i].refused || !c.cells[i].needed) return;
                 try {
                     work(i, told_to(done));
                 } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
@@ -180,56 +232,29 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
             },
             [&](std::size_t i) { return fmt::format("{} at {} Hz", c.cells[i].scheme->name, c.cells[i].settings.sample_rate); });
     };
-    // Unless it is given, the size of the truth follows from the errors that there are to show: cells run over the headline's window first.
-    Scene shown = c.scene;
-    shown.duration = std::min(shown.duration, headline_window(shown.duration));
-    std::vector<Trace> early(c.cells.size());
-    if (!request.reference_modes)
-        each_cell("cells", [&](std::size_t i, const ProgressOf& progress) { early[i] = run_cell(c.cells[i], shown, progress); });
-    const Truth truth = run_truth(plan.references, c.scene, request.reference_modes.value_or(0), request.jobs, listener, HUGE_VAL,
-                                  request.reference_modes ? nullptr : std::function([&](const Trace& so_far) {
-                                      return 0.1 * least_error(c, early, so_far, shown.duration);
-                                  }));
-    const Reference& reference = truth.reference;
-    c.truth = truth.said;
-    c.horizon = truth.horizon;
-    c.model_trust = model.trust;
-    c.reference = reference.choice.scheme;
-    c.reference_name = reference.choice.name();
-    c.reference_settings = reference.choice.settings;
-    c.trust = reference.trust;
-    c.reference_note = reference.choice.note;
-    c.reference_summary = summary_of(*c.reference, c.scene, c.reference_settings, reference.run);
-    c.floor = errors_of(reference.moved.trace, reference.run.trace);
-    c.reference_sound = store::sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
-    if (!c.reference_note.empty()) listener.note(c.reference_note);
-    if (!c.trust.missing.empty())
-        listener.note(reference.choice.oversampled ? c.reference_name + " has no estimate of its own error: " + c.trust.missing
-                                                   : fmt::format("{}: how well {} solves its equations is not known. To make one: {}",
-                                                                 c.trust.missing, c.reference_name, certify_command(request, c)));
-    if (reference.run.status.outcome != Outcome::ok)
-        listener.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference->name,
-                                  name_of(reference.run.status.outcome), c.reference_summary.duration));
+    c.searched = std::ranges::any_of(c.cells, [](const Cell& cell) { return cell.searched; });
+    if (c.searched) search(c, truth.reference.run.trace, each_cell);
 
-    const bool all_shown = !request.reference_modes && shown.duration >= c.scene.duration;
-    keep.of = static_cast<int>(c.cells.size());
+    keep.of = static_cast<int>(std::ranges::count_if(c.cells, [](const Cell& cell) { return cell.needed; }));
     each_cell("errors", [&](std::size_t i, const ProgressOf& progress) {
         Cell& cell = c.cells[i];
-        const std::string identity = keep.folder.empty() ? "" : identity_of(cell, reference, model, c.scene);
+        const Reference* own = of_modes(cell, model, truth);
+        const std::string identity = keep.folder.empty() ? "" : identity_of(cell, truth.reference, own ? *own : model, c.scene);
         const std::filesystem::path file = keep.folder / (store::hash_of(identity) + ".json");
         if (keep.resume && read_cell(file, identity, cell)) {
             ++keep.kept, ++keep.read;
             return;
         }
-        const Trace trace = all_shown ? std::move(early[i]) : run_cell(cell, c.scene, progress);
-        judge(cell, trace, reference.run.trace, model.run.trace);
+        const Trace trace = run_cell(cell, c.scene, progress);
+        judge(cell, trace, truth.reference.run.trace, own ? &own->run.trace : nullptr);
         if (cell.reason.empty()) cell.sound = store::sound_of(trace.column(c.headline.nut), trace.tap_rate);
         if (keep.folder.empty()) return;
         store::write_fresh(file, json_of(cell, identity));
         ++keep.kept;
     });
     std::vector<Contender> contenders;
-    for (Cell& cell : c.cells) contenders.push_back({&cell, &c.scene});
+    for (Cell& cell : c.cells)
+        if (cell.needed) contenders.push_back({&cell, &c.scene});
     time_cells(contenders, request.repeats, listener);
     return c;
 }

@@ -1,7 +1,7 @@
-// A comparison: schemes x rates on one scene, each against one reference on the same rows.
+// A comparison: schemes x modes x rates on one scene, each against one reference on the same rows.
 //
 // Each cell is run once for its errors (energy probe on), then timed (cost.hpp). A cell that refuses or fails stays in the list with its
-// reason.
+// reason. Of the cells that were sought and not named, those alone are run whole that the first 50 ms call for (needed_cells.hpp).
 #pragma once
 
 #include <limits>
@@ -25,15 +25,18 @@ struct Cell {
     const Descriptor* scheme;
     Settings settings;
     bool refused = false;
-    std::string reason;    // of a refusal or a failure
+    std::string reason{};  // of a refusal or a failure, or why it is not needed
     Summary summary{};     // of the accuracy run; empty where refused
-    Errors errors;         // from the scene's own motion (truth.hpp)
-    Errors in_model;       // from that of a string with as many modes as all cells: errors of the scheme alone
+    Errors errors{};       // from the scene's own motion (truth.hpp)
+    Errors in_model{};     // from that of a string with as many modes: errors of the scheme alone; empty where none was run
     store::Sound sound{};  // of the headline's nut tap, where the run reached its end
     Spread wall{};         // of the timed runs [s], of the whole scene or up to the failure
     Spread processor{};    // the same in processor time [s], the drift of the machine taken off (cost.cpp)
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
     store::Stamp stamp{};                                           // of the machine that timed it
+    bool searched = false;                                          // its modes or its rate were not named
+    bool added = false;                                             // more modes than it takes unasked
+    bool needed = true;                                             // false: run over the headline's window alone, and not timed
     int modes() const { return refused ? settings.modes : summary.modes; }
 };
 
@@ -49,6 +52,7 @@ struct Comparison {
     trust::Trust trust;                                         // the figures of its certificate
     trust::Trust model_trust;                                   // of the reference that the errors in the model are measured against
     std::string truth;                                          // how far the doubling of its modes went; "": it has those of the cells
+    bool searched = false;                                      // modes or compliance, beside what was named
     double horizon = std::numeric_limits<double>::quiet_NaN();  // of the truth against itself with half its modes [s]
     store::Sound reference_sound;
     std::vector<Cell> cells;

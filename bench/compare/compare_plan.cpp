@@ -1,6 +1,6 @@
-// Modes: every cell and the reference carry as many, those below 20 kHz and below half the lowest rate, or as many as are asked for. Two
-// kinds of schemes do not: a grid takes its nodes from the rate, and one whose points of contact are nodes of its modes may need more of
-// them than that, which a note says. Several strings have each as many as lie below 20 kHz.
+// Modes: unasked, every cell carries the modes below 20 kHz and below half the lowest rate, and the reference starts from as many. What
+// more is tried is in variants.hpp. Two kinds of schemes take others: a grid takes its nodes from the rate, and one whose points of contact
+// are nodes of its modes may need more of them, which a note says. Several strings have each as many as lie below 20 kHz.
 #include "bench/compare/compare_plan.hpp"
 
 #include <fmt/core.h>
@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "bench/compare/summary.hpp"
+#include "bench/compare/variants.hpp"
 #include "bench/store/rates.hpp"
 #include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
@@ -33,7 +34,7 @@ double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
 }
 
 int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
-    if (r.modes > 0) return r.modes;
+    if (!r.modes.empty()) return r.modes.front();
     if (lowest_rate >= 40e3) return scene.strings.size() == 1 ? modes_below(scene.strings.front(), 20e3) : 0;
     int fewest = 0;
     for (const String& s : scene.strings) {
@@ -41,24 +42,6 @@ int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
         fewest = fewest == 0 ? n : std::min(fewest, n);
     }
     return fewest;
-}
-
-void add_option(OptionValues& to, const SchemeOption& o, const Descriptor& d) {
-    if (std::ranges::count(to, o.name, [](const auto& said) { return said.first; }) > 0)
-        throw store::UsageError(fmt::format("--option {}: found more than once for {}, expected one value", o.name, d.name));
-    to.emplace_back(o.name, o.value);
-}
-
-// The short form goes to the schemes that declare the name.
-OptionValues options_for(const CompareRequest& r, const Descriptor& d, std::vector<bool>& used) {
-    OptionValues options;
-    for (std::size_t k = 0; k < r.options.size(); ++k) {
-        const SchemeOption& o = r.options[k];
-        if (o.scheme.empty() ? !declares(d, o.name) : o.scheme != d.name) continue;
-        used[k] = true;
-        add_option(options, o, d);
-    }
-    return options;
 }
 
 struct Made {
@@ -85,7 +68,7 @@ Made made(const Descriptor& d, const Scene& scene, const Settings& settings) {
 int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, Settings settings, std::vector<std::string>& notes) {
     const int all = settings.modes;
     const bool contact = std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return !s.barriers.empty(); });
-    if (r.modes > 0 || all == 0 || !contact) return all;
+    if (!r.modes.empty() || all == 0 || !contact) return all;
     const Made equal = made(d, scene, settings);
     if (equal.modes == 0 && !equal.refused) return all;
     settings.modes = 0;
@@ -120,8 +103,11 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
         const bool stepped = d.clock != Clock::continuous && !catalogue.is_reference(d);
         if (stepped) s.sample_rate *= oversampling;
         for (std::size_t k = 0; k < r.options.size(); ++k)
-            if (r.options[k].scheme == d.name) {
-                add_option(s.options, r.options[k], d);
+            if (const SchemeOption& o = r.options[k]; o.scheme == d.name) {
+                if (std::any_of(s.options.begin(), s.options.end(), [&o](const auto& set) { return set.first == o.name; }))
+                    throw store::UsageError(
+                        fmt::format("--option {}:{}: found more than once, and the reference takes one value", d.name, o.name));
+                s.options.emplace_back(o.name, o.value);
                 used[k] = true;
             }
         choices.push_back({&d, s, note, stepped ? oversampling : 0, catalogue.is_reference(d)});
@@ -143,6 +129,22 @@ std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catal
                         why, scheme->name, oversampling * at_highest.sample_rate, oversampling,
                         able.size() > 1 ? ", and was the least of those that could" : ""));
     return choices;
+}
+
+// The cells of one form of a scheme: its numbers of modes, each at the rates that take it.
+void add_cells(Plan& plan, const CompareRequest& r, const Descriptor& d, const Scene& scene, Settings settings, const Form& form) {
+    Settings at_lowest = settings;
+    at_lowest.sample_rate = form.rates.front();
+    if (d.clock != Clock::continuous) settings.modes = modes_of(d, scene, r, at_lowest, plan.notes);
+    for (const Rung& rung : rungs_of(r, d, scene, settings, form.rates))
+        for (const double rate : rung.rates) {
+            Cell cell{&d, settings};
+            cell.settings.modes = rung.modes;
+            cell.settings.sample_rate = rate;
+            cell.added = rung.added;
+            cell.searched = r.search && rate > 0 && (rung.added || r.rates.empty());
+            plan.cells.push_back(cell);
+        }
 }
 }  // namespace
 
@@ -167,22 +169,15 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
     std::vector<bool> used(r.options.size(), false);
     const auto schemes = schemes_for(r, catalogue, scene);
     plan.references = references_for(r, catalogue, scene, settings, *schemes.front(), used);
+    Untried untried;
     for (const Descriptor* d : schemes) {
-        Cell cell{d, settings, false, {}, {}, {}, {}};
-        cell.settings.options = options_for(r, *d, used);
-        Settings at_lowest = cell.settings;
-        at_lowest.sample_rate = rates.front();
-        if (d->clock != Clock::continuous) cell.settings.modes = modes_of(*d, scene, r, at_lowest, plan.notes);
-        if (d->clock == Clock::continuous) {  // no rate to vary
-            cell.settings.sample_rate = 0;
-            plan.cells.push_back(cell);
-            continue;
-        }
-        for (double rate : rates) {
-            cell.settings.sample_rate = rate;
-            plan.cells.push_back(cell);
+        const bool stepped = d->clock != Clock::continuous;
+        for (const Form& form : forms_of(r, *d, scene, settings, stepped ? rates : std::vector<double>{0.0}, used, untried)) {
+            settings.options = form.options;
+            add_cells(plan, r, *d, scene, settings, form);
         }
     }
+    for (const std::string& note : untried.notes()) plan.notes.push_back(note);
     for (std::size_t k = 0; k < used.size(); ++k)
         if (!used[k])
             throw store::UsageError(fmt::format("--option {}{}{}: {}", r.options[k].scheme, r.options[k].scheme.empty() ? "" : ":",

@@ -41,7 +41,7 @@ Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int j
 // Runs the cell and fills summary and reason. Throws Refusal. What `progress` throws ends it.
 using ProgressOf = std::function<void(long done, long rows)>;
 Trace run_cell(Cell&, const Scene&, const ProgressOf& progress);
-// Fills its errors from what it did: from the truth, and from a reference of its own modes.
-void judge(Cell&, const Trace& done, const Trace& truth, const Trace& model);
+// Fills its errors from what it did: from the truth, and from a reference of its own modes; nullptr: there is none.
+void judge(Cell&, const Trace& done, const Trace& truth, const Trace* model);
 
 }  // namespace jvari::bench::compare

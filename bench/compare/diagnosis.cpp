@@ -8,26 +8,25 @@
 
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"
+#include "schemes/contact/compliance.hpp"
+#include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {
 
 namespace {
 constexpr double least_order = 0.5;   // below it a rate that would do is out of reach
+constexpr double hardly = 0.1;        // an order below it is none
 constexpr double furthest = 64;       // of an extrapolation, in rates
 constexpr double fewest_points = 3;   // two lie on every line
 constexpr double of_the_modes = 0.3;  // an error in the model of less than this of the error: the rest is of the modes left out
-
-std::string percent(double x) {
-    return fmt::format("{:.2g} %", 100 * x);
-}
+constexpr double before_the_end = 0.98, first_of_all = 1e-3;  // of a horizon that is worth a word; the latter [s]
 
 std::string rate_text(double hertz) {
     return fmt::format("{:.4g} kHz", hertz / 1000);
 }
 
-std::string cell_name(const store::Table& cells, std::size_t row) {
-    const double rate = cells.number(row, "rate");
-    return store::variant_name(cells.at(row, "scheme"), cells.at(row, "options")) + (std::isnan(rate) ? "" : " at " + rate_text(rate));
+bool is_grid(const store::Table& cells, std::size_t row) {
+    return cells.number(row, "fact_grid_intervals") > 0;
 }
 
 std::optional<std::size_t> least(const store::Table& cells, const store::Rows& rows, const std::string& column) {
@@ -45,61 +44,107 @@ std::optional<std::size_t> cheapest_within(const store::Table& cells, const stor
     return best;
 }
 
-// Over the rates of the series that `row` is of, errors that noise and reference allow.
-Order order_of(const store::Table& cells, const store::Rows& rows, std::size_t row, const std::string& measure) {
+std::vector<std::string> same_series(const store::Table& cells, std::initializer_list<const char*> and_more) {
+    std::vector<std::string> same = store::naming_columns(cells);
+    same.insert(same.end(), and_more.begin(), and_more.end());
+    return same;
+}
+bool alike(const store::Table& cells, std::size_t a, std::size_t b, const std::vector<std::string>& columns) {
+    return std::ranges::all_of(columns, [&](const std::string& name) { return cells.at(a, name) == cells.at(b, name); });
+}
+
+// Over all rates of the series that `row` is of, errors that noise and reference allow.
+Order order_of(const store::Table& cells, std::size_t row, const std::string& measure) {
+    std::vector<std::string> same = same_series(cells, {});
+    if (!is_grid(cells, row)) same.emplace_back("modes");
     std::vector<double> rates, errors;
-    for (const store::Rows& series : store::differing_in_rate(cells, rows, store::naming_columns(cells))) {
-        if (std::ranges::find(series, row) == series.end()) continue;
-        for (const std::size_t i : series)
-            if (const double e = cells.number(i, measure); e < 1 && bound_of(cells, i, measure).decides() && cells.number(i, "rate") > 0) {
-                rates.push_back(cells.number(i, "rate"));
-                errors.push_back(e);
-            }
+    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
+        if (!reached(cells, i) || !cells.at(i, "flags").empty()) continue;
+        if (!alike(cells, i, row, same)) continue;
+        if (const double e = cells.number(i, measure); e < 1 && bound_of(cells, i, measure).decides() && cells.number(i, "rate") > 0) {
+            rates.push_back(cells.number(i, "rate"));
+            errors.push_back(e);
+        }
     }
     return observed_order(rates, errors);
+}
+
+std::string of_the_rate(const store::Table& cells, std::size_t row, const std::string& measure, double most) {
+    const Order o = order_of(cells, row, measure);
+    if (o.points < fewest_points || !std::isfinite(o.half_width))
+        return o.points < 2 ? "" : " Two rates are too few to extrapolate: run a third.";
+    if (o.order < hardly || o.order - o.half_width <= 0)
+        return fmt::format(" The error hardly falls with the rate (order {:.2f}), so a higher rate will not help.", std::max(0.0, o.order));
+    const double rate = cells.number(row, "rate") * std::pow(cells.number(row, measure) / most, 1 / o.order);
+    if (o.order < least_order || rate > furthest * cells.number(row, "rate"))
+        return fmt::format(" The error falls with the rate (order {:.2g}), but no rate within reach is enough.", o.order);
+    return fmt::format(" The error falls with the rate (order {:.2g}): {} would be enough, extrapolated and not run.", o.order,
+                       rate_text(rate));
+}
+
+std::string of_the_modes_left_out(const store::Table& cells, std::size_t row, const std::string& measure) {
+    std::string in_model = measure;
+    if (in_model.starts_with("error_")) in_model.insert(6, "in_model_");
+    const double modes = cells.number(row, "modes"), error = cells.number(row, measure);
+    if (is_grid(cells, row) || !(modes > 0)) return "";
+    if (cells.number(row, in_model) < of_the_modes * error)
+        return fmt::format(" Most of that comes from the modes left out: try `--modes {:.0f}`.", 2 * modes);
+    const std::vector<std::string> same = same_series(cells, {"rate"});
+    for (std::size_t i = 0; i < cells.rows.size(); ++i) {  // fewer, at its rate
+        const double fewer = cells.number(i, "modes"), order = std::log(cells.number(i, measure) / error) / std::log(modes / fewer);
+        if (fewer < modes && reached(cells, i) && order >= least_order && alike(cells, i, row, same))
+            return fmt::format(" The error falls with the modes: try `--modes {:.0f}`.", 2 * modes);
+    }
+    return "";
+}
+
+std::string of_the_compliance(const store::Table& cells, const store::Rows& rows, std::size_t row) {
+    const auto matched = [&](std::size_t i) { return cells.at(i, "options").find("compliance=matched") != std::string::npos; };
+    const auto has_both = [&](const Descriptor& d) { return d.name == cells.at(row, "scheme") && declares(d, compliance_option.name); };
+    const bool touched = cells.number(row, facts::deepest_penetration.name) > 0;
+    if (!touched || std::ranges::any_of(rows, matched) || std::ranges::none_of(schemes(), has_both)) return "";
+    return " compliance=matched was not run.";
 }
 
 std::string instead(const store::Table& cells, const store::Rows& rows, const std::string& measure, double most) {
     for (const double db : {1.0, 3.0})
         if (const auto i = cheapest_within(cells, rows, "third_octave_db", db))
-            return fmt::format("by third octaves {:g} dB is reached by {}", db, cell_name(cells, *i));
+            return fmt::format(" By third octaves {:g} dB is reached by {}.", db, store::run_name(cells, *i));
     if (measure != "error_l2_10ms")
         if (const auto i = cheapest_within(cells, rows, "error_l2_10ms", most))
-            return fmt::format("over 10 ms {} is within", cell_name(cells, *i));
+            return fmt::format(" Over the first 10 ms {} is within {}.", store::run_name(cells, *i), percent(most));
     const auto i = least(cells, rows, "third_octave_db");
-    return i ? fmt::format("by third octaves the nearest is {}, {:.2g} dB", cell_name(cells, *i), cells.number(*i, "third_octave_db"))
-             : "no other measure is nearer";
+    return i ? fmt::format(" By third octaves the closest is {}, {:.2g} dB.", store::run_name(cells, *i),
+                           cells.number(*i, "third_octave_db"))
+             : "";
 }
 }  // namespace
 
+std::string percent(double share) {
+    return share >= 0.0995 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+}
+
+std::string time_text(double seconds) {
+    return seconds >= 0.995 ? fmt::format("{:.2g} s", seconds) : fmt::format("{:.3g} ms", 1e3 * seconds);
+}
+
 std::string why_none(const store::Table& cells, const store::Rows& rows, const std::string& measure, double most) {
     const auto best = least(cells, rows, measure);
-    if (!best) return "no run covers the window";
+    if (!best) return "No run covers the window.";
     const Bound b = bound_of(cells, *best, measure);
-    std::string text = fmt::format("the nearest is {}, {}", cell_name(cells, *best), percent(b.error));
-    const auto and_so = [&text](const std::string& more) { text += "; " + more; };
-    if (b.floor > most) and_so(fmt::format("a start 1e-12 apart alone makes {}", percent(b.floor)));
-    if (b.certificate > most) and_so(fmt::format("the reference itself is certain to {} only", percent(b.certificate)));
-
-    const Order o = order_of(cells, rows, *best, measure);
-    const bool known = o.points >= fewest_points && std::isfinite(o.half_width);
-    if (known && o.order - o.half_width > 0 && o.order >= least_order) {
-        const double rate = cells.number(*best, "rate") * std::pow(b.error / most, 1 / o.order);
-        if (rate <= furthest * cells.number(*best, "rate") && !(b.floor > most)) {
-            and_so(fmt::format("errors fall as rate^-{:.2g}, so {} would be enough: extrapolated, not run", o.order, rate_text(rate)));
-            return text;
-        }
+    std::string text = fmt::format("Closest: {}, {} error.", store::run_name(cells, *best), percent(b.error));
+    if (b.floor > most) {
+        text += fmt::format(" A change of the start by 1e-12 alone makes {}.", percent(b.floor));
+    } else if (b.certificate > most) {
+        text += fmt::format(" The reference is known to {} only.", percent(b.certificate));
+    } else {
+        const std::string modes = of_the_modes_left_out(cells, *best, measure);
+        text += modes.empty() ? of_the_rate(cells, *best, measure, most) : modes;
+        text += of_the_compliance(cells, rows, *best);
     }
-    if (!std::isnan(o.order))
-        and_so(fmt::format("errors fall as rate^-{:.2g} only, and no rate within reach will do", std::max(0.0, o.order)));
-    std::string in_model = measure;
-    if (in_model.starts_with("error_")) in_model.insert(6, "in_model_");
-    if (const double e = cells.number(*best, in_model); e < of_the_modes * b.error)
-        and_so(fmt::format("{} of it is the scheme's own, the rest is of the modes left out: more of them by --modes", percent(e)));
-    if (const double h = cells.number(*best, "horizon_s"); std::isfinite(h)) and_so(fmt::format("waveforms part after {:.2g} ms", 1e3 * h));
-    if (std::isfinite(b.floor) && !(b.floor > most)) and_so(fmt::format("noise floor {}", percent(b.floor)));
-    and_so(instead(cells, rows, measure, most));
-    return text;
+    const double h = cells.number(*best, "horizon_s"), end = cells.number(*best, "wall_seconds") / cells.number(*best, "cost_s_per_s");
+    if (h > first_of_all && h < before_the_end * end) text += fmt::format(" Its waveform is within 10 % for {}.", time_text(h));
+    return text + instead(cells, rows, measure, most);
 }
 
 }  // namespace jvari::bench::compare

@@ -1,8 +1,8 @@
-// Why no cell is as accurate as asked, and what can be judged instead: one sentence where a table would say "none".
+// Why no cell is as accurate as asked, and what to do: a few sentences where a table would say "none".
 //
-// The series with the least error tells how errors fall with the rate. Where they fall by a power that is known to be one, the rate that
-// would do is extrapolated, and called so. Else the sentence says for how long waveforms stay together, what noise and modes allow, and
-// which other measure finds a cell.
+// They name the closest cell and what stands in the way: the motion's sensitivity, the reference, the modes left out, or the rate. Of the
+// rate there are three cases: too few rates to extrapolate, errors that do not fall, and a rate that would do or is out of reach. The last
+// sentence says what can be judged instead.
 #pragma once
 
 #include <string>
@@ -13,5 +13,8 @@ namespace jvari::bench::compare {
 
 // `rows`: of one scene, timed and trusted; `measure`: an error column of relative L2; `most`: what none of them is within.
 std::string why_none(const store::Table& cells, const store::Rows& rows, const std::string& measure, double most);
+
+std::string percent(double share);      // "0.43 %", "97 %"
+std::string time_text(double seconds);  // "8 ms", "280 ms", "1.2 s"
 
 }  // namespace jvari::bench::compare

@@ -27,14 +27,14 @@ std::vector<double> errors_of(std::span<const double> c, std::span<const double>
 
 const std::vector<Measure>& measures() {  // in the order of errors_of
     static const std::vector<Measure> all = {
-        {"error_l2_10ms", "relative L2 error, 0\u201310 ms", false, true},
-        {"error_l2_50ms", "relative L2 error, 0\u201350 ms", false, true},
-        {"error_l2_whole", "relative L2 error, whole run", false, true},
-        {"horizon_s", "predictability horizon [s]", false, false},
-        {"third_octave_db", "third-octave difference [dB rms]", true, true},
-        {"stft_db", "multi-resolution STFT difference [dB]", false, true},
-        {"stft_convergence", "multi-resolution spectral convergence", false, true},
-        {"centroid_hz", "centroid track difference [Hz rms]", false, true},
+        {"error_l2_10ms", "relative L2 error, 0\u201310 ms", false, true, 10e-3},
+        {"error_l2_50ms", "relative L2 error, 0\u201350 ms", false, true, 50e-3},
+        {"error_l2_whole", "relative L2 error, whole run", false, true, HUGE_VAL},
+        {"horizon_s", "predictability horizon [s]", false, false, HUGE_VAL},
+        {"third_octave_db", "third-octave difference [dB rms]", true, true, HUGE_VAL},
+        {"stft_db", "multi-resolution STFT difference [dB]", false, true, HUGE_VAL},
+        {"stft_convergence", "multi-resolution spectral convergence", false, true, HUGE_VAL},
+        {"centroid_hz", "centroid track difference [Hz rms]", false, true, HUGE_VAL},
     };
     return all;
 }

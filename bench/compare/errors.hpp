@@ -14,6 +14,7 @@ struct Measure {
     std::string title;   // "relative L2, 0-50 ms"
     bool bridge;         // the headline figure is of the bridge tap, else of the nut tap
     bool less_is_better;
+    double window;  // [s] of the run that it is of; infinite: the whole
 };
 const std::vector<Measure>& measures();
 

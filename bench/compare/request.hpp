@@ -7,16 +7,17 @@
 
 namespace jvari::bench::compare {
 
-struct SchemeOption {                 // --option [scheme:]name=value
+struct SchemeOption {                 // --option [scheme:]name=value; of one name several: each value is run
     std::string scheme, name, value;  // scheme "": every scheme that knows the name
 };
 
 struct CompareRequest {
     std::string scene, reference, out;
-    std::vector<std::string> schemes;  // none: every scheme that represents the scene
-    std::vector<double> rates;         // [Hz]
-    int modes = 0;
-    std::optional<int> reference_modes;        // 0: doubled until nothing moves; absent: until no error that is shown depends on it
+    std::vector<std::string> schemes;          // none: every scheme that represents the scene
+    std::vector<double> rates;                 // [Hz]; none: 44100 x 1, 2, 4 ... 64
+    std::vector<int> modes;                    // none: those below 20 kHz, and what `search` adds
+    std::optional<int> reference_modes = 0;    // 0: doubled until nothing moves; none: those of the cells
+    bool search = true;                        // what is not named is sought: more modes, matched compliance. Not with a cell's reference
     bool controls = false;                     // with no schemes named, those that are known to be wrong too
     std::optional<double> duration, tap_rate;  // [s], [Hz]
     std::vector<std::string> set;              // overrides of the scene, "key.path=value"

@@ -18,17 +18,17 @@
 namespace jvari::bench::compare {
 
 namespace {
-constexpr double further = and_further_ones - 1;  // the first doubling was done
+constexpr int most_modes_found = 4096;  // beyond, a stiff string's highest frequency makes the work grow faster than modes^2
+constexpr double slowest = 0.70710678118654752, fastest = 0.25;  // ratios of a doubling to the one before: orders 1/2 and 2
 
 struct Size {
     int modes, points;  // points of a profile; 0: none, or they were asked for
-    Size half() const { return {modes / 2, points / 2}; }
     Size twice() const { return {2 * modes, 2 * points}; }
     std::string text() const { return fmt::format("{} modes", modes) + (points > 0 ? fmt::format(" and {} points", points) : ""); }
 };
 
 // How many times longer than the closed forms of a lumped linear contact a reference takes for the same work, as measured on
-// two_point_bridge and tanpura_c3_release: a contact that is integrated in steps, and a stiff integrator.
+// two_point_bridge and tanpura_c3_release: a contact that is integrated in steps, and a stiff integrator. Points as on sitar_parabola.
 double dearness(const Descriptor& reference, const Scene& scene) {
     const Features needed = needed_by(scene);
     if (reference.name == std::string_view(sundials.name)) return 1000;
@@ -36,8 +36,8 @@ double dearness(const Descriptor& reference, const Scene& scene) {
 }
 
 bool within_budget(const Descriptor& reference, const Scene& scene, const Size& s) {
-    const double work = scene.duration * scene.strings.size() * s.modes * s.modes * (1 + s.points * s.points / 4.0);
-    return s.points <= most_points && work * dearness(reference, scene) <= budget;
+    const double work = scene.duration * scene.strings.size() * s.modes * s.modes * (1 + 2.5 * s.points);
+    return s.points <= most_points && s.modes <= most_modes_found && work * dearness(reference, scene) <= budget;
 }
 
 // Modes below 20 kHz, and the points that a reference takes unasked.
@@ -58,31 +58,43 @@ double change(const Run& more, const Run& fewer, int tap, double until) {
     return relative_difference(fewer.trace.column(tap), more.trace.column(tap), more.trace.tap_rate, until);
 }
 
-// How far a model is solved is what the certificate of the modes below 20 kHz says; what it leaves out is what the last doubling changed.
-trust::Trust trust_of(const trust::Trust& solved, const Run& more, const Run& fewer, const Size& of) {
+// How far the model is solved is what its certificate says, else its noise floor: an error of rounding grows like a change of the start.
+// What the model leaves out is what is left after the doublings.
+trust::Trust trust_of(const trust::Trust& solved, const Reference& last, const std::vector<Reference>& coarser, const Size& of) {
     trust::Trust t = solved;
-    if (!t.any()) t.figure.assign(static_cast<std::size_t>(more.trace.taps()), {0, 0, 0});
+    const Run &more = last.run, &fewer = coarser.back().run;
+    const auto taps = static_cast<std::size_t>(more.trace.taps());
+    if (!t.any()) t.figure.assign(taps, {store::nan, store::nan, store::nan});
     const double until = static_cast<double>(std::min(more.trace.rows, fewer.trace.rows) - 1) / more.trace.tap_rate;
-    t.left_out.assign(t.figure.size(), {});
-    for (std::size_t k = 0; k < t.left_out.size(); ++k)
+    t.left_out.assign(taps, {});
+    for (std::size_t k = 0; k < taps; ++k)
         for (std::size_t w = 0; w < t.left_out[k].size(); ++w) {
-            const double end = std::array{10e-3, 50e-3, until}[w];
-            t.left_out[k][w] =
-                end > until + 1e-6 ? std::nan("") : further * change(more, fewer, static_cast<int>(k), w == 2 ? HUGE_VAL : end);
-            if (std::isnan(t.figure[k][w])) t.figure[k][w] = 0;  // beyond the certificate: what was left out outweighs it
+            const double end = std::array{10e-3, 50e-3, HUGE_VAL}[w];
+            const bool covered = w == 2 || end <= until + 1e-6;
+            const auto changed = [&](const Run& a, const Run& b) { return change(a, b, static_cast<int>(k), end); };
+            const double before = coarser.size() > 1 ? changed(fewer, coarser[coarser.size() - 2].run) : store::nan;
+            t.left_out[k][w] = covered ? left_after(changed(more, fewer), before) : store::nan;
+            if (std::isnan(t.figure[k][w]) && covered) t.figure[k][w] = changed(last.moved, more);  // beyond the certificate, too
         }
     t.doubled = of.points > 0 ? "modes and points" : "modes";
     return t;
 }
 }  // namespace
 
+double left_after(double last, double before) {
+    const double ratio = last / before;
+    if (!(ratio <= slowest)) return (and_further_ones - 1) * std::fmax(last, before);
+    const double seen = std::max(ratio, fastest);
+    return last * seen / (1 - seen);
+}
+
 Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes, int jobs, const store::Listener& listener,
-                double time_limit, const std::function<double(const Trace&)>& enough) {
+                double time_limit) {
     const bool find = modes == 0;
     std::vector<ReferenceChoice> first;
     for (const ReferenceChoice& c : choices)
-        first.push_back(c.oversampled ? c : sized(c, {find ? first_size(scene, c.settings.options).modes : std::max(1, modes / 2), 0}));
-    Truth truth{run_reference(first, scene, jobs, listener, time_limit), {}};
+        first.push_back(c.oversampled ? c : sized(c, {find ? first_size(scene, c.settings.options).modes : std::max(1, modes / 4), 0}));
+    Truth truth{run_reference(first, scene, jobs, listener, time_limit), {}, {}};
     if (truth.reference.choice.oversampled) {
         truth.said = "a stand-in, as it is: no modes to double";
         return truth;
@@ -92,33 +104,43 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     certified.modes = first_size(scene, choice.settings.options).modes;
     const trust::Trust solved = trust::trust_of(scene, choice.scheme->name, certified, scene.duration);
     const int tap = headline_of(scene).nut;
-    const double window = headline_window(scene.duration);
+    const std::size_t window = std::isinf(headline_window(scene.duration)) ? 2 : scene.duration >= 50e-3 ? 1 : 0;
     Size size{choice.settings.modes, find ? first_size(scene, choice.settings.options).points : 0};
-    double moved_by = HUGE_VAL, may_move = settled;
-    while (find ? moved_by >= may_move && within_budget(*choice.scheme, scene, size.twice()) : std::isinf(moved_by)) {
-        Reference fewer = std::move(truth.reference);
-        size = find ? size.twice() : Size{modes, 0};
+    double unsettled = HUGE_VAL;  // by what is left out of the headline figure
+    const auto next = [&] { return find ? size.twice() : Size{size.modes < modes / 2 ? modes / 2 : modes, 0}; };
+    while (find ? unsettled >= settled && within_budget(*choice.scheme, scene, next()) : size.modes < modes) {
+        Reference more;
         try {
-            truth.reference = run_reference({sized(choice, size)}, scene, jobs, listener, time_limit);
+            more = run_reference({sized(choice, next())}, scene, jobs, listener, time_limit);
         } catch (const BadScene&) {  // no string has as many, or there are no more that were measured
-            truth.reference = std::move(fewer);
-            size = size.half();
             break;
         }
-        Run &more = truth.reference.run, &less = fewer.run;
-        truth.reference.trust = trust_of(solved, more, less, size);
-        moved_by = change(more, less, tap, window);
-        if (enough) may_move = std::max(settled, enough(more.trace));
-        truth.horizon = horizon(less.trace.column(tap), more.trace.column(tap), more.trace.tap_rate);
+        size = next();
+        truth.coarser.push_back(std::move(truth.reference));
+        truth.reference = std::move(more);
+        truth.reference.trust = trust_of(solved, truth.reference, truth.coarser, size);
+        unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
+        const Trace &finer = truth.reference.run.trace, &fewer = truth.coarser.back().run.trace;
+        truth.horizon = horizon(fewer.column(tap), finer.column(tap), finer.tap_rate);
     }
-    const std::string figure =
-        fmt::format("{} over {}", scene.taps.at(tap).name, std::isinf(window) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * window));
     truth.said = size.text();
-    if (!std::isinf(moved_by)) truth.said += fmt::format("; half of them change {} by {:.1e}", figure, moved_by);
-    if (find && moved_by >= may_move)
-        truth.said += fmt::format("; the budget of the reference ended the doubling{}",
-                                  std::isinf(moved_by) ? " before it began" : fmt::format(" above {:.0e}", may_move));
+    if (!truth.coarser.empty()) {
+        const double end = headline_window(scene.duration);
+        truth.said += fmt::format("; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
+                                  std::isinf(end) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end),
+                                  change(truth.reference.run, truth.coarser.back().run, tap, end));
+    }
+    if (find && unsettled >= settled)
+        truth.said += truth.coarser.empty() ? "; twice as many would take too long, so what they leave out is unknown"
+                                            : "; twice as many would take too long";
     return truth;
+}
+
+const Reference* of_modes(const Cell& cell, const Reference& model, const Truth& truth) {
+    if (cell.settings.modes == 0 || cell.settings.modes == model.choice.settings.modes) return &model;
+    for (const Reference& r : truth.coarser)
+        if (cell.settings.modes == r.choice.settings.modes) return &r;
+    return cell.settings.modes == truth.reference.choice.settings.modes ? &truth.reference : nullptr;
 }
 
 }  // namespace jvari::bench::compare

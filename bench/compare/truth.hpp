@@ -2,32 +2,38 @@
 //
 // A string cut off at 133 modes is another string: its nut force after half a second has little to do with that of the scene. So the
 // reference does not take its modes from the cells. From those below 20 kHz, and from the points that stand for a profile unasked, both are
-// doubled until a doubling changes the headline figure by less than is `enough`, or until the next would cost more than `budget`. It then
-// says so. What the last doubling changed is part of what the reference is certain to, on every tap and window, and so is what all further
-// ones may change together: and_further_ones (certificate.hpp), less the one that was made.
+// doubled until what is still left out moves the headline figure by less than `settled`, or until the next doubling would cost more than
+// `budget`. compare and suite do this alike, and alike at every point of a sweep.
 //
-// Enough is `settled`, a tenth of the finest accuracy that the table of the cheapest asks for. A comparison on its own is content with a
-// tenth of the smallest error that it shows. An error of less than ten times what the reference is certain to is shown as a bound
-// (bound.hpp).
+// What the reference leaves out follows from its own doublings, on every tap and window (left_after). Without a doubling and without a
+// certificate its uncertainty is unknown. An error of less than ten times the uncertainty is shown as a bound (bound.hpp).
 #pragma once
-
-#include <optional>
 
 #include "bench/compare/compare_plan.hpp"
 
 namespace jvari::bench::compare {
 
-constexpr double settled = 1e-4;
-constexpr double budget = 6e5;  // [s], of motion times modes^2 times 1 + points^2/4 times how dear the reference is: some twenty seconds
+constexpr double settled = 1e-4;  // a tenth of the finest accuracy that the table of the cheapest asks for
+constexpr double budget =
+    1.5e6;  // [s], of motion times modes^2 times 1 + 2.5 points times how dear the reference is: ten to twenty seconds
 
-// The reference with the modes of the truth: found where `modes` is 0, else so many. A stand-in is left as it is. `said` tells how far it
-// went. `enough`, of the truth so far: by how much a doubling may change the headline figure; absent: `settled`. Throws as run_reference.
+// What all further doublings change, by what the last one changed and the one before it (NaN: there was none). They are a geometric series
+// whose ratio is the one observed: at least a quarter, as of order two, since one pair can agree by chance. With one doubling, or where
+// they do not get smaller so fast, the order is one half, and the larger of the two counts.
+double left_after(double last, double before);
+
+// The reference with the modes of the scene. `modes` 0: found by doubling. Else N: with N/4 and N/2 before it, to tell what N leaves out. A
+// stand-in is left as it is. `said` tells how far it went. Throws as run_reference.
 struct Truth {
     Reference reference;
+    std::vector<Reference> coarser;  // those that it was doubled from, the coarsest first
     std::string said;
     double horizon = std::numeric_limits<double>::quiet_NaN();  // [s], of the headline against itself with half the modes and points
 };
 Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, int jobs, const store::Listener&,
-                double time_limit = HUGE_VAL, const std::function<double(const Trace&)>& enough = {});
+                double time_limit = HUGE_VAL);
+
+// Of those that were run the one with the cell's modes, or nullptr. `model`: with those that cells take unasked (0: each its own).
+const Reference* of_modes(const Cell&, const Reference& model, const Truth&);
 
 }  // namespace jvari::bench::compare

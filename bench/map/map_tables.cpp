@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "bench/map/map_theory.hpp"
+
 namespace jvari::bench::map {
 
 store::Table maps_table(const MapRun& run) {
@@ -22,7 +24,8 @@ store::Table maps_table(const MapRun& run) {
 
 store::Table boundaries_table(const MapRun& run, const Reproducers& reproducers) {
     store::Table t;
-    t.columns = {"map", "scheme", "x_key", "y_key", "y", "between", "x_low", "x_high", "theory", "relative_difference", "reproducer"};
+    t.columns = {"map",        "scheme",          "x_key", "y_key", "y", "between", "x_low", "x_high", "theory", "relative_difference",
+                 "reproducer", "theory_holds_for"};
     for (const Boundary& b : run.boundaries) {
         std::string file;
         for (const Verdict side : {b.low, b.high})
@@ -30,7 +33,7 @@ store::Table boundaries_table(const MapRun& run, const Reproducers& reproducers)
                 file = r->second;
         t.rows.push_back({b.map->name, b.scheme->name, b.map->x.key, b.map->y.key, b.y,
                           fmt::format("{}|{}", name_of(b.low), name_of(b.high)), b.x_low, b.x_high, store::text_of(b.theory),
-                          store::text_of(b.relative_difference()), file});
+                          store::text_of(b.relative_difference()), file, std::isnan(b.theory) ? "" : motion_of(b.map->theory)});
     }
     return t;
 }
@@ -49,9 +52,10 @@ std::string maps_text(const MapRun& run) {
     for (const Boundary& b : run.boundaries)
         if (!std::isnan(b.theory))
             text +=
-                fmt::format("  {:<28} {:<42} {}|{} at {} = {:.5g}{}{}, theory {:.5g}: {:+.2g} %\n", b.map->name, b.scheme->name,
-                            name_of(b.low), name_of(b.high), b.map->x.key, 0.5 * (store::number_of(b.x_low) + store::number_of(b.x_high)),
-                            b.y.empty() ? "" : ", " + b.map->y.key + " = ", b.y, b.theory, 100 * b.relative_difference());
+                fmt::format("  {:<28} {:<42} {}|{} at {} = {:.5g}{}{}, theory {:.5g}: {:+.2g} %\n    theory holds for {}\n", b.map->name,
+                            b.scheme->name, name_of(b.low), name_of(b.high), b.map->x.key,
+                            0.5 * (store::number_of(b.x_low) + store::number_of(b.x_high)), b.y.empty() ? "" : ", " + b.map->y.key + " = ",
+                            b.y, b.theory, 100 * b.relative_difference(), motion_of(b.map->theory));
     return text + fmt::format("{} points, {} boundaries: {} run, {} read back\n", run.points.size(), run.boundaries.size(), run.ran,
                               run.read_back);
 }

@@ -35,6 +35,14 @@ bool is_theory(const std::string& name) {
     return std::find(known.begin(), known.end(), name) != known.end();
 }
 
+std::string motion_of(const std::string& theory) {
+    if (theory == "grid_limit") return "any motion: it is of the grid alone";
+    if (theory == "penalty_limit")
+        return "lasting contact; where the string parts from the barrier, failures were seen to begin 16 to 71 % off";
+    if (theory == "equal_shares") return "motion without losses that starts in one mode and has had time to spread over all";
+    return "any motion: it is of the highest mode alone";
+}
+
 double theory_margin(const std::string& name, const Descriptor& d, const Scene& scene, const Settings& settings) {
     if (name == nyquist) return nyquist_margin(scene, settings);
     return d.limit.name && name == d.limit.name ? margin_of(d, scene, settings) : std::numeric_limits<double>::quiet_NaN();

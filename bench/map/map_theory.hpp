@@ -19,6 +19,9 @@ namespace jvari::bench::map {
 std::vector<std::string> theories();
 bool is_theory(const std::string&);
 
+// For which motion it holds: "lasting contact: where the string parts from the barrier the boundary is elsewhere".
+std::string motion_of(const std::string& theory);
+
 // Positive on the sound side, 0 on the boundary; NaN where the theory has nothing to say of the scheme.
 double theory_margin(const std::string& theory, const Descriptor&, const Scene&, const Settings&);
 

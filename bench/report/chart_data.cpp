@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/errors.hpp"
@@ -17,10 +18,22 @@ namespace jvari::bench::report {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// Where on its line: at which rate, or, of a scheme in continuous time, with how many modes.
-std::string place_label(double rate, double modes) {
-    if (!std::isnan(rate)) return fmt::format("{:.4g} kHz", rate / 1000);
-    return std::isnan(modes) ? "" : fmt::format("{:.0f} modes", modes);
+// Where on its line: at which rate, and with how many modes where they differ along it or there is no rate.
+std::string place_label(double rate, double modes, bool modes_differ) {
+    const std::string text = std::isnan(modes) || !(modes_differ || std::isnan(rate)) ? "" : fmt::format("{:.0f} modes", modes);
+    if (std::isnan(rate)) return text;
+    return fmt::format("{}{}{:.4g} kHz", text, text.empty() ? "" : ", ", rate / 1000);
+}
+
+// Series of schemes with numbers of modes to choose, that have several.
+std::set<std::string> of_several_modes(const store::Table& t) {
+    std::map<std::string, std::set<std::string>> modes;
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        if (!(t.number(i, "fact_grid_intervals") > 0)) modes[problem_of(t, i) + "|" + series_of(t, i)].insert(t.at(i, "modes"));
+    std::set<std::string> several;
+    for (const auto& [series, all] : modes)
+        if (all.size() > 1) several.insert(series);
+    return several;
 }
 }  // namespace
 
@@ -46,19 +59,23 @@ std::string chart_cells(const WorkPrecision& w) {
     std::map<std::string, bool> control;
     for (std::size_t k = 0; k < names.size(); ++k) control[names[k]] = identities[k].control;
     Json rows = Json::array();
+    const auto several = of_several_modes(t);
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         if (t.at(i, "status") == "refused") continue;  // it has neither cost nor error: the table says why
         const double rate = t.number(i, "rate"), modes = t.number(i, "modes");
         const std::string& problem = problem_of(t, i);
+        const bool modes_differ = several.contains(problem + "|" + series_of(t, i));
         Json j{{"problem", problem},
                {"series", series_of(t, i)},
                {"scheme", t.at(i, "scheme")},
                {"rate", rate},
                {"modes", modes},
-               {"order", std::isnan(rate) ? modes : rate},
+               {"order", std::isnan(rate) ? modes
+                         : modes_differ   ? t.number(i, "cost_s_per_s")
+                                          : rate},
                {"status", t.at(i, "status")},
                {"reason", t.at(i, "reason")},
-               {"label", place_label(rate, modes)},
+               {"label", place_label(rate, modes, modes_differ)},
                {"control", control[series_of(t, i)]},
                {"flags", t.at(i, "flags")},
                {"below", t.at(i, "below_floor")}};

@@ -18,6 +18,7 @@ namespace jvari::bench::sound {
 namespace {
 constexpr double slowest_played = 3000, fastest_played = 384000;  // [Hz], a whole number: what players take
 constexpr double most_bytes = 4e9;                                // a .wav counts its bytes in 32 bits
+constexpr double coarse_fit = 0.1;                                // relative error of a body's sections, above which they are another body
 constexpr double steady = 20;                                     // [Hz]
 constexpr double de_emphasis = 50e-6;                             // [s]
 constexpr double peak_of_full_scale = -1;                         // [dB]
@@ -56,9 +57,12 @@ Player::Player(AudioFile file, const Scene& scene, double tap_rate) : file_(std:
         throw store::UsageError(fmt::format("{}: a {} holds at most {:.0e} bytes, this would be {:.1e}. A .csv or .h5 holds them", out,
                                             file_.path.extension().string(), most_bytes, bytes));
     for (RadiatingTap& t : radiating_taps(scene, tap_rate)) body_.push_back(std::move(t.filter));
-    for (std::size_t k = 0; k < body_.size() && scene.body->sections > 0; ++k)
-        body_text_ += fmt::format("; {} sections leave an error of {:.1f} dB in body.{}", scene.body->sections, body_[k].misfit(),
-                                  scene.taps[k].name);
+    for (std::size_t k = 0; k < body_.size() && scene.body->sections > 0; ++k) {
+        const double error = std::pow(10, body_[k].misfit() / 20);
+        const std::string share = error < 0.0995 ? fmt::format("{:.2g}", 100 * error) : fmt::format("{:.0f}", 100 * error);
+        body_text_ += fmt::format("; {} sections fit body.{} with an error of {} %{}", scene.body->sections, scene.taps[k].name, share,
+                                  error > coarse_fit ? ": too coarse, take more sections, or none for the response itself" : "");
+    }
     store::must_be_writable(file_.path);
 }
 

@@ -1,6 +1,9 @@
 #include "bench/store/cell_rows.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -67,6 +70,14 @@ std::string machines_text(const Table& cells) {
     std::string text = "cells were timed on " + std::to_string(machines.size()) + " machines; costs are compared within each alone:";
     for (const std::string& m : machines) text += "\n  " + m;
     return text;
+}
+
+std::string run_name(const Table& cells, std::size_t row) {
+    std::string name = variant_name(cells.at(row, "scheme"), cells.at(row, "options"));
+    const bool grid = cells.number(row, "fact_grid_intervals") > 0;
+    if (const std::string& modes = cells.at(row, "modes"); !grid && !modes.empty()) name += ", " + modes + " modes";
+    const double rate = cells.number(row, "rate");
+    return std::isnan(rate) ? name : name + fmt::format(" at {:.4g} kHz", rate / 1000);
 }
 
 Rows all_rows(const Table& t) {

@@ -15,8 +15,8 @@ Json json_of(const Table& table) {
         for (std::size_t k = 0; k < row.size(); ++k) {
             const std::string& name = table.columns[k];
             if (name == "scheme" || name == "status" || name == "reason" || name == "flags" || name == "below_floor" || name == "cell" ||
-                name == "scene" || name == "options" || name == "reference" || name == "measure" || name == "ties" || name == "tie_rates" ||
-                name == "perhaps" || name == "why" || name == "machine" || name == "governor")
+                name == "scene" || name == "options" || name == "reference" || name == "measure" || name == "ties" || name == "run" ||
+                name == "as_published" || name == "perhaps" || name == "why" || name == "machine" || name == "governor")
                 j[name] = row[k];  // NOLINT(bugprone-branch-clone): the order of the questions counts
             else if (name == "pareto") j[name] = row[k] == "1";
             else if (row[k].find_first_not_of("0123456789") == std::string::npos && !row[k].empty() && row[k].size() < 18)

@@ -68,13 +68,15 @@ std::vector<store::Key<CellSet>> set_keys() {
                "files, beside the suite or where the program runs, or names of the library"),
         key("schemes", &Set::schemes, store::several(store::text()), "what is compared", "all that represent the scene"),
         key("rates", &Set::rates, store::several(store::positive("Hz")), "at which each runs", "44100 x 1, 2, 4 ... 64"),
-        key("modes", &Set::modes, store::several(store::count()), "of each string", "as compare"),
+        key("modes", &Set::modes, store::several(store::count()), "of each string", "those below 20 kHz, and more of them by `search`"),
+        key("search", &Set::search, store::yes_or_no(),
+            "where errors are measured and these are not named, tries more modes, and both forms of compliance"),
         key("duration", &Set::duration, store::positive("s"), "of each run", "the scene's"),
         key("tap_rate", &Set::tap_rate, store::positive("Hz"), "of the rows that are compared", "as compare"),
         key("repeats", &Set::repeats, store::count(), "timed runs"),
         key("reference", &Set::reference, store::text(), "what errors are against", "the highest that represents the scene"),
         key("reference_modes", &Set::reference_modes, reference_modes(), "0: doubled until nothing moves; \"cell\": those of the cell",
-            "\"cell\"; 0 where several modes are listed"),
+            "0"),
         key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap", "the scene's first"),
         key("time_limit_s", &Set::time_limit, store::positive("s"),
             "processor time of a cell's accuracy run, and of each of its reference's two", "none"),
@@ -102,8 +104,7 @@ void must_be_few(const CellSet& s, const store::Entry& e) {
 
 void hold_together(CellSet& s, const store::Entry& e) {
     must_be_few(s, e);
-    if (s.modes.size() > 1 && !e.at("reference_modes"))
-        s.reference_modes = 0;  // a truth that shrank with the cells would call the fewest best
+    s.search = s.search && s.measures(measured::errors) && s.elements.empty();
     if (s.measures(measured::cost) && !s.measures(measured::errors))
         e.need("measure").fail("found cost without errors, expected both: no speed without an error");
     if (!s.elements.empty() && !s.measures(measured::cost))
@@ -187,17 +188,27 @@ std::vector<std::string> library_suites() {
     return toml_names(library());
 }
 
+namespace {
+std::vector<std::vector<int>> each_of(const std::vector<int>& modes) {  // a point for each; one where they are not named
+    std::vector<std::vector<int>> each;
+    for (const int n : modes) each.push_back({n});
+    if (each.empty()) each.emplace_back();
+    return each;
+}
+}  // namespace
+
 std::vector<SuitePoint> points_of(const Suite& suite) {
     std::vector<SuitePoint> points;
     for (const CellSet& set : suite.sets)
         for (const std::string& scene : set.scenes)
-            for (const int modes : set.modes) {
+            for (const std::vector<int>& modes : each_of(set.modes)) {
                 compare::CompareRequest base;
                 base.scene = scene;
                 base.schemes = set.schemes;
                 base.controls = true;
                 base.rates = set.rates;
                 base.modes = modes;
+                base.search = set.search;
                 base.duration = set.duration;
                 base.tap_rate = set.tap_rate;
                 base.reference = set.reference;

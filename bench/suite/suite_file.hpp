@@ -32,9 +32,10 @@ struct VariedOption {
 struct CellSet {
     std::vector<std::string> scenes, schemes;
     std::vector<double> rates;  // [Hz]
-    std::vector<int> modes{0};  // 0: as compare
+    std::vector<int> modes;     // none: as compare
+    bool search = true;         // as CompareRequest has it; of errors alone
     std::optional<double> duration, tap_rate;
-    std::optional<int> reference_modes;
+    std::optional<int> reference_modes = 0;  // as CompareRequest has it
     int repeats = 5;
     std::string reference, tap;
     std::vector<VariedOption> options;

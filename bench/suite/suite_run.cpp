@@ -125,7 +125,7 @@ private:
         Known *model = nullptr, *truth = nullptr;
         if (planned.set->measures(measured::errors)) {
             model = truth = known_.at(point.reference_key).get();
-            model->make([&] { return compare::Truth{compare::run_reference(point.references, point.scene, 1, part, limit), {}}; });
+            model->make([&] { return compare::Truth{compare::run_reference(point.references, point.scene, 1, part, limit), {}, {}}; });
         }
         if (truth && !point.truth_key.empty()) {
             truth = known_.at(point.truth_key).get();
@@ -138,7 +138,10 @@ private:
         const auto told = [&fraction](long done, long rows) { fraction = static_cast<double>(done) / static_cast<double>(rows); };
         try {
             trace = compare::run_cell(cell, point.scene, compare::within(limit, told));
-            if (known) compare::judge(cell, trace, *truth->trace(), *model->trace());
+            if (known) {
+                const compare::Reference* own = model->truth() ? compare::of_modes(cell, *model->reference(), *truth->truth()) : nullptr;
+                compare::judge(cell, trace, *truth->trace(), own ? &own->run.trace : nullptr);
+            }
         } catch (const Refusal& e) {
             status = "refused";
             cell.reason = e.what();

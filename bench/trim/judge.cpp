@@ -158,6 +158,7 @@ void Judge::run_truth(int start) {
     compare::CompareRequest r;
     r.reference = request_.reference;
     r.rates = {4 * request_.tap_rate};
+    r.search = false;
     r.tap_rate = request_.tap_rate;
     const compare::Plan plan = compare::plan_of(r, catalogue_, scene);
     const compare::Truth t = compare::run_truth(plan.references, scene, request_.reference_modes, request_.jobs, listener_);

@@ -36,11 +36,6 @@ std::string name_of(const Certificate::Entry& e) {
     return store::variant_name(e.reference, store::options_text(e.options));
 }
 
-struct Evidence {
-    const Certificate::Entry* other;
-    const std::vector<Agreement>* taps;
-    double reached;
-};
 }  // namespace
 
 double Trust::in_model(std::size_t tap, std::size_t window) const {
@@ -74,31 +69,32 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
         t.missing = "the certificate of this scene has no " + store::variant_name(reference, store::options_text(options));
         return t;
     }
-    std::vector<Evidence> independent, same;
-    for (const auto& p : c.pairs) {
+    struct Largest {
+        double difference = store::nan;
+        const Certificate::Entry* other = nullptr;
+    };
+    const auto largest = [&](std::size_t tap, double end) {
+        Largest most;
         const int index = static_cast<int>(mine - c.entries.begin());
-        if (p.first != index && p.second != index) continue;
-        const Certificate::Entry& other = c.entries[p.first == index ? p.second : p.first];
-        if (other.sample_rate > 0 || !other.doubled.empty()) continue;
-        (other.reference == reference ? same : independent).push_back({&other, &p.taps, std::min(mine->reached, other.reached)});
-    }
-    std::sort(independent.begin(), independent.end(), [](const Evidence& a, const Evidence& b) { return a.other < b.other; });  // authority
-
+        for (const auto& p : c.pairs) {
+            if (p.first != index && p.second != index) continue;
+            const Certificate::Entry& other = c.entries[p.first == index ? p.second : p.first];
+            if (other.sample_rate > 0 || !other.doubled.empty()) continue;
+            const double x = covering(p.taps[tap].relative_l2, end, std::min(mine->reached, other.reached));
+            if (!std::isnan(x) && !(x <= most.difference)) most = {x, &other};
+        }
+        return most;
+    };
     t.figure.assign(c.taps.size(), {store::nan, store::nan, store::nan});
     const auto ends = window_ends(until);
     std::vector<std::string> names;
-    const auto named = [&names](const Evidence& e) {
-        if (const std::string name = name_of(*e.other); std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    };
     for (std::size_t k = 0; k < c.taps.size(); ++k)
         for (std::size_t w = 0; w < ends.size(); ++w) {
-            const auto of = [&](const Evidence& e) { return covering((*e.taps)[k].relative_l2, ends[w], e.reached); };
-            double& figure = t.figure[k][w];
-            for (const Evidence& e : independent)
-                if (std::isnan(figure) && !std::isnan(of(e))) figure = of(e), named(e);
-            if (!std::isnan(figure)) continue;
-            for (const Evidence& e : same)
-                if (!std::isnan(of(e))) figure = std::fmax(figure, of(e)), named(e);
+            const Largest most = largest(k, ends[w]);
+            if (!most.other) continue;
+            t.figure[k][w] = most.difference;
+            if (const std::string name = name_of(*most.other); std::find(names.begin(), names.end(), name) == names.end())
+                names.push_back(name);
         }
     for (const auto& p : c.pairs)  // whichever reference was doubled: they share the model
         if (const Certificate::Entry& e = c.entries[p.first]; !e.doubled.empty()) {

@@ -1,6 +1,6 @@
 """Draws error against cost of a few schemes: python3 work_precision.py [FILE.svg]
 
-Each line is a scheme, each point a rate. Down is more accurate, left is cheaper.
+Each line is a scheme with its options, each point a rate. Down is more accurate, left is cheaper.
 """
 
 import sys
@@ -23,6 +23,8 @@ rows = jvari.compare(
     scene,
     schemes=["modal_two_point", "modal_quadratised_three_point", "finite_difference_theta"],
     rates=[44100, 88200, 176400],
+    modes=133,
+    options={"compliance": ["own", "matched"]},
     reference="exact_contact",
     reference_modes=1064,
     duration=0.05,
@@ -31,8 +33,12 @@ rows = jvari.compare(
 
 # %% The picture
 figure, axes = pyplot.subplots(figsize=(6, 4), layout="constrained")
-for scheme in dict.fromkeys(row["scheme"] for row in rows):
-    own = [row for row in rows if row["scheme"] == scheme and row["status"] == "ok"]
+def name_of(row):
+    return f"{row['scheme']} {row['options']}".strip()
+
+
+for scheme in dict.fromkeys(map(name_of, rows)):
+    own = [row for row in rows if name_of(row) == scheme and row["status"] == "ok"]
     axes.loglog([row["cost_s_per_s"] for row in own], [row["error_l2_50ms"] for row in own], marker="o", label=scheme)
 axes.set_xlabel("computing time per second of sound [s/s]")
 axes.set_ylabel("relative error of the nut force over 50 ms")

@@ -69,6 +69,9 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"compare free_string --schemes modal_two_point --rates 44100 --duration 0.004 --tap-rate 1", "no less than a row"},
         {"trim free_string --within 1", "say 1%"},
         {"trim free_string --within 10% --duration 0.004 --tap-rate 1 --jobs 1", "no less than a row"},
+        {"compare free_string --modes 10,0", "whole number from 1 to 9999999"},
+        {"compare free_string --reference-modes some", "a whole number from 0 to 9999999, or cell"},
+        {"compare tanpura_c3_release --option compliance=own --option compliance=matched", "in one list, compliance=own,matched"},
         {"compare free_string --repeats 0", "whole number from 1 to 9999999"},
         {"compare free_string --jobs 0", "whole number from 1 to 9999999"},
         {"compare free_string --out /proc/nowhere", "/proc/nowhere"},
@@ -258,7 +261,8 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
     const std::string out = scratch / "cmp";
     const Outcome o = jvari(
         scratch,
-        "compare free_string --schemes stumbling,modal_two_point --rates 44100,88200,176400 --duration 0.06 --repeats 2 --json --out " +
+        "compare free_string --schemes stumbling,modal_two_point --rates 44100,88200,176400 --modes 133 --duration 0.06 --repeats 2 --json "
+        "--out " +
             out + plugin);
     ASSERT_EQ(o.code, 0) << o.err;
     const auto json = nlohmann::json::parse(o.out);
@@ -333,6 +337,21 @@ TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigitOneByOneAndSideBySide) {
     EXPECT_GT(errors.number(1, "error_l2_50ms"), 2e-2);  // for the string is cut off at half of these
     const auto floor = nlohmann::json::parse(content(scratch / "a/manifest.json")).at("noise_floor");
     EXPECT_NEAR(floor.at("error_l2_10ms").get<double>(), 1e-12, 5e-13);  // a scaled start scales the whole run until contact spreads it
+}
+
+TEST(CommandLine, CompareRunsEachValueOfAnOptionAndSaysInItsTableWhichItWas) {
+    const Scratch scratch;
+    const Outcome o =
+        jvari(scratch,
+              "compare tanpura_c3_release --schemes modal_two_point --rates 44100 --modes 60,80 --option compliance=own,matched "
+              "--duration 0.01 --repeats 1 --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    const auto json = nlohmann::json::parse(o.out);
+    std::vector<std::string> cells;
+    for (const auto& cell : json.at("cells"))
+        cells.push_back(cell.at("options").get<std::string>() + " " + std::to_string(cell.at("modes").get<int>()));
+    EXPECT_EQ(cells,
+              (std::vector<std::string>{"compliance=own 60", "compliance=own 80", "compliance=matched 60", "compliance=matched 80"}));
 }
 
 TEST(CommandLine, ComparedSchemesThatFailOrRefuseAreRowsAndDecideTheExitCodeOnlyTogether) {
@@ -442,6 +461,17 @@ TEST(NewScene, EachInstrumentsSceneIsExplainedAndRunsAsItStands) {
         for (const char* quantity : quantity_names) EXPECT_NE(text.find('"' + std::string(quantity) + '"'), std::string::npos) << quantity;
         for (const char* curve : curve_names) EXPECT_NE(text.find('"' + std::string(curve) + '"'), std::string::npos) << curve;
     }
+}
+
+TEST(Body, ItsSectionsFitIsSaidInPerCentAndWhereItIsTooCoarse) {
+    const Scratch scratch;
+    const Outcome o = shell(scratch,
+                            "$J new body mine --quiet && $J new guitar string --quiet && "
+                            "printf '[body]\nbridge = \"mine_bridge.wav\"\nnut = \"mine_nut.wav\"\nsections = 4\n' >>string.toml && "
+                            "$J run string.toml --scheme modal_two_point --duration 0.01 --out a.wav");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.out.find("4 sections fit body."), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find(" %: too coarse, take more sections"), std::string::npos) << o.out;
 }
 
 TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {

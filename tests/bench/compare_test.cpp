@@ -7,6 +7,7 @@
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare_plan.hpp"
+#include "bench/compare/needed_cells.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/convergence_table.hpp"
@@ -33,10 +34,9 @@ TEST(Bound, IsTheErrorAndTheCertificateTogether) {
     EXPECT_DOUBLE_EQ(b.shown(), 0.05);
 }
 
-TEST(Bound, WhereTheCertificateIsSmallOrAbsentWhatWasMeasuredStands) {
+TEST(Bound, WhereTheCertificateIsSmallWhatWasMeasuredStands) {
     EXPECT_EQ(bench::compare::error_text({0.03, 0.003, nan}, "{:.2e}"), "3.00e-02");
     EXPECT_EQ(bench::compare::error_text({0.03, 0.0031, nan}, "{:.2e}"), "\u22643.31e-02");
-    EXPECT_EQ(bench::compare::error_text({0.03, nan, nan}, "{:.2e}"), "3.00e-02");
     EXPECT_EQ(bench::compare::error_text({HUGE_VAL, 0.1, nan}, "{:.2e}"), "inf");
     EXPECT_EQ(bench::compare::error_text({}, "{:.2e}"), "-");
     EXPECT_DOUBLE_EQ((bench::compare::Bound{0.03, 0.003, nan}).shown(), 0.03);
@@ -47,6 +47,16 @@ TEST(Bound, IsNotKnownWhereErrorAndCertificateReachOne) {
     EXPECT_EQ(bench::compare::error_text({0.01, 0.98, nan}, "{:.2e}"), "\u22649.90e-01");
     EXPECT_EQ(bench::compare::error_text({0.01, 0.99, nan}, "{:.2e}"), "not known");
     EXPECT_EQ(bench::compare::error_text({1.3, 0.01, nan}, "{:.2e}"), "1.30e+00");  // known to be all wrong
+}
+
+TEST(Bound, WithoutACertificateNothingIsCertainOfAnError) {
+    const bench::compare::Bound b{0.03, nan, nan};
+    EXPECT_EQ(b.says(), bench::compare::Bound::Says::unsure);
+    EXPECT_EQ(error_text(b, "{:.2e}"), "3.00e-02?");
+    EXPECT_FALSE(b.most() <= 0.1);
+    EXPECT_EQ(b.least(), 0);
+    EXPECT_DOUBLE_EQ(b.shown(), 0.03);                                             // in a picture
+    EXPECT_EQ(bench::compare::error_text({HUGE_VAL, nan, nan}, "{:.2e}"), "inf");  // a run that failed is known to
 }
 
 TEST(Bound, OfAColumnHasTheCertificateAndTheFloorOfItsWindowAndTap) {
@@ -64,7 +74,7 @@ TEST(Bound, OfAColumnHasTheCertificateAndTheFloorOfItsWindowAndTap) {
     EXPECT_EQ(tap.floor, 9);
     EXPECT_EQ(bench::compare::bound_of(t, 0, "error_l2_10ms").certificate, 7);
     EXPECT_EQ(octaves.error, 4);
-    EXPECT_TRUE(std::isnan(octaves.certificate));
+    EXPECT_EQ(octaves.certificate, 0);  // spectral measures count as measured
 }
 
 TEST(Bound, TheHeadlineIsTheFirstWindowThatAnyOfTheRowsHas) {
@@ -104,16 +114,16 @@ bench::store::Table cells_of(const std::vector<Sample>& samples) {
 }
 
 TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
-    const bench::store::Table t = bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.2", "", "0.5", 1},
-                                                                        {"a", "200", "", "0.009", "", "0.5", 3},
-                                                                        {"b", "100", "", "0.05", "", "4", 2},
-                                                                        {"c", "100", "adhesion", "0.0001", "", "0.1", 0.5},  // pulls
-                                                                        {"d", "100", "", "inf", "", "inf", 0.1, "diverged"},
-                                                                        {"e", "100", "", "0.04", "", "4", 2.1}}));  // touches b
+    const bench::store::Table t = bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.2", "0", "0.5", 1},
+                                                                        {"a", "200", "", "0.009", "0", "0.5", 3},
+                                                                        {"b", "100", "", "0.05", "0", "4", 2},
+                                                                        {"c", "100", "adhesion", "0.0001", "0", "0.1", 0.5},  // pulls
+                                                                        {"d", "100", "", "inf", "0", "inf", 0.1, "diverged"},
+                                                                        {"e", "100", "", "0.04", "0", "4", 2.1}}));  // touches b
     ASSERT_EQ(t.rows.size(), 5u);
     EXPECT_EQ(t.at(0, "scheme"), "b");  // 10 %
-    EXPECT_EQ(t.at(0, "ties"), "e");
-    EXPECT_EQ(t.at(0, "bound"), "");    // no certificate
+    EXPECT_EQ(t.at(0, "ties"), "e, 10 modes at 0.1 kHz");
+    EXPECT_EQ(t.at(0, "run"), "b, 10 modes at 0.1 kHz");
     EXPECT_EQ(t.at(1, "scheme"), "a");  // 1 %
     EXPECT_EQ(t.at(1, "rate"), "200");
     EXPECT_EQ(t.at(1, "ties"), "");
@@ -121,13 +131,40 @@ TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
     EXPECT_EQ(t.at(2, "status"), "none");
     EXPECT_EQ(t.at(3, "scheme"), "a");  // 3 dB
     EXPECT_EQ(t.at(3, "rate"), "100");
-    EXPECT_NE(bench::compare::cheapest_text(t).find("within 0.1 %   none"), std::string::npos) << bench::compare::cheapest_text(t);
+    EXPECT_NE(bench::compare::cheapest_text(t).find("within 0.1 %   none. Closest: a, 10 modes"), std::string::npos)
+        << bench::compare::cheapest_text(t);
 }
 
 TEST(Cheapest, NamesEachTieWithItsOwnRateWhereOneHasNone) {
     const bench::store::Table t = bench::compare::cheapest_of(cells_of(
-        {{"a", "44100", "", "0.05", "", "", 1}, {"exact", "", "", "0.05", "", "", 1.01}, {"b", "88200", "", "0.05", "", "", 1.02}}));
-    EXPECT_EQ(bench::compare::ties_text(t, 0), "exact, b at 88.2 kHz");
+        {{"a", "44100", "", "0.05", "0", "", 1}, {"exact", "", "", "0.05", "0", "", 1.01}, {"b", "88200", "", "0.05", "0", "", 1.02}}));
+    EXPECT_EQ(t.at(0, "ties"), "exact, 10 modes; b, 10 modes at 88.2 kHz");
+}
+
+TEST(Cheapest, CannotBeDecidedWhereTheUncertaintyOfTheReferenceIsUnknown) {
+    const bench::store::Table t = bench::compare::cheapest_of(cells_of(
+        {{"a", "44100", "", "0.052", "", "2", 1}, {"b", "44100", "", "0.04", "", "2", 2}, {"c", "44100", "", "inf", "", "", 0.1}}));
+    EXPECT_EQ(t.at(0, "status"), "not_known");  // 10 %
+    EXPECT_EQ(t.at(0, "scheme"), "");
+    EXPECT_EQ(t.at(0, "why"),
+              "the uncertainty of the reference is unknown; measured against it, the cheapest is a, 10 modes at 44.1 kHz, 5.2 %");
+    EXPECT_EQ(t.at(1, "why"), "the uncertainty of the reference is unknown");  // 1 %
+    EXPECT_EQ(t.at(3, "scheme"), "a");                                         // 3 dB count as measured
+    EXPECT_EQ(t.at(3, "why"), "measured against a reference whose uncertainty is unknown");
+}
+
+TEST(Cheapest, SaysWhatTheBestWithoutMatchedComplianceCosts) {
+    bench::store::Table cells = cells_of({{"a", "44100", "", "0.009", "0", "", 1},
+                                          {"a", "88200", "", "0.0095", "0", "", 3},
+                                          {"b", "88200", "", "0.0094", "0", "", 2.5},
+                                          {"b", "44100", "", "0.09", "0", "", 0.5}});
+    const int options = cells.column("options");
+    cells.rows[0][options] = "compliance=matched";
+    cells.rows[1][options] = "compliance=own";
+    const bench::store::Table t = bench::compare::cheapest_of(cells);
+    EXPECT_EQ(t.at(1, "run"), "a compliance=matched, 10 modes at 44.1 kHz");
+    EXPECT_EQ(t.at(1, "as_published"), "b, 10 modes at 88.2 kHz, 0.94 %, 2.5 s per s");
+    EXPECT_EQ(t.at(0, "as_published"), "");  // 10 %: b is as published
 }
 
 TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
@@ -139,18 +176,21 @@ TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
     EXPECT_EQ(t.at(1, "scheme"), "b");
     EXPECT_EQ(t.at(1, "error"), "0.0088");
     EXPECT_NEAR(t.number(1, "bound"), 0.0098, 1e-15);
-    EXPECT_EQ(t.at(1, "perhaps"), "a");
+    EXPECT_EQ(t.at(1, "perhaps"), "a, 10 modes at 0.1 kHz");
     EXPECT_EQ(t.at(2, "status"), "not_known");  // 0.1 %: d is within 0.15 %
     EXPECT_EQ(t.at(2, "scheme"), "");
-    EXPECT_EQ(t.at(2, "perhaps"), "d");
-    EXPECT_NE(bench::compare::cheapest_text(t).find("within 0.1 %   not known"), std::string::npos) << bench::compare::cheapest_text(t);
-    EXPECT_NE(bench::compare::cheapest_text(t).find("perhaps for less a"), std::string::npos) << bench::compare::cheapest_text(t);
+    EXPECT_EQ(t.at(2, "perhaps"), "d, 10 modes at 0.1 kHz");
+    EXPECT_EQ(t.at(2, "why"), "the reference is known to 0.1 % only");
+    EXPECT_NE(bench::compare::cheapest_text(t).find("within 0.1 %   cannot be decided: the reference is known to 0.1 % only"),
+              std::string::npos)
+        << bench::compare::cheapest_text(t);
+    EXPECT_NE(bench::compare::cheapest_text(t).find("perhaps for less a, 10 modes"), std::string::npos) << bench::compare::cheapest_text(t);
 }
 
 TEST(Cheapest, AControlIsNamedOnlyWhereItCompetes) {
-    const bench::store::Table cells = cells_of({{"modal_two_point_trapezoidal", "100", "", "0.0005", "", "0.5", 1},
-                                                {"modal_two_point", "100", "", "0.005", "", "2", 2},
-                                                {"modal_explicit_penalty", "100", "", "0.005", "", "2", 2}});
+    const bench::store::Table cells = cells_of({{"modal_two_point_trapezoidal", "100", "", "0.0005", "0", "0.5", 1},
+                                                {"modal_two_point", "100", "", "0.005", "0", "2", 2},
+                                                {"modal_explicit_penalty", "100", "", "0.005", "0", "2", 2}});
     const bench::store::Table t = bench::compare::cheapest_of(cells);
     EXPECT_EQ(t.at(0, "scheme"), "modal_two_point");  // 10 %
     EXPECT_EQ(t.at(0, "ties"), "");
@@ -363,7 +403,8 @@ bench::compare::Plan plan_for(const std::string& scene, const std::vector<std::s
     r.scene = scene;
     r.schemes = schemes;
     r.rates = {88200, 176400};
-    r.modes = modes;
+    if (modes > 0) r.modes = {modes};
+    r.search = false;
     static const bench::compare::Catalogue catalogue;
     return bench::compare::plan_of(r, catalogue, bench::compare::load_scene(scene, {}, {}));
 }
@@ -415,41 +456,169 @@ TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
 
 // ---- The truth: the modes that the reference is given
 
-bench::compare::Truth truth_of(int modes, const std::function<double(const Trace&)>& enough = {}) {
-    Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.01);
+bench::compare::Truth truth_of(int modes, double duration = 0.01) {
+    Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, duration);
     bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
     for (auto& c : plan.references) c.kept = false;
-    return bench::compare::run_truth(plan.references, scene, modes, 1, bench::store::Listener(), HUGE_VAL, enough);
+    return bench::compare::run_truth(plan.references, scene, modes, 1, bench::store::Listener());
 }
 
-TEST(Truth, ModesAreDoubledUntilADoublingChangesTheHeadlineByLittleEnough) {
-    std::vector<double> seen;
-    const auto truth = truth_of(0, [&](const Trace& so_far) {
-        seen.push_back(so_far.column(0).back());
-        return 1e-2;
-    });
-    const int modes = truth.reference.choice.settings.modes;
-    ASSERT_EQ(seen.size(), modes == 266 ? 1u : modes == 532 ? 2u : 3u);
-    const Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.01);
-    const auto change = [&](int more) {  // by the reference itself
-        const auto& c = truth.reference.choice;
-        Settings many = c.settings, few = c.settings;
-        many.modes = more;
-        few.modes = more / 2;
-        const jvari::Run a = run(*c.scheme, scene, many), b = run(*c.scheme, scene, few);
-        const int nut = bench::compare::headline_of(scene).nut;
-        return relative_difference(b.trace.column(nut), a.trace.column(nut), a.trace.tap_rate, 10e-3);
+TEST(Truth, ModesAreDoubledUntilWhatIsLeftOutMovesTheHeadlineByLittleEnough) {
+    const auto truth = truth_of(0);
+    const int modes = truth.reference.choice.settings.modes, nut = 0;
+    const auto left = [&](const bench::compare::Reference& r) { return r.trust.left_out[nut][0]; };
+    EXPECT_LT(left(truth.reference), bench::compare::settled);
+    ASSERT_GE(truth.coarser.size(), 2u);
+    EXPECT_GE(left(truth.coarser.back()), bench::compare::settled);
+    for (std::size_t k = 0; k < truth.coarser.size(); ++k) EXPECT_EQ(truth.coarser[k].choice.settings.modes, 133 << k);
+    EXPECT_EQ(truth.said.find("too long"), std::string::npos) << truth.said;
+    const auto finer = truth_of(2 * modes);  // by the reference itself: what it leaves out is what it says, or less
+    const double is = relative_difference(truth.reference.run.trace.column(nut), finer.reference.run.trace.column(nut), 44100, 10e-3);
+    EXPECT_LT(is, left(truth.reference));
+    EXPECT_GT(is, 0.02 * left(truth.reference));
+}
+
+TEST(Truth, AGivenNumberIsTakenWithItsHalfAndItsQuarterToTellWhatItLeavesOut) {
+    const auto truth = truth_of(200);
+    EXPECT_EQ(truth.reference.choice.settings.modes, 200);
+    ASSERT_EQ(truth.coarser.size(), 2u);
+    EXPECT_EQ(truth.coarser[0].choice.settings.modes, 50);
+    EXPECT_EQ(truth.coarser[1].choice.settings.modes, 100);
+}
+
+TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
+    using bench::compare::left_after;
+    EXPECT_NEAR(left_after(1e-3, 3e-3), 5e-4, 1e-12);      // 1/3 + 1/9 + ...
+    EXPECT_NEAR(left_after(1e-6, 1e-1), 1e-6 / 3, 1e-18);  // no better than order two, since one pair can agree by chance
+    EXPECT_NEAR(left_after(1e-3, nan), 2.5e-3, 1e-12);     // one doubling: order one half
+    EXPECT_NEAR(left_after(1e-3, 1.1e-3), 2.75e-3, 1e-12);
+    EXPECT_NEAR(left_after(3e-3, 1e-3), 7.5e-3, 1e-12);  // they do not get smaller
+    EXPECT_EQ(left_after(0, 0), 0);
+}
+
+TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
+    const Scene scene = bench::compare::load_scene("tanpura_c3_release", {"string.0.tension=40"}, 1e-3);  // no certificate is of it
+    const bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
+    const auto truth = bench::compare::run_truth(plan.references, scene, 1, 1, bench::store::Listener());  // nothing is below one mode
+    EXPECT_TRUE(truth.coarser.empty());
+    EXPECT_FALSE(truth.reference.trust.any());
+    EXPECT_TRUE(std::isnan(truth.reference.trust.of_scene(0, 2)));
+}
+
+// ---- What is tried where nothing is named
+
+std::vector<bench::compare::Cell> sought(bench::compare::CompareRequest r, const std::vector<std::string>& set = {},
+                                         std::vector<std::string>* notes = nullptr) {
+    static const bench::compare::Catalogue catalogue;
+    const bench::compare::Plan plan = bench::compare::plan_of(r, catalogue, bench::compare::load_scene(r.scene, set, 0.01));
+    if (notes) *notes = plan.notes;
+    return plan.cells;
+}
+bench::compare::CompareRequest request_for(std::vector<std::string> schemes, std::vector<double> rates) {
+    bench::compare::CompareRequest r;
+    r.scene = "tanpura_c3_release";
+    r.schemes = std::move(schemes);
+    r.rates = std::move(rates);
+    return r;
+}
+std::vector<std::string> names_of(const std::vector<bench::compare::Cell>& cells) {
+    std::vector<std::string> names;
+    for (const auto& c : cells)
+        names.push_back(bench::store::options_text(c.settings.options) + " " + std::to_string(c.settings.modes) + " " +
+                        std::to_string(std::lround(c.settings.sample_rate)));
+    return names;
+}
+
+TEST(Search, MoreModesWhereTheyLieBelowHalfTheRateAndBothFormsOfCompliance) {
+    EXPECT_EQ(names_of(sought(request_for({"modal_two_point"}, {44100, 88200, 176400}))),
+              (std::vector<std::string>{"compliance=own 133 44100", "compliance=own 133 88200", "compliance=own 133 176400",
+                                        "compliance=own 180 88200", "compliance=own 180 176400", "compliance=own 266 176400",
+                                        "compliance=matched 133 44100", "compliance=matched 133 88200", "compliance=matched 133 176400",
+                                        "compliance=matched 180 88200", "compliance=matched 180 176400", "compliance=matched 266 176400"}));
+    // a grid takes its nodes from the rate
+    EXPECT_EQ(names_of(sought(request_for({"finite_difference_explicit"}, {176400}))),
+              (std::vector<std::string>{"compliance=own 133 176400", "compliance=matched 133 176400"}));
+}
+
+TEST(Search, WhatIsNamedStands) {
+    auto r = request_for({"modal_two_point", "modal_quadratised"}, {88200});
+    r.modes = {60, 133};
+    r.options = {{"modal_two_point", "compliance", "own"},
+                 {"modal_quadratised", "compliance", "own"},
+                 {"modal_quadratised", "compliance", "matched"}};
+    EXPECT_EQ(names_of(sought(r)),
+              (std::vector<std::string>{"compliance=own 60 88200", "compliance=own 133 88200", "compliance=own 60 88200",
+                                        "compliance=own 133 88200", "compliance=matched 60 88200", "compliance=matched 133 88200"}));
+    auto none = request_for({"modal_two_point"}, {88200});
+    none.search = false;
+    EXPECT_EQ(names_of(sought(none)), (std::vector<std::string>{" 133 88200"}));
+    none.search = true;
+    none.reference_modes.reset();  // a reference of the cell's own modes cannot tell what they leave out
+    EXPECT_EQ(names_of(sought(none)), (std::vector<std::string>{" 133 88200"}));
+}
+
+TEST(Search, MatchedComplianceThatWasNotTriedIsSaidOnceWithItsReason) {
+    std::vector<std::string> notes;
+    const auto cells =
+        sought(request_for({"modal_two_point", "modal_spatial_newton"}, {44100}), {"string.0.barrier.0.contact_loss=1"}, &notes);
+    for (const auto& c : cells) EXPECT_TRUE(c.settings.options.empty());
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes[0],
+              "compliance=matched was not tried with modal_two_point, modal_spatial_newton: compliance=matched leaves out contact loss");
+}
+
+TEST(Search, AReferenceTakesOneValueOfAnOption) {
+    auto r = request_for({"modal_two_point"}, {44100});
+    r.options = {{"exact_contact", "compliance", "own"}, {"exact_contact", "compliance", "matched"}};
+    EXPECT_THROW(sought(r), bench::store::UsageError);
+}
+
+bench::compare::Cell tried(const char* scheme, double rate, int modes) {
+    static const bench::compare::Catalogue catalogue;
+    bench::compare::Cell c{&catalogue.find(scheme), {rate, 44100, modes, {}}};
+    c.summary.modes = modes;
+    c.summary.dofs = 2 * modes;
+    c.summary.steps = std::lround(rate * 0.05);
+    c.searched = true;
+    return c;
+}
+std::vector<bool> needed(std::vector<bench::compare::Cell> cells, const std::vector<double>& errors, double certificate = 0) {
+    bench::compare::mark_needed(cells, errors, certificate);
+    std::vector<bool> all;
+    for (const auto& c : cells) {
+        all.push_back(c.needed);
+        EXPECT_EQ(c.needed, c.reason.empty());
+    }
+    return all;
+}
+
+TEST(Search, ACellIsLeftOutWhereOneThatSurelyCostsLessDoesAsWell) {
+    const auto two_point = [](double rate, int modes) { return tried("modal_two_point", rate, modes); };
+    using Flags = std::vector<bool>;
+    const auto more = [&](double rate, int modes) {
+        bench::compare::Cell c = two_point(rate, modes);
+        c.added = true;
+        return c;
     };
-    EXPECT_LT(change(modes), 1e-2);
-    EXPECT_GT(change(modes / 2), 1e-2);
-    // what the last doubling left out is in what the reference is certain to
-    EXPECT_GT(truth.reference.trust.of_scene(bench::compare::headline_of(scene).nut, 0), 0.3 * change(modes));
-    EXPECT_EQ(truth.said.find("budget"), std::string::npos) << truth.said;
-}
-
-TEST(Truth, OneDoublingIsMadeWhereNoErrorIsShownAndAGivenNumberIsTaken) {
-    EXPECT_EQ(truth_of(0, [](const Trace&) { return HUGE_VAL; }).reference.choice.settings.modes, 266);
-    EXPECT_EQ(truth_of(200).reference.choice.settings.modes, 200);
+    // of one scheme: as many modes at a lower rate, or fewer
+    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100), more(176400, 100)}, {0.05, 0.049, 0.04}), (Flags{true, false, true}));
+    EXPECT_EQ(needed({two_point(44100, 200), more(88200, 100)}, {0.05, 0.05}), (Flags{true, true}));       // neither surely costs less
+    EXPECT_EQ(needed({two_point(44100, 100), two_point(88200, 100)}, {0.05, 0.05}), (Flags{true, true}));  // its convergence is asked for
+    // it keeps 1 %, which the cheaper one does not
+    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0105, 0.0095}), (Flags{true, true}));
+    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0105, 0.0095}, 1e-3), (Flags{true, false}));  // nor does it
+    // the finest accuracy is kept: more of it is not needed
+    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0009, 0.0001}), (Flags{true, false}));
+    // of another scheme: a thirty-second of the steps times the state
+    const auto grid = [](double rate, int nodes) { return tried("finite_difference_theta", rate, nodes); };
+    EXPECT_EQ(needed({two_point(44100, 100), grid(44100, 3000), grid(88200, 1600)}, {0.05, 0.05, 0.05}), (Flags{true, true, false}));
+    // what fails is a finding at the modes that the scheme takes unasked, and none beyond
+    std::vector<bench::compare::Cell> failed{two_point(44100, 100), two_point(88200, 100), two_point(88200, 200)};
+    failed[2].added = true;
+    failed[1].reason = failed[2].reason = "diverged";
+    bench::compare::mark_needed(failed, {0.05, HUGE_VAL, HUGE_VAL}, 0);
+    EXPECT_TRUE(failed[1].needed);
+    EXPECT_FALSE(failed[2].needed);
 }
 
 TEST(Truth, SaysTheModesThatItHasWhereNoMoreWereMeasured) {

@@ -105,7 +105,7 @@ TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
     const std::string file = scratch / "a.toml", kept = scratch / "stopped/cells";
     std::ofstream(file)
         << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
-           "modes = 20\nduration = 0.05\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
+           "modes = 20\nreference_modes = \"cell\"\nduration = 0.05\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
     ASSERT_EQ(Started(scratch, {"suite", file, "--jobs", "1", "--out", scratch / "whole"}).end(), -1);
     int before = 0;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGINT}) {
@@ -141,6 +141,8 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
                                         "44100,88200,176400",
                                         "--modes",
                                         "40",
+                                        "--option",
+                                        "compliance=own",
                                         "--duration",
                                         "0.05",
                                         "--repeats",
@@ -177,7 +179,8 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
 TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml";
-    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [2822400]\nduration = 60\n";
+    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [2822400]\nreference_modes = "
+                           "\"cell\"\nduration = 60\n";
     for (const auto& [arguments, said] : {
              std::pair<std::vector<std::string>, std::string>{
                  {"compare", "tanpura_c3", "--schemes", "modal_two_point", "--rates", "2822400"}, "for there is no --out DIR"},
@@ -199,7 +202,8 @@ TEST(Interruption, ASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml", references = scratch / "all/references";
     std::ofstream(file) << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\n"
-                           "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 2\n"
+                           "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nreference_modes = "
+                           "\"cell\"\nduration = 2\n"
                            "reference = \"sundials\"\n";
     Started suite(scratch, {"suite", file, "--out", scratch / "all", "--resume", "--jobs", "2"});
     suite.once([&] { return cells_in(scratch / "all/cells") == 1 && files_of(references, ".lock") == 1; });

@@ -214,7 +214,8 @@ TEST(Maps, WhereAnExplicitSchemeWithItsComplianceMatchedLosesLastingContactIsKno
     )",
                                                                 "a.toml");
     int compared = 0;
-    for (const bench::map::Boundary& b : run_of(suite).boundaries)
+    const bench::map::MapRun run = run_of(suite);
+    for (const bench::map::Boundary& b : run.boundaries)
         if (std::isfinite(b.theory)) {
             ++compared;
             EXPECT_NE(b.low, bench::map::Verdict::sound);
@@ -222,6 +223,10 @@ TEST(Maps, WhereAnExplicitSchemeWithItsComplianceMatchedLosesLastingContactIsKno
             EXPECT_LT(std::abs(b.relative_difference()), 0.005) << b.scheme->name << ": " << b.theory;
         }
     EXPECT_EQ(compared, 2);
+    const bench::store::Table t = bench::map::boundaries_table(run, {});
+    for (std::size_t i = 0; i < t.rows.size(); ++i)
+        EXPECT_EQ(t.at(i, "theory_holds_for").starts_with("lasting contact;"), !t.at(i, "theory").empty()) << t.at(i, "theory_holds_for");
+    EXPECT_NE(bench::map::maps_text(run).find("theory holds for lasting contact;"), std::string::npos) << bench::map::maps_text(run);
 }
 
 TEST(Maps, AReferenceWithModesOfItsOwnIsTheSameForEveryPoint) {

@@ -1,6 +1,8 @@
 // The report of a folder: a section where there is data and none where there is not, each with what its files say. The folder is made up.
 #include "bench/report/report.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -191,9 +193,10 @@ TEST(Report, TheCheapestThatReachesAnAccuracyIsNamedWhereSomeReachItAndSomeDoNot
         EXPECT_EQ(g.at("error"), "error_l2_50ms");
         of_problem[g.at("problem")].push_back(g.at("text"));
     }
-    EXPECT_EQ(of_problem["b, string.0.tension = 30"], (std::vector<std::string>{"10 %: one at 88.2 kHz", "1 %: one at 176.4 kHz"}));
+    EXPECT_TRUE(of_problem["b, string.0.tension = 30"].empty());  // no certificate there: nothing is certain
     // there the reference is certain to 4e-3: 0.1 at 44.1 kHz is not known to be within 10 %, 6.25e-3 at 176.4 kHz not within 1 %
-    EXPECT_EQ(of_problem["a, string.0.tension = 30"], (std::vector<std::string>{"10 %: one at 88.2 kHz", "1 %: one at 352.8 kHz"}));
+    EXPECT_EQ(of_problem["a, string.0.tension = 30"],
+              (std::vector<std::string>{"10 %: one, 40 modes at 88.2 kHz", "1 %: one, 40 modes at 352.8 kHz"}));
 }
 
 TEST(Report, TheVerdictNamesSchemeRateErrorCostAndCertaintyOfEachScene) {
@@ -203,11 +206,12 @@ TEST(Report, TheVerdictNamesSchemeRateErrorCostAndCertaintyOfEachScene) {
     EXPECT_EQ(verdicts[0].scene, "a, string.0.tension = 30");
     const std::vector<std::string> first = verdicts[0].table.rows.at(0);  // e = 2.5e-2 and c = 4e-3 at 88.2 kHz
     EXPECT_EQ(first[0], "waveform within 10 %, first 50 ms");
-    EXPECT_EQ(std::vector<std::string>(first.begin() + 1, first.begin() + 5),
-              (std::vector<std::string>{"one", "88.2 kHz", "\u2264 2.9\u00a0%", "20 ms"}));
-    EXPECT_EQ(first[5].substr(0, 12), "at most that");
-    EXPECT_EQ(verdicts[2].table.rows.at(1)[2], "176.4 kHz");  // no certificate there: as measured
-    EXPECT_EQ(verdicts[2].table.rows.at(1)[5].substr(0, 8), "measured");
+    EXPECT_EQ(std::vector<std::string>(first.begin() + 1, first.begin() + 6),
+              (std::vector<std::string>{"one", "40", "88.2 kHz", "\u2264 2.9\u00a0%", "20 ms"}));
+    EXPECT_EQ(first[6].substr(0, 11), "upper bound");
+    const std::vector<std::string> unknown = verdicts[2].table.rows.at(1);  // no certificate there
+    EXPECT_EQ(unknown[1], "cannot be decided");
+    EXPECT_EQ(unknown[6].substr(0, 44), "the uncertainty of the reference is unknown;");
     EXPECT_NE(verdicts[0].sentences.at(0).find("Truth: truth"), std::string::npos) << verdicts[0].sentences.at(0);
 }
 
@@ -327,6 +331,42 @@ TEST(Report, ErrorFallsAlongModesInOneLineForEachScheme) {
     EXPECT_EQ(s.charts[0].twins.at(0).file, "sweep-modes.svg");
 }
 
+TEST(Report, OfModesAndRatesTheBestOfEachSchemeAreOneLine) {
+    const MadeUp folder({"manifest.json"});
+    const auto row = [](const char* cell, const char* modes, const char* rate, const char* status, const char* error, const char* cost) {
+        return fmt::format("{},a,modal_strang,compliance=own,{},{},{},,{},0,{},{},{}\n", cell, rate, modes, status, error, cost, cost,
+                           cost);
+    };
+    std::ofstream(folder / "cells.csv")
+        << "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n"
+        << row("1", "10", "44100", "ok", "0.1", "1") << row("2", "10", "88200", "ok", "0.08", "2")
+        << row("3", "20", "88200", "ok", "0.02", "1.9")  // beats the second
+        << row("4", "20", "176400", "not_needed", "0.03", "");
+    const bench::report::Results results = bench::report::read_results(folder.path);
+    const Json cells = Json::parse(bench::report::work_precision_section(results).charts.at(0).spec).at("datasets").at("cells");
+    ASSERT_EQ(cells.size(), 2u);
+    for (const Json& cell : cells) EXPECT_EQ(cell.at("series"), "modal_strang compliance=own");
+    EXPECT_EQ(cells[0].at("label"), "10 modes, 44.1 kHz");
+    EXPECT_EQ(cells[1].at("label"), "20 modes, 88.2 kHz");
+    const auto sentences = bench::report::verdicts_of(results).at(0).sentences;
+    EXPECT_TRUE(std::ranges::any_of(sentences, [](const std::string& s) { return s.starts_with("4 runs: 3 ended well, 1 left out"); }));
+}
+
+TEST(Report, ABandIsOfTheReferenceOfAllPointsOrNotThere) {
+    const auto bands = [](const char* second) {
+        const MadeUp folder({"manifest.json"});
+        std::ofstream(folder / "cells.csv")
+            << "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n"
+            << "1,a,modal_strang,,44100,10,ok,,0.1,0.002,1,1,1\n2,a,exact_contact,,,10,ok,,0.0007," << second << ",1,1,1\n";
+        const auto spec = Json::parse(bench::report::work_precision_section(bench::report::read_results(folder.path)).charts.at(0).spec);
+        for (const Json& p : spec.at("params"))
+            if (p.at("name") == "bands") return p.at("value");
+        return Json();
+    };
+    EXPECT_EQ(bands("0.002").at("a|error_l2_50ms").at("certificate"), 0.002);
+    EXPECT_FALSE(bands("0.0002").contains("a|error_l2_50ms"));  // 0.07 % is known of the second, and not of the first
+}
+
 TEST(Report, ABusyMachineIsSaid) {
     bench::store::Table cells{{"cost_s_per_s", "cost_lower", "cost_upper"},
                               {{"1", "0.9", "1.1"}, {"1", "0.5", "1.1"}, {"1", "0.75", "1.25"}, {"", "", ""}}};
@@ -430,7 +470,8 @@ TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReferen
     std::ofstream(scratch / "a.toml")
         << "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = [\"modal_two_point\", \"modal_explicit_penalty\"]\nrates = [44100, "
            "88200]\n"
-           "modes = 10\nduration = 0.03\nmeasure = [\"errors\", \"sound\"]\nsweep = { \"string.0.tension\" = [30, 31] }\n";
+           "modes = 10\nreference_modes = \"cell\"\nduration = 0.03\nmeasure = [\"errors\", \"sound\"]\nsweep = { \"string.0.tension\" = "
+           "[30, 31] }\n";
     const std::string command = "suite " + scratch / "a.toml" + " --json --out " + scratch / "out", none = "JVARI_NODE_MODULES=/nowhere";
     ASSERT_EQ(jvari(scratch, command, none).code, 0);
     const std::string first = content(scratch / "out/sounds.csv"), page = content(scratch / "out/report.html");

@@ -29,11 +29,13 @@ scenes = ["tanpura_c3_release", "free_string"]
 schemes = ["modal_two_point", "modal_strang", "finite_difference_explicit"]
 rates = [44100, 88200]
 reference_modes = 266
+search = false
 duration = 0.012
 [[cells]]
 scenes = ["two_point_bridge"]
 schemes = ["modal_two_point", "modal_quadratised"]
 rates = [88200, 176400]
+reference_modes = "cell"
 duration = 0.01
 repeats = 2
 measure = ["errors", "cost"]
@@ -138,7 +140,7 @@ TEST(SharedFolder, WhoIsKilledHoldsNobodyUp) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml")  // cells of some tenths of a second
         << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\", \"modal_quadratised\"]\nrates = [1411200]\n"
-           "modes = 100\nduration = 0.4\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
+           "modes = 100\nreference_modes = \"cell\"\nduration = 0.4\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
     ASSERT_EQ(shell(scratch, "$J suite a.toml --out whole --quiet").code, 0) << content(scratch / "stderr");
     // One of the three is stopped while it runs a cell; the others run all that is left, say for whom they wait, and see it die.
     const Outcome o = shell(scratch, R"sh(
@@ -169,7 +171,7 @@ for p in $others; do wait $p || exit 6; done
 TEST(SharedFolder, TwoProgramsHaveEachTheirOwnCells) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\", \"two_point_bridge\"]\nschemes = [\"modal_two_point\", "
-                                         "\"modal_strang\"]\nrates = [44100, 88200]\nduration = 0.01\n";
+                                         "\"modal_strang\"]\nrates = [44100, 88200]\nreference_modes = \"cell\"\nduration = 0.01\n";
     const std::string suite = "$J suite a.toml --out ",
                       plugin = " --plugin " JVARI_HONEST;  // another program: its plugin counts into the key
     ASSERT_EQ(shell(scratch, suite + "whole --quiet").code, 0) << content(scratch / "stderr");
@@ -182,8 +184,8 @@ TEST(SharedFolder, TwoProgramsHaveEachTheirOwnCells) {
 
 TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml")
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\n";
+    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
+                                         "[44100]\nreference_modes = \"cell\"\nduration = 0.01\n";
     const std::string suite = "timeout 60 $J suite a.toml --out all --resume";
     ASSERT_EQ(shell(scratch, suite).code, 0) << content(scratch / "stderr");
     const std::string table = content(scratch / "all/errors.csv");
@@ -205,8 +207,9 @@ TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
 
 TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100, 88200]\n"
-                                         "duration = 0.01\nrepeats = 2\nmeasure = [\"errors\", \"cost\"]\n";
+    std::ofstream(scratch / "a.toml")
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100, 88200]\nreference_modes = \"cell\"\n"
+           "duration = 0.01\nrepeats = 2\nmeasure = [\"errors\", \"cost\"]\n";
     fs::create_directories(scratch / "all/cells");
     const auto files = [&](const char* extension) {
         return std::count_if(fs::directory_iterator(scratch / "all/cells"), fs::directory_iterator(),
@@ -314,6 +317,7 @@ TEST(Machines, StampsOfTwoInOneFolderGiveASentenceAndACostOfEach) {
 scenes = ["two_point_bridge"]
 schemes = ["modal_two_point"]
 rates = [88200, 176400]
+reference_modes = "cell"
 duration = 0.01
 repeats = 2
 measure = ["errors", "cost"]
@@ -321,6 +325,7 @@ measure = ["errors", "cost"]
 scenes = ["two_point_bridge"]
 schemes = ["modal_quadratised"]
 rates = [88200, 176400]
+reference_modes = "cell"
 duration = 0.01
 repeats = 2
 measure = ["errors", "cost"]

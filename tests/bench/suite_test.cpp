@@ -35,6 +35,7 @@ TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
         schemes = ["modal_two_point", "sitar_fdm"]
         rates = [44100, 88200, 176400]
         modes = 5
+        reference_modes = "cell"
         duration = 0.01
         sweep = { "string.0.tension" = [30], "tap.0.name" = ["a"] }
     )",
@@ -61,11 +62,30 @@ TEST(SuiteFile, TheTruthDoesNotShrinkWithTheModesThatVary) {
     EXPECT_EQ(truth("modes = [5, 10]\n"), 0);  // doubled until nothing moves
     EXPECT_EQ(truth("modes = [5, 10]\nreference_modes = 64\n"), 64);
     EXPECT_EQ(truth("modes = [5, 10]\nreference_modes = \"cell\"\n"), std::nullopt);
-    EXPECT_EQ(truth("modes = 5\n"), std::nullopt);
-    EXPECT_EQ(truth(""), std::nullopt);
+    EXPECT_EQ(truth("modes = 5\n"), 0);
+    EXPECT_EQ(truth(""), 0);
     EXPECT_NE(refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n").find("a whole number from 0 to 9999999, or \"cell\""),
               std::string::npos)
         << refusal_of("[[cells]]\nscenes = [\"b\"]\nreference_modes = \"cel\"\n");
+}
+
+TEST(SuiteFile, WhatASetDoesNotNameIsSoughtUnlessItSaysNot) {
+    const auto cells = [](const std::string& more) {
+        const auto suite = bench::suite::parse_suite(
+            "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = [\"modal_two_point\"]\nrates = [44100, 88200]\n" + more, "a.toml");
+        std::vector<std::string> all;
+        for (const auto& c : bench::suite::plan_of(suite, bench::compare::Catalogue(), {}).cells)
+            all.push_back(bench::store::options_text(c.cell.settings.options) + " " + std::to_string(c.cell.settings.modes));
+        return all;
+    };
+    using Cells = std::vector<std::string>;
+    const Cells unasked{" 133", " 133"};
+    EXPECT_EQ(cells(""), (Cells{"compliance=own 133", "compliance=own 133", "compliance=own 180", "compliance=matched 133",
+                                "compliance=matched 133", "compliance=matched 180"}));
+    EXPECT_EQ(cells("search = false\n"), unasked);
+    EXPECT_EQ(cells("reference_modes = \"cell\"\n"), unasked);
+    EXPECT_EQ(cells("measure = \"spectrogram\"\n"), unasked);  // what is not measured cannot be sought
+    EXPECT_EQ(cells("modes = 60\noptions = { compliance = \"matched\" }\n"), (Cells{"compliance=matched 60", "compliance=matched 60"}));
 }
 
 TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
@@ -202,6 +222,7 @@ constexpr const char* counting_suite = R"(
     schemes = ["counting"]
     rates = [44100, 88200]
     modes = [10]
+    reference_modes = "cell"
     duration = 0.06
     repeats = 2
     sweep = { "string.0.tension" = [30, 33] }
@@ -369,6 +390,7 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         schemes = ["modal_two_point", "unwilling", "throwing", "slow"]
         rates = [44100]
         modes = 3
+        reference_modes = "cell"
         duration = 1.0
         time_limit_s = 0.45
         measure = ["errors", "cost", "spectrogram"]
@@ -426,7 +448,7 @@ TEST(SuiteCommand, KilledAtAnyMomentAndResumedItGivesTheSameTable) {
     const std::string file = scratch / "a.toml", none = "JVARI_NODE_MODULES=/nowhere";
     std::ofstream(file)
         << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
-           "modes = 20\nduration = 0.05\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
+           "modes = 20\nreference_modes = \"cell\"\nduration = 0.05\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
     const Outcome whole = jvari(scratch, "suite " + file + " --jobs 1 --json --out " + scratch / "whole", none);
     ASSERT_EQ(whole.code, 0) << whole.err;
     const auto json = nlohmann::json::parse(whole.out);

@@ -153,7 +153,7 @@ class Module(unittest.TestCase):
                 f.write(f'[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [{rate}]\nduration = 1\nrepeats = 50\nmeasure = ["errors", "cost"]\n')
             slow_reference, slow_map = folder + "/reference.toml", folder + "/map.toml"
             with open(slow_reference, "w") as f:
-                f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nduration = 0.2\nreference = "sundials"\n')
+                f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nduration = 0.2\nreference = "sundials"\nreference_modes = "cell"\n')
             with open(slow_map, "w") as f:
                 f.write('[[map]]\nname = "m"\nscene = "tanpura_c3"\nschemes = ["modal_two_point"]\nduration = 0.2\nreference = "sundials"\nx = { key = "rate", values = [44100, 48000] }\n')
             for name, call in {
@@ -180,7 +180,7 @@ class Module(unittest.TestCase):
             file, out = folder + "/a.toml", folder + "/out"
             with open(file, "w") as f:
                 f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.01\n'
-                        '[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.2\nreference = "sundials"\n')
+                        '[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.2\nreference = "sundials"\nreference_modes = "cell"\n')
 
             def interrupt():
                 while not (os.path.isdir(out + "/cells") and any(name.endswith(".json") for name in os.listdir(out + "/cells"))):
@@ -198,7 +198,7 @@ class Module(unittest.TestCase):
             with tempfile.TemporaryDirectory() as folder:
                 file = folder + "/a.toml"
                 with open(file, "w") as f:
-                    f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.2\nreference = "sundials"\n')
+                    f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.2\nreference = "sundials"\nreference_modes = "cell"\n')
                 timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
                 timer.start()
                 with self.assertRaisesRegex(KeyboardInterrupt, "interrupted: nothing is kept"):
@@ -226,11 +226,12 @@ class Module(unittest.TestCase):
             jvari.plugin("/no/such/plugin.so")
 
     def test_a_comparison_is_the_programs_rows(self):
-        rows = jvari.compare("tanpura_c3_release", schemes=["modal_two_point", "modal_quadratised"], rates=[44100, 88200], repeats=1, **SHORT)
+        rows = jvari.compare("tanpura_c3_release", schemes=["modal_two_point", "modal_quadratised"], rates=[44100, 88200], modes=133,
+                             options={"compliance": "own"}, repeats=1, **SHORT)
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run(
                 [PROGRAM, "compare", "tanpura_c3_release", "--schemes", "modal_two_point", "modal_quadratised", "--rates", "44100", "88200",
-                 "--repeats", "1", "--duration", "0.01", "--quiet", "--out", folder], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
+                 "--modes", "133", "--option", "compliance=own", "--repeats", "1", "--duration", "0.01", "--quiet", "--out", folder], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
             kept = rows_of(folder + "/errors.csv")
         self.assertEqual(len(rows), 4)
         for row, old in zip(rows, kept):
@@ -239,6 +240,10 @@ class Module(unittest.TestCase):
                     self.assertEqual(row[column], float(old[column]) if old[column] else None, column)
             self.assertGreater(row["cost_s_per_s"], 0)
             self.assertIn("bound_l2_10ms", row)
+        several = jvari.compare("tanpura_c3_release", schemes=["modal_two_point"], rates=[44100], modes=[60, 80],
+                                options={"compliance": ["own", "matched"]}, repeats=1, **SHORT)
+        self.assertEqual([(row["options"], row["modes"]) for row in several],
+                         [("compliance=own", 60), ("compliance=own", 80), ("compliance=matched", 60), ("compliance=matched", 80)])
 
     def test_a_suite_is_its_rows(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -507,5 +507,21 @@ TEST(ExactContact, EveryStiffnessIsWhatStepwiseWindowsMakeOfIt) {
     }
 }
 
+// Of ten random strings the one whose contact force suffers most: what a window cuts off shows twelvefold in it.
+TEST(ExactContact, ToleranceIsWhatTheTapsHoldForcesIncluded) {
+    Scene scene = c3();
+    String& s = scene.strings[0];
+    auto& b = std::get<LumpedBarrier>(s.barriers[0]);
+    b.stiffness.k = 1.0548e9;
+    b.position = 0.0621726;
+    s.initial = ModeInitial{1, 1.57438e-4};
+    const jvari::Run fine = run(exact_contact, scene, settings(56, "1e-13"));
+    for (const auto& [tolerance, most] : {std::pair("1e-6", 1e-6), std::pair("1e-8", 1e-8)}) {
+        const jvari::Run r = run(exact_contact, scene, settings(56, tolerance));
+        for (int tap = 0; tap < r.trace.taps(); ++tap)
+            EXPECT_LT(difference(r.trace.column(tap), fine.trace.column(tap)), most) << r.trace.names[tap] << " " << tolerance;
+    }
+}
+
 }  // namespace
 }  // namespace jvari

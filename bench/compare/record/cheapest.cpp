@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"
@@ -20,7 +19,12 @@ struct Target {
     bool waveform;
     double most;
 };
-constexpr Target targets[] = {{true, 0.1}, {true, 0.01}, {true, 0.001}, {false, 3}, {false, 1}};
+std::vector<Target> targets() {
+    std::vector<Target> all;
+    for (const double most : accuracies) all.push_back({true, most});
+    for (const double decibels : {3.0, 1.0}) all.push_back({false, decibels});
+    return all;
+}
 struct Goal {
     std::string measure;
     double most;
@@ -42,57 +46,84 @@ store::Rows other_schemes(const store::Table& cells, const store::Rows& rows, co
     return others;
 }
 
-std::string joined(const store::Table& cells, const store::Rows& rows, const char* column) {
+std::string named(const store::Table& cells, const store::Rows& rows) {
     std::string text;
-    for (const std::size_t i : rows) {
-        const std::string& word = cells.at(i, column);
-        text += (text.empty() ? "" : " ") + (word.empty() ? "-" : word);  // a scheme without a sample rate keeps its place
-    }
+    for (const std::size_t i : rows) text += (text.empty() ? "" : "; ") + store::run_name(cells, i);
     return text;
+}
+
+std::optional<std::size_t> least_cost(const store::Table& cells, const store::Rows& rows, const auto& which) {
+    std::optional<std::size_t> best;
+    for (const std::size_t i : rows)
+        if (which(i) && (!best || cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s"))) best = i;
+    return best;
+}
+
+// Why it cannot be decided who is within `goal`.
+std::string why_unknown(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
+    const double certificate = bound_of(cells, rows.front(), goal.measure).certificate;
+    if (!std::isnan(certificate)) return fmt::format("the reference is known to {} only", percent(certificate));
+    const auto seems = least_cost(cells, rows, [&](std::size_t i) { return cells.number(i, goal.measure) <= goal.most; });
+    return "the uncertainty of the reference is unknown" +
+           (seems ? fmt::format("; measured against it, the cheapest is {}, {}", store::run_name(cells, *seems),
+                                percent(cells.number(*seems, goal.measure)))
+                  : std::string());
+}
+
+bool is_matched(const store::Table& cells, std::size_t row) {
+    return cells.at(row, "options").find("compliance=matched") != std::string::npos;
+}
+
+bool is_unsure(const store::Table& cells, const store::Rows& rows) {  // whatever the measure
+    return std::isnan(bound_of(cells, rows.front(), headline_error(cells, rows)).certificate);
+}
+
+std::string published_text(const store::Table& cells, std::optional<std::size_t> row, const Goal& goal) {
+    if (!row) return "none";
+    const double error = cells.number(*row, goal.measure);
+    return fmt::format("{}, {}, {:.3g} s per s", store::run_name(cells, *row),
+                       goal.measure == "third_octave_db" ? fmt::format("{:.2g} dB", error) : percent(error),
+                       cells.number(*row, "cost_s_per_s"));
 }
 
 // From `status` on.
 std::vector<std::string> fields_of(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
-    std::optional<std::size_t> best;
-    for (const std::size_t i : rows)
-        if (goal.met(cells, i) && (!best || cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s"))) best = i;
+    const auto met = [&](std::size_t i) { return goal.met(cells, i); };
     const auto undecided = [&](std::size_t i) { return goal.undecided(cells, i); };
+    const auto best = least_cost(cells, rows, met);
     if (!best) {
         const bool open = std::any_of(rows.begin(), rows.end(), undecided);
         const bool waveform = goal.measure != "third_octave_db";
-        return {open ? "not_known" : "none",
-                "",
-                "",
-                "",
-                "",
-                "",
-                "",
-                "",
-                "",
-                "",
-                open ? joined(cells, other_schemes(cells, rows, "", undecided), "scheme") : "",
-                waveform && !open ? why_none(cells, rows, goal.measure, goal.most) : ""};
+        std::vector<std::string> fields{open ? "not_known" : "none"};
+        fields.resize(10);  // nothing to say of the cell
+        const bool bounded = open && !std::isnan(bound_of(cells, rows.front(), goal.measure).certificate);
+        fields.push_back(bounded ? named(cells, other_schemes(cells, rows, "", undecided)) : "");
+        fields.emplace_back();
+        fields.push_back(open ? why_unknown(cells, rows, goal) : waveform ? why_none(cells, rows, goal.measure, goal.most) : "");
+        return fields;
     }
     const std::string& scheme = cells.at(*best, "scheme");
     const Bound b = bound_of(cells, *best, goal.measure);
-    const store::Rows ties = other_schemes(cells, rows, scheme, [&](std::size_t i) {
-        return goal.met(cells, i) && cells.number(i, "cost_lower") <= cells.number(*best, "cost_upper");
-    });
+    const store::Rows ties = other_schemes(
+        cells, rows, scheme, [&](std::size_t i) { return met(i) && cells.number(i, "cost_lower") <= cells.number(*best, "cost_upper"); });
     const store::Rows perhaps = other_schemes(cells, rows, scheme, [&](std::size_t i) {
         return undecided(i) && cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s");
     });
     return {"found",
+            store::run_name(cells, *best),
             scheme,
             cells.at(*best, "options"),
             cells.at(*best, "rate"),
             cells.at(*best, "modes"),
             store::text_of(b.error),
-            std::isnan(b.certificate) ? "" : store::text_of(b.most()),
+            store::text_of(b.most()),
             cells.at(*best, "cost_s_per_s"),
-            joined(cells, ties, "scheme"),
-            joined(cells, ties, "rate"),
-            joined(cells, perhaps, "scheme"),
-            ""};
+            named(cells, ties),
+            named(cells, perhaps),
+            is_matched(cells, *best)
+                ? published_text(cells, least_cost(cells, rows, [&](std::size_t i) { return met(i) && !is_matched(cells, i); }), goal)
+                : "",
+            is_unsure(cells, rows) ? "measured against a reference whose uncertainty is unknown" : ""};
 }
 }  // namespace
 
@@ -107,8 +138,8 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene, Co
     store::Table t;
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
-    for (const char* name : {"measure", "target", "status", "scheme", "options", "rate", "modes", "error", "bound", "cost_s_per_s", "ties",
-                             "tie_rates", "perhaps", "why"})
+    for (const char* name : {"measure", "target", "status", "run", "scheme", "options", "rate", "modes", "error", "bound", "cost_s_per_s",
+                             "ties", "perhaps", "as_published", "why"})
         t.columns.push_back(name);
     std::vector<std::string> naming = swept;
     naming.insert(naming.begin(), "scene");
@@ -119,7 +150,7 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene, Co
         if (rows.empty()) continue;  // nothing was timed, or this is the group of those that were not
         std::vector<std::string> key{cells.column("scene") < 0 ? scene : cells.at(rows.front(), "scene")};
         for (const std::string& name : swept) key.push_back(cells.at(rows.front(), name));
-        for (const Target& target : targets) {
+        for (const Target& target : targets()) {
             const Goal goal{target.waveform ? headline_error(cells, rows) : "third_octave_db", target.most};
             if (std::none_of(rows.begin(), rows.end(), [&](std::size_t i) { return std::isfinite(cells.number(i, goal.measure)); }))
                 continue;  // the run is too short for it
@@ -137,17 +168,6 @@ std::string goal_name(const store::Table& t, std::size_t row) {
     return t.at(row, "measure") == "third_octave_db" ? fmt::format("{:g} dB", most) : fmt::format("{:g} %", 100 * most);
 }
 
-std::string ties_text(const store::Table& t, std::size_t row) {
-    std::istringstream names(t.at(row, "ties")), rates(t.at(row, "tie_rates"));
-    std::string text;
-    for (std::string name, rate; names >> name;) {
-        rates >> rate;
-        const double hz = store::number_of(rate);
-        text += (text.empty() ? "" : ", ") + name + (std::isnan(hz) ? "" : fmt::format(" at {:.5g} kHz", hz / 1000));
-    }
-    return text;
-}
-
 std::string cheapest_text(const store::Table& t) {
     std::string text, last;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
@@ -157,15 +177,21 @@ std::string cheapest_text(const store::Table& t) {
         if (scene != last) text += fmt::format("{}the cheapest scheme on {}\n", text.empty() ? "" : "\n", scene);
         last = scene;
         text += fmt::format("  {:<16} within {:<6}  ", t.at(i, "measure"), goal_name(t, i));
-        const std::string& perhaps = t.at(i, "perhaps");
-        if (t.at(i, "status") == "not_known") text += "not known: the reference is not certain enough to tell\n";
-        else if (t.at(i, "status") == "none") text += t.at(i, "why").empty() ? "none\n" : fmt::format("none\n    {}\n", t.at(i, "why"));
-        else {
-            const std::string tied = ties_text(t, i);
-            text += fmt::format("{} {}, {:.3g} s per s{}{}\n", store::variant_name(t.at(i, "scheme"), t.at(i, "options")),
-                                t.at(i, "rate").empty() ? "with " + t.at(i, "modes") + " modes" : "at " + t.at(i, "rate") + " Hz",
-                                t.number(i, "cost_s_per_s"), tied.empty() ? "" : "; a tie with " + tied,
+        const std::string &status = t.at(i, "status"), &why = t.at(i, "why"), &perhaps = t.at(i, "perhaps"), &ties = t.at(i, "ties");
+        if (status == "not_known") {
+            text += fmt::format("cannot be decided: {}\n", why);
+            if (!perhaps.empty()) text += fmt::format("    candidates: {}\n", perhaps);
+        } else if (status == "none") {
+            text += why.empty() ? "none\n" : fmt::format("none. {}\n", why);
+        } else {
+            const double error = t.number(i, "error");
+            text += fmt::format("{}, {}, {:.3g} s per s{}{}\n", t.at(i, "run"),
+                                t.at(i, "measure") == "third_octave_db" ? fmt::format("{:.2g} dB", error) : percent(error),
+                                t.number(i, "cost_s_per_s"), ties.empty() ? "" : "; a tie with " + ties,
                                 perhaps.empty() ? "" : "; perhaps for less " + perhaps);
+            if (!why.empty()) text += fmt::format("    {}\n", why);
+            if (const std::string& published = t.at(i, "as_published"); !published.empty())
+                text += fmt::format("    without matched compliance: {}\n", published);
         }
     }
     if (t.column("machine") >= 0) text += "cells were timed on several machines: each has its own cheapest\n";

@@ -5,13 +5,14 @@
 
 namespace jvari::bench::compare {
 
-// From the rows of cells.csv. Columns scene, <swept keys>, measure (a column of cells.csv), target, status, scheme, options, rate, modes,
-// error, bound, cost_s_per_s, ties, tie_rates, perhaps, why. A row per scene and target.
+// From the rows of cells.csv. Columns scene, <swept keys>, measure (a column of cells.csv), target, status, run, scheme, options, rate,
+// modes, error, bound, cost_s_per_s, ties, perhaps, as_published, why. A row per scene and target.
 //   A cell meets a target where error and certificate together (bound.hpp) do; third octaves have no certificate and count as measured.
 //   status:  found; none; not_known: no cell meets it, and of some neither that it does nor that it does not is certain.
-//   ties:    other schemes with a cell that meets the target and whose quartiles of cost touch; tie_rates: the rate of the cheapest such
-//   cell of each. perhaps: other schemes with a cheaper cell (not_known: any cell) of which it is not certain.
-//   why:     of none, for a waveform: what stands in the way and what can be judged instead (diagnosis.hpp).
+//   run:     the cell found as a text (run_name). ties: other schemes with a cell that meets the target and whose quartiles of cost touch,
+//            the cheapest such cell of each. perhaps: other schemes with a cheaper cell (not_known: any cell) of which it is not certain.
+//   as_published: where the cell found has matched compliance, the cheapest without it, its error and cost; or "none".
+//   why:     of what is found by third octaves, that the uncertainty of the reference is unknown where it is; of not_known, what the reference is known to; of none, for a waveform, what stands in the way (diagnosis.hpp).
 // Where cells were timed on several machines there is a row for each of them, and a column `machine` before `measure`.
 // Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene. A control is known to be wrong
 // somewhere: it is named only where it was asked to compete.
@@ -20,7 +21,6 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene = "
 bool may_win(const store::Table& cells, std::size_t row, Controls);  // trusted, and no control that stands beside
 
 std::string goal_name(const store::Table& cheapest, std::size_t row);  // "10 %", "3 dB"
-std::string ties_text(const store::Table& cheapest, std::size_t row);  // "a at 44.1 kHz, b at 88.2 kHz"
 std::string cheapest_text(const store::Table& cheapest);               // for the terminal; "" without rows
 
 }  // namespace jvari::bench::compare

@@ -47,7 +47,7 @@ std::string in_model(const std::string& column) {
 }
 
 std::string status_of(const Cell& cell) {
-    return cell.refused ? "refused" : name_of(cell.summary.status.outcome);
+    return cell.refused ? "refused" : !cell.needed ? "not_needed" : name_of(cell.summary.status.outcome);
 }
 
 // Facts of any cell, in the order in which they first come up.
@@ -90,6 +90,7 @@ void add_row(store::Table& table, const Comparison& c, const Cell& cell, const s
     const Summary& s = cell.summary;
     const bool ran = !cell.refused, failed = ran && s.status.outcome != Outcome::ok;
     row.text("scheme", cell.scheme->name);
+    row.text("options", store::options_text(cell.settings.options));
     row.number("rate", cell.scheme->clock == Clock::continuous ? store::nan : cell.settings.sample_rate);
     row.count("modes", cell.modes(), cell.modes() > 0);
     row.text("status", status_of(cell));
@@ -197,7 +198,7 @@ store::Table errors_only(const store::Table& cells) {
 }
 
 store::Table cost_only(const store::Table& cells) {
-    std::vector<std::string> names{"scheme", "rate", "modes", "status"};
+    std::vector<std::string> names{"scheme", "options", "rate", "modes", "status"};
     names.insert(names.end(), std::begin(cost_columns), std::end(cost_columns));
     return cells.only(names);
 }
@@ -214,14 +215,12 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
         taps.push_back({{"name", c.scene.taps[tap].name}, {"quantity", name_of(c.scene.taps[tap].quantity)}});
         for (std::size_t k = 0; k < measures().size(); ++k) floor[measures()[k].column + "_" + c.scene.taps[tap].name] = c.floor[tap][k];
     }
-    std::vector<const Descriptor*> seen;
-    for (const Cell& cell : c.cells)
-        if (std::find(seen.begin(), seen.end(), cell.scheme) == seen.end()) {
-            seen.push_back(cell.scheme);
-            Json options = Json::object();
-            for (const auto& [name, value] : cell.settings.options) options[name] = value;
-            schemes.push_back({{"name", cell.scheme->name}, {"source", cell.scheme->source}, {"options", options}});
-        }
+    for (const Cell& cell : c.cells) {
+        Json options = Json::object();
+        for (const auto& [name, value] : cell.settings.options) options[name] = value;
+        Json form{{"name", cell.scheme->name}, {"source", cell.scheme->source}, {"options", options}};
+        if (std::find(schemes.begin(), schemes.end(), form) == schemes.end()) schemes.push_back(std::move(form));
+    }
     Json reference{{"name", c.reference_name},
                    {"source", c.reference->source},
                    {"rate", c.reference_summary.rate},

@@ -1,4 +1,6 @@
 // What of a comparison is kept to be heard.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,14 +11,21 @@ namespace jvari::bench::compare {
 namespace {
 constexpr std::size_t most_samples = 12'000'000;  // 24 MB of files
 
-bool at_an_end(const Comparison& c, const Cell& cell) {  // of its scheme's rates
+bool at_an_end(const Comparison& c, const Cell& cell) {  // of the rates of its scheme and options
     bool lowest = true, highest = true;
     for (const Cell& other : c.cells) {
-        if (other.scheme != cell.scheme || other.sound.samples.empty()) continue;
+        if (other.scheme != cell.scheme || other.settings.options != cell.settings.options || other.sound.samples.empty()) continue;
         lowest = lowest && cell.settings.sample_rate <= other.settings.sample_rate;
         highest = highest && cell.settings.sample_rate >= other.settings.sample_rate;
     }
     return lowest || highest;
+}
+
+std::string file_of(const Cell& cell) {  // "modal_two_point-compliance=matched-88200-133"
+    std::string name = store::variant_name(cell.scheme->name, store::options_text(cell.settings.options));
+    std::ranges::replace(name, ' ', '-');
+    if (cell.settings.sample_rate > 0) name += fmt::format("-{}", store::text_of(cell.settings.sample_rate));
+    return fmt::format("{}-{}", name, cell.modes());
 }
 }  // namespace
 
@@ -26,18 +35,18 @@ void write_sounds(const Comparison& c, const std::filesystem::path& folder) {
     for (const Cell& cell : c.cells) samples += cell.sound.samples.size();
     std::vector<store::NamedSound> sounds;
     const bool compared = !c.reference_sound.samples.empty();
-    if (compared) sounds.push_back({{"reference", "", ""}, "reference", tap.name, name_of(tap.quantity), &c.reference_sound, ""});
+    if (compared) sounds.push_back({{"reference", "", "", ""}, "reference", tap.name, name_of(tap.quantity), &c.reference_sound, ""});
     for (const Cell& cell : c.cells) {
         if (cell.sound.samples.empty() || (samples > most_samples && !at_an_end(c, cell))) continue;
         const std::string rate = cell.scheme->clock == Clock::continuous ? "" : store::text_of(cell.settings.sample_rate);
-        sounds.push_back({{cell.scheme->name, rate, std::to_string(cell.modes())},
-                          cell.scheme->name + (rate.empty() ? "" : "-" + rate),
+        sounds.push_back({{cell.scheme->name, store::options_text(cell.settings.options), rate, std::to_string(cell.modes())},
+                          file_of(cell),
                           tap.name,
                           name_of(tap.quantity),
                           &cell.sound,
                           compared ? "reference" : ""});
     }
-    if (!sounds.empty()) store::write_sounds(folder, {"scheme", "rate", "modes"}, sounds);
+    if (!sounds.empty()) store::write_sounds(folder, {"scheme", "options", "rate", "modes"}, sounds);
 }
 
 }  // namespace jvari::bench::compare

@@ -41,7 +41,7 @@ store::Table convergence_of(const store::Table& cells, const std::string& scene)
                 std::set<std::string> modes;
                 for (const std::size_t i : rows) {
                     const double r = cells.number(i, "rate"), e = cells.number(i, column);
-                    if (cells.at(i, "status") != "ok" || !(r > 0) || !(e < 1) || !bound_of(cells, i, column).decides()) continue;
+                    if (!reached(cells, i) || !(r > 0) || !(e < 1) || !bound_of(cells, i, column).decides()) continue;
                     rate.push_back(r);
                     error.push_back(e);
                     modes.insert(cells.at(i, "modes"));

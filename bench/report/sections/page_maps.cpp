@@ -154,6 +154,8 @@ Section map_section(const Results& r) {
         "Each tile is a run; a white mark tells those that are not sound apart, for eyes that colour does not help. Solid lines are "
         "boundaries "
         "found by bisection, broken ones what theory says."};
+    for (const std::string& motion : distinct(r.boundaries, "theory_holds_for"))
+        if (!motion.empty()) s.notes.push_back("Theory is of " + motion + ".");
     if (!r.boundaries.rows.empty()) s.table = r.boundaries.only({r.boundaries.columns.begin() + 2, r.boundaries.columns.end()});
     return s;
 }

@@ -37,34 +37,36 @@ std::string nearest_text(const store::Table& cells, const std::string& measure, 
     double least = HUGE_VAL;
     std::size_t best = 0;
     for (std::size_t i = 0; i < cells.rows.size(); ++i)
-        if (const double most = compare::bound_of(cells, i, measure).most(); compare::may_win(cells, i, controls) && most < least) {
-            least = most;
+        if (const double shown = compare::bound_of(cells, i, measure).shown(); compare::may_win(cells, i, controls) && shown < least) {
+            least = shown;
             best = i;
         }
     if (!std::isfinite(least)) return "no trusted run has this error";
-    return fmt::format("nearest: {} by {} at {}", error_text(least, measure), series_of(cells, best),
-                       rate_text(cells.number(best, "rate")));
+    return fmt::format("closest: {}, {}", store::run_name(cells, best), error_text(least, measure));
 }
 
 store::Table table_of(const store::Table& own, const std::string& name, compare::Controls controls) {
     const store::Table cheapest = compare::cheapest_of(without_names(own), name, controls);
-    store::Table t{{"wanted", "cheapest scheme", "rate", "error", "computing per second of sound", "how certain"}, {}};
+    store::Table t{{"wanted", "cheapest scheme", "modes", "rate", "error", "computing per second of sound", "how certain"}, {}};
     for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
         const std::string &measure = cheapest.at(i, "measure"), &status = cheapest.at(i, "status"), &options = cheapest.at(i, "options");
         if (status != "found") {
             const bool open = status == "not_known";
-            t.rows.push_back(
-                {wanted(cheapest, i), open ? "not known" : "none", "", "", "",
-                 open ? "the truth is not certain enough; perhaps " + cheapest.at(i, "perhaps") : nearest_text(own, measure, controls)});
+            const std::string &why = cheapest.at(i, "why"), &perhaps = cheapest.at(i, "perhaps");
+            t.rows.push_back({wanted(cheapest, i), open ? "cannot be decided" : "none", "", "", "", "",
+                              open ? why + (perhaps.empty() ? "" : "; candidates: " + perhaps) : nearest_text(own, measure, controls)});
             continue;
         }
         const double error = cheapest.number(i, "error"), bound = cheapest.number(i, "bound");
         const bool bounded = bound - error > 0.1 * error;
-        const std::string ties = compare::ties_text(cheapest, i), &perhaps = cheapest.at(i, "perhaps");
-        std::string certain = bounded ? "at most that much, with what the truth is uncertain to" : "measured";
+        const std::string &ties = cheapest.at(i, "ties"), &perhaps = cheapest.at(i, "perhaps");
+        std::string certain = bounded ? "upper bound: includes the uncertainty of the reference" : "measured";
+        if (const std::string& why = cheapest.at(i, "why"); !why.empty()) certain = why;
         if (!ties.empty()) certain += "; a tie with " + ties;
         if (!perhaps.empty()) certain += "; perhaps for less " + perhaps;
-        t.rows.push_back({wanted(cheapest, i), store::variant_name(cheapest.at(i, "scheme"), options),
+        if (const std::string& published = cheapest.at(i, "as_published"); !published.empty())
+            certain += "; without matched compliance: " + published;
+        t.rows.push_back({wanted(cheapest, i), store::variant_name(cheapest.at(i, "scheme"), options), cheapest.at(i, "modes"),
                           rate_text(cheapest.number(i, "rate")), (bounded ? "\u2264 " : "") + error_text(bounded ? bound : error, measure),
                           fmt::format("{:.2g} ms", 1e3 * cheapest.number(i, "cost_s_per_s")), certain});
     }
@@ -85,7 +87,7 @@ std::string truth_text(const Results& r, const store::Table& own) {
     const double certain = compare::bound_of(own, 0, headline).certificate;
     std::string text = "Truth: " + name;
     if (!std::isnan(count)) text += fmt::format(" with {:g} modes", count);
-    text += std::isnan(certain) ? ", whose own error is not known here"
+    text += std::isnan(certain) ? ", whose own uncertainty is unknown"
                                 : fmt::format(", certain to {} in the headline measure", error_text(certain, headline));
     if (!std::isnan(horizon)) text += fmt::format("; started 1e-12 apart it stays within 10 % of itself for {:.3g} s", horizon);
     return text + ".";
@@ -126,20 +128,22 @@ std::vector<Verdict> verdicts_of(const Results& r) {
     for (const std::string& problem : distinct(r.cells, "problem")) {
         const store::Table own = rows_where(r.cells, "problem", problem);
         Verdict v{problem, table_of(own, r.name, r.controls), {}};
-        std::size_t ok = 0, flagged = 0, refused = 0;
+        std::size_t ok = 0, flagged = 0, refused = 0, left_out = 0;
         for (std::size_t i = 0; i < own.rows.size(); ++i) {
             ok += own.at(i, "status") == "ok";
             refused += own.at(i, "status") == "refused";
+            left_out += own.at(i, "status") == "not_needed";
             flagged += own.at(i, "status") == "ok" && !compare::trusted(own, i);
         }
         if (v.table.rows.empty())
             v.sentences.push_back("No scheme of this scene can be the cheapest: none has a cost, an error and our trust.");
         for (const std::string& text : {truth_text(r, own), modes_text(own)})
             if (!text.empty()) v.sentences.push_back(text);
-        v.sentences.push_back(fmt::format("{} runs: {} ended well{}{}{}.", own.rows.size(), ok,
-                                          flagged ? fmt::format(", {} of them not to be trusted", flagged) : "",
-                                          own.rows.size() > ok + refused ? fmt::format(", {} failed", own.rows.size() - ok - refused) : "",
-                                          refused ? fmt::format(", {} were refused", refused) : ""));
+        v.sentences.push_back(fmt::format(
+            "{} runs: {} ended well{}{}{}{}.", own.rows.size(), ok, flagged ? fmt::format(", {} of them not to be trusted", flagged) : "",
+            own.rows.size() > ok + refused + left_out ? fmt::format(", {} failed", own.rows.size() - ok - refused - left_out) : "",
+            left_out ? fmt::format(", {} left out, because a cheaper one does as well", left_out) : "",
+            refused ? fmt::format(", {} were refused", refused) : ""));
         if (const std::string machine = machine_text(r, own); !machine.empty()) v.sentences.push_back(machine);
         if (const std::string busy = compare::busy_text(own); !busy.empty()) v.sentences.push_back("Costs: " + busy + ".");
         verdicts.push_back(std::move(v));

@@ -15,12 +15,44 @@ namespace jvari::bench::report {
 namespace {
 constexpr std::size_t most_cells_with_taps = 600;  // beyond, the headline errors alone can be chosen: the page stays small
 
-// What the reference is certain to. It goes with the scene and the modes: the largest stands.
+// What the reference is certain to; NaN where points were measured against several, which a band cannot show.
 double certificate_of(const store::Table& t, const std::string& problem, const std::string& error) {
-    double largest = std::nan("");
-    for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (problem_of(t, i) == problem) largest = std::fmax(largest, compare::bound_of(t, i, error).certificate);
-    return largest;
+    double least = HUGE_VAL, largest = -HUGE_VAL;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        if (problem_of(t, i) != problem) continue;
+        const double c = compare::bound_of(t, i, error).certificate;
+        least = std::fmin(least, c);
+        largest = std::fmax(largest, c);
+    }
+    return least == largest ? largest : std::nan("");
+}
+
+// Of a scheme with several numbers of modes at one rate the cells that none of its others beats, as one series with the modes in its
+// labels: what modes and rate come to together.
+store::Table best_of_modes(store::Table t) {
+    const std::string headline = compare::headline_error(t, store::all_rows(t));
+    const auto name = [&t](std::size_t i) { return store::variant_name(t.at(i, "scheme"), t.at(i, "options")); };
+    const auto several = [&](std::size_t i) { return series_of(t, i) != name(i); };
+    const auto beaten = [&](std::size_t i) {
+        const double cost = t.number(i, "cost_s_per_s"), error = compare::bound_of(t, i, headline).shown();
+        for (std::size_t k = 0; k < t.rows.size(); ++k)
+            if (k != i && compare::trusted(t, k) && problem_of(t, k) == problem_of(t, i) && name(k) == name(i) &&
+                t.number(k, "cost_s_per_s") <= cost && compare::bound_of(t, k, headline).shown() < error)
+                return true;
+        return false;
+    };
+    std::vector<std::vector<std::string>> rows;
+    const auto series = static_cast<std::size_t>(t.column("series"));
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        if (!several(i) || !(t.number(i, "cost_s_per_s") > 0)) {
+            if (t.at(i, "status") != "not_needed") rows.push_back(t.rows[i]);
+        } else if (!beaten(i)) {
+            rows.push_back(t.rows[i]);
+            rows.back()[series] = name(i);
+        }
+    }
+    t.rows = std::move(rows);
+    return t;
 }
 
 double known_floor(const Results& r, const std::string& problem, const std::string& error) {
@@ -43,12 +75,9 @@ std::vector<std::string> taps_of(const Results& r) {
 }
 
 std::string goal_text(const store::Table& cheapest, std::size_t row) {
-    std::string text = compare::goal_name(cheapest, row) + ": " + cheapest.at(row, "scheme");
-    if (!cheapest.at(row, "options").empty()) text += " " + cheapest.at(row, "options");
-    text += cheapest.at(row, "rate").empty() ? " with " + cheapest.at(row, "modes") + " modes"
-                                             : fmt::format(" at {:.4g} kHz", 1e-3 * cheapest.number(row, "rate"));
-    const std::string ties = compare::ties_text(cheapest, row), &machine = cheapest.at(row, "machine");
-    return text + (ties.empty() ? "" : " or " + ties) + (machine.empty() ? "" : " (" + machine + ")");
+    const std::string &ties = cheapest.at(row, "ties"), &machine = cheapest.at(row, "machine");
+    return compare::goal_name(cheapest, row) + ": " + cheapest.at(row, "run") + (ties.empty() ? "" : " or " + ties) +
+           (machine.empty() ? "" : " (" + machine + ")");
 }
 
 // The goals that some cells of the problem reach and some do not, so that they lie among the points.
@@ -104,6 +133,7 @@ Section work_precision_section(const Results& r) {
     Section s{"work-precision", "Error and cost"};
     WorkPrecision w = work_precision_of(r);
     if (w.errors.empty() || w.costs.empty()) return s;
+    w.cells = best_of_modes(w.cells);
     w.goals = goals_of(r);
     const auto problems = distinct(r.cells, "problem");
     Chart c{"error against cost of each scheme at each rate", "", false, problem_menu(problems), {}};
@@ -115,7 +145,7 @@ Section work_precision_section(const Results& r) {
     w.medium = Medium::print;
     const std::string title = w.title;
     for (std::size_t k = 0; k < std::min(problems.size(), most_twins); ++k) {
-        w.cells = rows_where(r.cells, "problem", problems[k]);
+        w.cells = best_of_modes(rows_where(r.cells, "problem", problems[k]));
         w.errors = error_axes(w.cells, {""}, compare::headline_error(w.cells, store::all_rows(w.cells)));
         if (problems.size() > 1) w.title = problems[k] + ": error and cost";
         if (!w.errors.empty()) c.twins.push_back({twin_file("work_precision", problems[k], problems), work_precision_spec(w)});

@@ -1,0 +1,143 @@
+#include "bench/compare/variants.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bench/store/usage.hpp"
+#include "scenes/modes.hpp"
+#include "schemes/contact/compliance.hpp"
+
+namespace jvari::bench::compare {
+
+namespace {
+constexpr double multiples[] = {1.35, 2, 3, 4};  // of the modes that a scheme takes unasked
+
+bool touched(const Scene& scene) {
+    return std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return s.thread || !s.barriers.empty(); });
+}
+
+struct Asked {
+    std::string name, of;  // of: as SchemeOption has it
+    std::vector<std::string> values;
+};
+std::vector<Asked> asked_of(const CompareRequest& r, const Descriptor& d, std::vector<bool>& used) {
+    std::vector<Asked> asked;
+    for (std::size_t k = 0; k < r.options.size(); ++k) {
+        const SchemeOption& o = r.options[k];
+        if (o.scheme.empty() ? !declares(d, o.name) : o.scheme != d.name) continue;
+        used[k] = true;
+        auto it = std::find_if(asked.begin(), asked.end(), [&o](const Asked& a) { return a.name == o.name; });
+        if (it == asked.end()) it = asked.insert(asked.end(), {o.name, o.scheme, {}});
+        if (it->of != o.scheme)
+            throw store::UsageError(
+                fmt::format("--option {}: found more than once for {}, expected one value or one list", o.name, d.name));
+        it->values.push_back(o.value);
+    }
+    return asked;
+}
+
+std::optional<std::string> refusal_of(const Descriptor& d, const Scene& scene, const Settings& settings) {
+    try {
+        make_scheme(d, scene, settings);
+        return std::nullopt;
+    } catch (const std::exception& e) {  // Refusal, BadScene
+        return e.what();
+    }
+}
+
+// Own and matched; of matched the rates at which it can be made.
+std::vector<Form> both(const Form& form, const Descriptor& d, const Scene& scene, Settings settings, Untried& untried) {
+    Form own = form, matched{form.options, {}};
+    own.options.emplace_back(compliance_option.name, "own");
+    matched.options.emplace_back(compliance_option.name, "matched");
+    settings.options = matched.options;
+    std::vector<double> refused;
+    std::string reason;
+    for (const double rate : form.rates) {
+        settings.sample_rate = rate;
+        const auto why = refusal_of(d, scene, settings);
+        (why ? refused : matched.rates).push_back(rate);
+        if (why && reason.empty()) reason = *why;
+    }
+    if (!refused.empty()) untried.add(d, refused, matched.rates.empty(), reason);
+    if (matched.rates.empty()) return {form};
+    return {own, matched};
+}
+}  // namespace
+
+void Untried::add(const Descriptor& d, const std::vector<double>& rates, bool at_all, const std::string& reason) {
+    std::string who = d.name, why = reason;
+    if (!at_all) {
+        std::vector<std::string> at;
+        for (const double rate : rates) at.push_back(fmt::format("{:.4g}", rate / 1000));
+        who += fmt::format(" at {} kHz", fmt::join(at, ", "));
+    }
+    if (const std::string name = d.name + std::string(": "); why.starts_with(name)) why.erase(0, name.size());
+    std::string& all = who_[why];
+    all += (all.empty() ? "" : ", ") + who;
+}
+
+std::vector<std::string> Untried::notes() const {
+    std::vector<std::string> all;
+    for (const auto& [why, who] : who_) all.push_back(fmt::format("compliance=matched was not tried with {}: {}", who, why));
+    return all;
+}
+
+std::vector<Form> forms_of(const CompareRequest& r, const Descriptor& d, const Scene& scene, const Settings& settings,
+                           const std::vector<double>& rates, std::vector<bool>& used, Untried& untried) {
+    std::vector<Form> forms{{{}, rates}};
+    bool compliance = false;
+    for (const auto& [name, of, values] : asked_of(r, d, used)) {
+        compliance = compliance || name == compliance_option.name;
+        std::vector<Form> more;
+        for (const Form& form : forms)
+            for (const std::string& value : values) more.emplace_back(form).options.emplace_back(name, value);
+        forms = std::move(more);
+    }
+    const bool has_both = d.clock != Clock::continuous && declares(d, compliance_option.name) && touched(scene);
+    if (!r.search || !r.reference_modes || compliance || !has_both) return forms;
+    std::vector<Form> all;
+    for (const Form& form : forms)
+        for (Form& one : both(form, d, scene, settings, untried)) all.push_back(std::move(one));
+    return all;
+}
+
+std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const Scene& scene, const Settings& settings,
+                           const std::vector<double>& rates) {
+    std::vector<Rung> rungs;
+    for (const int modes : r.modes) rungs.push_back({modes, rates, false});
+    if (!rungs.empty()) return rungs;
+    rungs.push_back({settings.modes, rates, false});
+    const bool its_own = settings.modes == 0 && scene.strings.size() == 1;  // as one whose nodes are its points of contact
+    if (!r.search || !r.reference_modes || d.clock == Clock::continuous || its_own) return rungs;
+    const int unasked = settings.modes > 0 ? settings.modes : modes_for(scene, settings);
+    const auto takes = [&](int modes, double rate) {
+        return std::all_of(scene.strings.begin(), scene.strings.end(),
+                           [&](const String& s) { return modes <= modes_below(s, 0.5 * rate); });
+    };
+    for (const double multiple : multiples) {
+        Rung rung{static_cast<int>(std::lround(multiple * unasked)), {}, true};
+        for (const double rate : rates)
+            if (takes(rung.modes, rate)) rung.rates.push_back(rate);
+        if (!rung.rates.empty()) rungs.push_back(std::move(rung));
+    }
+    if (rungs.size() == 1) return rungs;
+    const auto dofs = [&](int modes) {  // a grid takes its own whatever it is told
+        Settings s = settings;
+        s.modes = modes;
+        s.sample_rate = rungs[1].rates.front();
+        try {
+            return make_scheme(d, scene, s)->dofs();
+        } catch (const std::exception&) {
+            return 0;
+        }
+    };
+    if (dofs(settings.modes) == dofs(rungs[1].modes)) rungs.resize(1);
+    return rungs;
+}
+
+}  // namespace jvari::bench::compare
