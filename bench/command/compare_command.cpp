@@ -17,6 +17,7 @@
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/convergence_table.hpp"
+#include "bench/compare/record/matching_note.hpp"
 #include "bench/compare/spread.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -123,6 +124,7 @@ int compare_command(const CompareCall& r) {
                               c.scene.taps.at(c.headline.bridge).name));
     console.print(headline_text(cells) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
+    if (const std::string note = compare::matching_note(cells); !note.empty()) console.print(note);
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = code_of(c);

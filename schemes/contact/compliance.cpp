@@ -151,6 +151,7 @@ MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, 
     const int forces = static_cast<int>(sites.forces.size()), points = sites.points();
     m.contacts = sites.contacts;
     m.thread = sites.thread;
+    m.wave_resistance = 2 * std::sqrt(s.tension * s.linear_density);
     m.taps.resize(taps);
     for (int r = 0; r < static_cast<int>(sites.readings.size()); ++r)
         for (int f = 0; f < forces; ++f) {
@@ -202,6 +203,7 @@ void refuse_matched_points(const Descriptor& descriptor, const Settings& setting
 }
 
 MissingCompliance::MissingCompliance(const MissingMatrix& m) {
+    wave_resistance = m.wave_resistance;
     const bool barrier = m.contacts > 0;
     const int points = m.contacts + (m.thread ? 1 : 0), c = m.contacts;
     if (barrier) bb = m.C[0];

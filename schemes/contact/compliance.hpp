@@ -64,6 +64,7 @@ struct MissingMatrix {
     std::vector<double> pluck;              // on each point; empty without a pluck [m/N]
     std::vector<std::vector<double>> taps;  // per tap of the scene, of each point and then the pluck; empty for what is no linear tap
     double excess = 0;                      // [m/N]
+    double wave_resistance = 0;             // of the string, 2 sqrt(T mu) [kg/s]
 
     double on_tap(std::size_t k, const double* force, double F_e) const {  // force: of each point
         if (taps[k].empty()) return 0;
@@ -77,6 +78,7 @@ MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&
 
 struct MissingCompliance {                          // of one contact at most [m/N]; 0 where a part is absent
     double bb = 0, bc = 0, cc = 0, be = 0, ce = 0;  // barrier, thread, pluck
+    double wave_resistance = 0;                     // of the string, 2 sqrt(T mu) [kg/s]
     std::vector<std::array<double, 3>> taps;        // per tap of the scene, of 1 N at each; 0 for what is no linear tap of this string
     double on_tap(std::size_t k, double F_b, double F_c, double F_e) const {
         return taps[k][0] * F_b + taps[k][1] * F_c + taps[k][2] * F_e;

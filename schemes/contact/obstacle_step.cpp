@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "schemes/contact/matching_facts.hpp"
+
 namespace jvari {
 
 ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
@@ -124,10 +126,19 @@ std::vector<Fact> ObstacleStep::facts() const {
             {facts::contact_residual, tally_.residual}};
 }
 
+std::vector<Fact> ObstacleStep::series_facts() const {
+    ImpactShare all;
+    for (const ImpactShare& contact : impacts_) all.join(contact);
+    if (series_) return matching_facts(*series_, all);
+    return several_ ? std::vector<Fact>{{facts::impact_share, all.value()}} : std::vector<Fact>{};
+}
+
 bool ObstacleStep::solve(const double* older, const double* free, double* force) noexcept {
-    if (several_) return solve_several(older, free, force);
-    if (series_) return solve_in_series(older, free, force);
-    return solve_points(older, free, force);
+    const bool solved = several_  ? solve_several(older, free, force)
+                        : series_ ? solve_in_series(older, free, force)
+                                  : solve_points(older, free, force);
+    for (std::size_t a = 0; a < impacts_.size(); ++a) impacts_[a].take(force[a]);
+    return solved;
 }
 
 bool ObstacleStep::solve_points(const double* older, const double* free, double* force) noexcept {
@@ -182,6 +193,7 @@ double ObstacleStep::potential(const double* reading, int level) const {
 void ObstacleStep::put_in_series(const MissingMatrix& C, int levels) {
     const int n = points();
     levels_ = levels;
+    impacts_.assign(contacts_, ImpactShare(span_ / levels));
     if (contacts_ <= 1) {
         const Thread thread = thread_.law().value_or(Thread{});
         const SeriesPoints points(contacts_ ? &laws_[0] : nullptr, contacts_ ? heights_[0] : 0, thread.stiffness, thread.damping,
@@ -193,6 +205,7 @@ void ObstacleStep::put_in_series(const MissingMatrix& C, int levels) {
     for (std::size_t i = 0; i < theta.size(); ++i) theta[i] += C.C[i];
     *this = ObstacleStep(std::vector(laws_), std::vector(heights_), std::optional(thread_.law()), theta, span_);
     levels_ = levels;
+    impacts_.assign(contacts_, ImpactShare(span_ / levels));
     several_ = Several{};
     several_->C = C.C;
     for (auto* v : {&several_->P[0], &several_->P[1], &several_->older, &several_->free}) v->assign(n, 0.0);

@@ -26,6 +26,7 @@
 #include "scenes/scene.hpp"
 #include "schemes/contact/contact_gram.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
+#include "schemes/contact/impact_share.hpp"
 #include "schemes/contact/series_step.hpp"
 #include "schemes/scheme.hpp"
 
@@ -67,8 +68,12 @@ public:
     };
     const Tally& tally() const { return tally_; }
     std::vector<Fact> facts() const;           // of the tally
+    std::vector<Fact> series_facts() const;    // what may make it do harm that something is in series
     static constexpr int dofs() { return 0; }  // it carries no state
-    void clear() { tally_ = {}; }
+    void clear() {
+        tally_ = {};
+        for (ImpactShare& contact : impacts_) contact.clear();
+    }
 
 private:
     int contacts_ = 0;
@@ -78,6 +83,7 @@ private:
     std::vector<double> heights_, eta_, b_, r_;
     double span_ = 1;
     Tally tally_;
+    std::vector<ImpactShare> impacts_;  // of each contact with something in series
 
     bool solve_points(const double* older, const double* free, double* force) noexcept;
     struct Lossy {

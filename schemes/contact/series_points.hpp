@@ -19,11 +19,12 @@ struct SeriesPoints {
     double h_b = 0, h_c = 0;               // [m]
     double k_c = 0, r_c = 0;               // of the thread's state; 0 where it has none
     double e = 0, C_cc = 0, stiff_cc = 0;  // C_cc with the spring of a thread without state; stiff_cc its inverse
+    double wave_resistance = 0;            // of the string [kg/s]
 
     SeriesPoints() = default;
     SeriesPoints(const ContactLaw* contact, double height_b, double thread_stiffness, double thread_damping, double height_c,
                  const MissingCompliance& C)
-        : barrier(contact != nullptr), thread(C.cc > 0), h_b(height_b), h_c(height_c), C_cc(C.cc) {
+        : barrier(contact != nullptr), thread(C.cc > 0), h_b(height_b), h_c(height_c), C_cc(C.cc), wave_resistance(C.wave_resistance) {
         if (thread && thread_damping > 0) {
             k_c = thread_stiffness;
             r_c = thread_damping;

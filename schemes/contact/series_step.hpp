@@ -18,8 +18,9 @@ struct SeriesStep {
     double theta = 0, theta_bc = 0, theta_cc = 0;                  // [m/N]; theta as above
     double inverse_delta = 0, inverse_r = 0, relax = 0, beta = 0;  // relax = k_c/(2 r)
     double w_v = 0, w_Y = 0;
-    double damping = 0;  // of the thread as replaced, over span [N/m]
-    double fresh = 1;    // share of its distance from rest at which Y_c starts, see start()
+    double damping = 0;      // of the thread as replaced, over span [N/m]
+    double overdamping = 0;  // what the replaced damper has beyond r_c, as slow motion feels it [kg/s]
+    double fresh = 1;        // share of its distance from rest at which Y_c starts, see start()
 
     SeriesStep() = default;
     SeriesStep(const SeriesPoints& p, double theta_bb, double bc, double cc, double span) : points(p), theta_bc(bc), theta_cc(cc) {
@@ -28,6 +29,8 @@ struct SeriesStep {
             damping = 0.5 * kappa / std::tanh(0.5 * a);
             inverse_r = 1 / (damping + 0.5 * p.k_c);
             fresh = 2 / a * std::tanh(0.5 * a);
+            const double drawn = 1 / (1 + p.k_c * p.C_cc);  // Y_c - h_c per y_c - h_c when nothing is in a hurry
+            overdamping = (damping * span - p.r_c) * drawn * drawn;
         }
         if (p.thread) inverse_delta = 1 / (p.C_cc + 0.5 * cc + 0.5 * inverse_r);
         relax = 0.5 * p.k_c * inverse_r;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 
+#include "schemes/contact/matching_facts.hpp"
 #include "schemes/contact/quadratised_contact.hpp"
 #include "schemes/contact/quadratised_points.hpp"
 #include "schemes/contact/series_step.hpp"
@@ -116,6 +117,7 @@ public:
         psi_ = q_.psi(eta());
         status_ = {};
         seen_ = {};
+        impacts_ = ImpactShare(m_.dt);
         impulse_b_ = impulse_c_ = supplied_ = dissipated_ = 0;
     }
 
@@ -144,6 +146,8 @@ public:
         std::vector<Fact> f = seen_.list();
         f.push_back(series_ ? Fact{facts::series_compliance, series_->points.law.S}
                             : Fact{facts::static_compliance, compliance / m_.true_compliance});
+        if (series_)
+            for (const Fact& fact : matching_facts(*series_, impacts_)) f.push_back(fact);
         return f;
     }
     std::vector<FreeMode> free_modes() const override {
@@ -178,6 +182,7 @@ private:
         Y_ += s_c_;
         impulse_b_ += F_b_;
         impulse_c_ += F_c_;
+        impacts_.take(F_b_);
     }
     void solve() {
         if (series_) return solve_in_series();
@@ -247,6 +252,7 @@ private:
     QuadratisedLaw q_;
     MissingCompliance C_;
     std::optional<SeriesStep> series_;
+    ImpactShare impacts_;        // with something in series
     double Y_ = 0, change_ = 0;  // of the thread less its height [m]; of the pluck over the step [N]
     ModalArray y_, u_, A_, B_, a_, c_, J_, e_b_, e_c_, e_e_;
     double xi_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scenes/excitation.hpp"
+#include "schemes/contact/matching_facts.hpp"
 #include "schemes/contact/series_points.hpp"
 #include "schemes/modal/kernels/kick_pass.hpp"
 #include "schemes/modal/modal_compliance.hpp"
@@ -65,6 +66,7 @@ public:
         step_ = 0;
         status_ = {};
         impulse_ = {};
+        impacts_ = ImpactShare(m_.dt);
         supplied_ = dissipated_ = least_ = most_ = 0;
         const double y_c = modal_dot(m_.g_c, q_);
         Y_ = points_[0].r_c > 0 ? y_c - m_.h_c : 0;
@@ -88,10 +90,12 @@ public:
     int dofs() const override { return 2 * m_.count; }
     std::vector<Fact> facts() const override {
         if (m_.g_b.empty()) return {};
-        return {{facts::smallest_contact_force, least_},
-                {facts::largest_contact_force, most_},
-                {facts::deepest_penetration, most_ > 0 ? std::pow(most_ / m_.barrier.k, 1 / m_.barrier.alpha) : 0},
-                {facts::series_compliance, points_[0].law.S}};
+        std::vector<Fact> f = {{facts::smallest_contact_force, least_},
+                               {facts::largest_contact_force, most_},
+                                {facts::deepest_penetration, most_ > 0 ? std::pow(most_ / m_.barrier.k, 1 / m_.barrier.alpha) : 0},
+                               {facts::series_compliance, points_[0].law.S}};
+        for (const Fact& fact : matching_facts(points_[0], 0, impacts_)) f.push_back(fact);
+        return f;
     }
 
 private:
@@ -113,6 +117,7 @@ private:
         }
         impulse_.b += 0.5 * lengths[parts - 1] * F_.b;
         impulse_.c += 0.5 * lengths[parts - 1] * F_.c;
+        impacts_.take(F_.b);
         ++step_;
     }
     void relax(double Y, bool probed) {  // to what it is after half a part's time, the string held
@@ -221,6 +226,7 @@ private:
     SeriesPoints::Forces impulse_;      // since the last row, over dt [N]
     double supplied_ = 0, dissipated_ = 0;
     double least_ = 0, most_ = 0;  // of the contact force [N]
+    ImpactShare impacts_;
 };
 
 }  // namespace

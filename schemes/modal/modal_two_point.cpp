@@ -18,6 +18,7 @@
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
+#include "schemes/contact/matching_facts.hpp"
 #include "schemes/modal/effective_modes.hpp"
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/modal_compliance.hpp"
@@ -164,6 +165,7 @@ public:
         put(TwoPointColumn::u, u0_);
         m_.step = 0;
         m_.series.Y_c = Y_c0_;
+        m_.series.impacts.clear();
         m_.y_b = g_b_ ? two_point_dot(g_b_, y0_, m_.size) : 0;
         m_.u_b = g_b_ ? two_point_dot(g_b_, u0_, m_.size) : 0;
         m_.y_c = g_c_ ? two_point_dot(g_c_, y0_, m_.size) : 0;
@@ -207,6 +209,8 @@ public:
             f.push_back({facts::contact_iterations_mean, m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0});
             f.push_back({facts::contact_iterations_most, m_.iterations_most});
         }
+        if (matched_)
+            for (const Fact& fact : matching_facts(m_.series.step, m_.series.impacts)) f.push_back(fact);
         return f;
     }
 
@@ -239,7 +243,9 @@ private:
         const MissingCompliance C = modal_compliance(descriptor, scene, modes, own);
         for (std::size_t k = 0; k < taps_.size(); ++k) taps_[k].on_force = C.taps[k];
         const SeriesPoints points(g_b_ ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C);
+        matched_ = true;
         TwoPointSeries& z = m_.series;
+        z.impacts = ImpactShare(m_.dt);
         z.step = SeriesStep(points, g_b_ ? two_point_dot(g_b_, g_b_, m_.size) : 0, m_.theta_bc, m_.theta_cc, m_.dt);
         z.C_be = C.be;
         z.C_ce = C.ce;
@@ -257,6 +263,7 @@ private:
     }
 
     TwoPoint m_;
+    bool matched_ = false;
     double Y_c0_ = 0;  // of the thread at t = 0 less h_c [m], where C is in series
     std::vector<double> pluck_now_;
     TwoPointAdvance advance_ = nullptr;

@@ -182,6 +182,8 @@ public:
             f.push_back({facts::series_compliance, p_.series->C[0]});
             f.push_back({facts::compliance_excess, p_.series->excess});
         }
+        if constexpr (TakesSeries<Obstacle>)
+            for (const Fact& fact : p_.obstacle.series_facts()) f.push_back(fact);
         return f;
     }
 

@@ -20,6 +20,7 @@ SeriesForce series_force(const Descriptor& descriptor, const Scene& scene, const
     force.C = modal_compliance(descriptor, scene, ModeBasis(s, string.count, 0), own);
     force.points = SeriesPoints(s.barriers.empty() ? nullptr : &string.barrier, string.h_b, string.k_c, string.r_c, string.h_c, force.C);
     force.points.set_time(0.5 * string.dt);
+    force.now.impacts = ImpactShare(string.dt);
     force.limit = yielding > 0 ? 1 / yielding : 0;  // a root at z = -1: lasting contact, without the thread
     return force;
 }

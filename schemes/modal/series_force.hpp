@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "schemes/contact/matching_facts.hpp"
 #include "schemes/contact/series_points.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
@@ -24,6 +25,7 @@ struct SeriesForce {
         double y_b = 0, y_c = 0, F_e = 0;  // at the step, the pluck's part of C in them
         SeriesPoints::Forces force{};      // at the step
         double least_force = 0, most_force = 0;
+        ImpactShare impacts;
 
         // Always inlined, as SeriesPoints::instant is.
         [[gnu::always_inline]] void act(const SeriesPoints& p, const MissingCompliance& missing, double b, double c, double pluck,
@@ -37,6 +39,7 @@ struct SeriesForce {
             Y = i.Y_after;
             least_force = force.b < least_force ? force.b : least_force;
             most_force = force.b > most_force ? force.b : most_force;
+            impacts.take(force.b);
         }
     };
     Moving now;
@@ -58,12 +61,14 @@ struct SeriesForce {
     double on_tap(std::size_t k) const { return C.on_tap(k, now.force.b, now.force.c, now.F_e); }
     bool solved() const { return true; }
     std::vector<Fact> facts() const {
-        return {
+        std::vector<Fact> f = {
             {facts::smallest_contact_force, now.least_force},
             {facts::largest_contact_force, now.most_force},
             {facts::deepest_penetration, now.most_force > 0 ? std::pow(now.most_force / points.law.law.k, 1 / points.law.law.alpha) : 0},
             {facts::series_compliance, points.law.S},
             {facts::stable_stiffness_limit, limit}};
+        for (const Fact& fact : matching_facts(points, 0, now.impacts)) f.push_back(fact);
+        return f;
     }
 };
 

@@ -285,6 +285,7 @@ void SpatialForces::add_facts(std::vector<Fact>& facts) const {
         facts.push_back({facts::contact_residual, t.residual});
         facts.push_back({facts::series_compliance, contacts_.empty() ? 0 : series_->missing.C[0]});
         facts.push_back({facts::compliance_excess, series_->missing.excess});
+        for (const Fact& fact : series_->step.series_facts()) facts.push_back(fact);
         return;
     }
     facts.push_back({facts::smallest_contact_force, effort_.force.least});

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/matching_note.hpp"
 
 using namespace jvari::bench;
 
@@ -162,3 +163,19 @@ TEST(Diagnosis, StandsInTheTableOfTheCheapestWhereItSaysNone) {
     EXPECT_TRUE(says(compare::cheapest_text(t), "none. Closest: a, 10 modes at")) << compare::cheapest_text(t);
 }
 }  // namespace
+
+TEST(MatchingNote, NamesTheLoudestCellOfEachCauseAndWhatToDo) {
+    store::Table t{{"scheme", "options", "rate", "fact_impact_share", "fact_string.1.thread_overdamping"},
+                   {{"a", "compliance=own", "44100", "", ""},
+                    {"a", "compliance=matched", "44100", "0.1", "0.01"},
+                    {"a", "compliance=matched", "88200", "0.2", "0.02"}}};
+    EXPECT_EQ(compare::matching_note(t), "");
+    t.rows[1][3] = "0.7";
+    t.rows[2][3] = "0.9";
+    t.rows[1][4] = "3";
+    const std::string note = compare::matching_note(t);
+    EXPECT_TRUE(says(note, "strikes its obstacle")) << note;
+    EXPECT_TRUE(says(note, "impact_share 0.9 with a compliance=matched at 88200 Hz")) << note;
+    EXPECT_TRUE(says(note, "thread_overdamping 3 with a compliance=matched at 44100 Hz")) << note;
+    EXPECT_TRUE(says(note, "Compare with compliance=own.")) << note;
+}

@@ -12,6 +12,7 @@
 #include "reference/oversampled.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
+#include "schemes/contact/matching_facts.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 
@@ -127,6 +128,7 @@ void Tally::add(const Tally& t) {
     scenes += t.scenes, runs += t.runs, ended += t.ended, refused += t.refused, failed += t.failed, claims += t.claims;
     estimates += t.estimates, low_estimates += t.low_estimates;
     judged += t.judged;
+    harmed += t.harmed, warned += t.warned, false_alarms += t.false_alarms;
     worst_claim = std::max(worst_claim, t.worst_claim);
     worst_estimate = std::max(worst_estimate, t.worst_estimate);
     if (t.slowest > slowest) slowest = t.slowest, slowest_at = t.slowest_at;
@@ -272,6 +274,51 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
     ++tally.refused;
 } catch (const std::exception& e) {
     finding("certificate about the scene", std::string("throws what is no refusal: ") + e.what());
+}
+
+void check_matching(const RandomCase& c, Tally& tally, const Finding& finding, const std::function<void(const std::string&)>& at) try {
+    const double from = cpu_seconds();
+    RunOptions options;
+    options.progress = [&](long, long) {
+        if (cpu_seconds() - from > matching_seconds) throw PastItsLimit{};
+    };
+    const auto once = [&](const Descriptor& d, double rate, int modes, const char* compliance) {
+        at(std::string(d.name) + " " + compliance);
+        return run(d, c.scene, {rate, c.settings.tap_rate, modes, {{"compliance", compliance}}}, options);
+    };
+    const Descriptor& scheme =
+        *std::find_if(schemes().begin(), schemes().end(), [](const Descriptor& d) { return std::string(d.name) == "modal_two_point"; });
+    const int modes = c.settings.modes, multiple = std::clamp(600 / modes, 4, 8);
+    const Run truth = once(exact_contact, 0, modes * multiple, "matched"), half = once(exact_contact, 0, modes * multiple / 2, "matched");
+    for (const int rate : {1, 4}) {
+        const Run own = once(scheme, rate * c.settings.sample_rate, modes, "own");
+        const Run matched = once(scheme, rate * c.settings.sample_rate, modes, "matched");
+        double worst = 0;
+        std::string tap, said;
+        for (int k = 0; k < truth.trace.taps(); ++k) {
+            const auto off = [&](const Run& r) { return relative_difference(r.trace.column(k), truth.trace.column(k)); };
+            const double uncertain = off(half), error = off(matched), ratio = (error - uncertain) / (off(own) + uncertain);
+            if (error > harm_matters && ratio > worst) worst = ratio, tap = truth.trace.names[k] + " errs by " + text(error);
+        }
+        bool warned = false;
+        for (const MatchingLimit& limit : matching_limits)
+            for (const Fact& f : matched.facts) {
+                if (f.name != limit.fact.name) continue;
+                warned = warned || f.value > limit.most;
+                said += ", " + f.name + " " + text(f.value);
+            }
+        tally.harmed += worst > harm;
+        tally.warned += warned;
+        tally.false_alarms += warned && worst <= harm;
+        if (worst > harm && !warned)
+            finding(scheme.name, "matched at " + std::to_string(rate) + " times the rate: " + tap + ", " + text(worst) +
+                                     " times as much as own, and no fact says so" + said);
+    }
+    ++tally.judged;
+} catch (const PastItsLimit&) {
+    ++tally.ended;
+} catch (const Refusal&) {
+    ++tally.refused;
 }
 
 }  // namespace jvari::test

@@ -31,7 +31,8 @@ struct Tally {
     long estimates = 0;      // the same of a stand-in's estimate of its own error, which is no bound:
     long low_estimates = 0;  // how many were below the true error is told, and asserted of none
     double worst_estimate = 0;
-    double slowest = 0;  // CPU seconds of one run
+    long harmed = 0, warned = 0, false_alarms = 0;  // runs: matched errs by more than own; a fact says that it may; it says so in vain
+    double slowest = 0;                             // CPU seconds of one run
     std::string slowest_at;
     void add(const Tally&);
 };
@@ -43,5 +44,11 @@ void check_certificate(const RandomCase&, Tally&, const Finding&, const std::fun
 // The certificate is of a string cut off and of a profile's points; what it claims is held against the string with eight times the modes
 // and four times the points.
 void check_certificate_about_scene(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
+
+// Where modal_two_point with compliance=matched errs by more than 1.2 times what it does without, in a tap whose error is above 1e-3, a
+// fact of the run is above its limit (schemes/contact/matching_facts.hpp). The truth is exact_contact, matched, with 4 to 8 times the
+// modes; half of these say how certain it is.
+constexpr double harm = 1.2, harm_matters = 1e-3, matching_seconds = 10;  // seconds: of CPU, all runs of one scene
+void check_matching(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 
 }  // namespace jvari::test

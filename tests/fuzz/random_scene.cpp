@@ -161,7 +161,38 @@ RandomCase drawn(Dice& d) {
     if (d.chance(0.06)) put_on_a_body(d, c.scene);                                                 // last: what others draw stays
     return c;
 }
+bool to_be_matched(Dice& d, String& s) {
+    std::erase_if(s.barriers, [](const Barrier& b) { return !std::holds_alternative<LumpedBarrier>(b); });
+    if (s.barriers.size() > 1) s.barriers.resize(1);
+    for (Barrier& b : s.barriers) std::get<LumpedBarrier>(b).contact_loss = 0;
+    s.polarisation.reset();
+    s.thread.reset();
+    if (d.chance(0.7))
+        s.thread = Thread{(0.003 + d.unit() * d.one_of({0.03, 0.3})) * s.length, 0, d.decades(1e3, 3e5),
+                          d.chance(0.1) ? 0 : d.decades(3e-3, 2), 0};
+    const int modes = modes_below(s, 20e3);
+    return modes >= 8 && modes <= 150 && (s.thread || !s.barriers.empty()) && !std::holds_alternative<TableDamping>(s.damping);
+}
 }  // namespace
+
+RandomCase matching_case(std::uint64_t seed) {
+    Dice d{std::mt19937_64(seed)};
+    RandomCase c;
+    c.seed = seed;
+    c.settings.tap_rate = c.settings.sample_rate = 44100;
+    c.scene.name = "matched" + std::to_string(seed);
+    c.scene.duration = 0.01;
+    c.scene.strings.resize(1);
+    do c.scene.strings[0] = string_of(d);
+    while (!to_be_matched(d, c.scene.strings[0]));
+    const String& s = c.scene.strings[0];
+    c.settings.modes = modes_below(s, 20e3);
+    c.scene.taps = {{"nut", Quantity::nut_force, 0, 0}, {"y", Quantity::displacement, 0, 0.3 * s.length}};
+    if (!s.barriers.empty()) c.scene.taps.push_back({"bridge", Quantity::bridge_force, 0, 0});
+    if (s.thread) c.scene.taps.push_back({"thread", Quantity::thread_force, 0, 0});
+    validate(c.scene);
+    return c;
+}
 
 RandomCase random_case(std::uint64_t seed) {
     Dice d{std::mt19937_64(seed)};

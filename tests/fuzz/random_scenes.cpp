@@ -3,6 +3,7 @@
 //   random_scenes COUNT SEED      COUNT scenes, seeds SEED and on
 //   random_scenes COUNT FILE      the first COUNT seeds that a file lists, one a line
 //   random_scenes scene COUNT SEED|FILE    the same scenes: does a certificate claim too much about the scene?
+//   random_scenes matched COUNT SEED|FILE  scenes of its own: does a fact say where compliance=matched does harm?
 //   random_scenes show SEED       the scene of a seed, as TOML
 //
 // Each scene has a process of its own: a signal, a run without end or a memory that overflows is a finding with its seed, and the next
@@ -41,7 +42,7 @@ void send(int pipe, const std::string& line) {
     if (write(pipe, whole.data(), whole.size()) < 0) _exit(3);
 }
 
-enum class Asked { promises, about_scene };
+enum class Asked { promises, about_scene, matching };
 
 [[noreturn]] void run_scene(Asked asked, std::uint64_t seed, int pipe) {
     const rlimit time{seconds_allowed, seconds_allowed + 5}, memory{memory_allowed, memory_allowed}, none{0, 0};
@@ -52,14 +53,15 @@ enum class Asked { promises, about_scene };
     const auto finding = [&](const std::string& scheme, const std::string& what) { send(pipe, "!" + scheme + ": " + what); };
     Tally t;
     at("drawing the scene");
-    const RandomCase c = random_case(seed);
+    const RandomCase c = asked == Asked::matching ? matching_case(seed) : random_case(seed);
     if (asked == Asked::about_scene) check_certificate_about_scene(c, t, finding, at);
+    else if (asked == Asked::matching) check_matching(c, t, finding, at);
     else check_schemes(c, t, finding, at);
     if (asked == Asked::promises && seed % certified_every == 0 && !c.extreme) check_certificate(c, t, finding, at);
     std::ostringstream line;
     line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' ' << t.claims << ' ' << t.judged << ' '
-         << t.worst_claim << ' ' << t.estimates << ' ' << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest << ' '
-         << t.slowest_at;
+         << t.worst_claim << ' ' << t.harmed << ' ' << t.warned << ' ' << t.false_alarms << ' ' << t.estimates << ' ' << t.low_estimates
+         << ' ' << t.worst_estimate << ' ' << t.slowest << ' ' << t.slowest_at;
     send(pipe, line.str());
     _exit(0);
 }
@@ -92,8 +94,8 @@ long take(Asked asked, std::uint64_t seed, Tally& tally) {
         Tally t;
         t.scenes = 1;
         std::istringstream in(line.substr(1));
-        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.judged >> t.worst_claim >> t.estimates >> t.low_estimates >>
-            t.worst_estimate >> t.slowest >> std::ws;
+        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.judged >> t.worst_claim >> t.harmed >> t.warned >>
+            t.false_alarms >> t.estimates >> t.low_estimates >> t.worst_estimate >> t.slowest >> std::ws;
         std::getline(in, t.slowest_at);
         tally.add(t);
     }
@@ -109,7 +111,7 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
     long findings = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         findings += take(asked, seeds[i], tally);
-        if ((i + 1) % (asked == Asked::about_scene ? 10 : 100) == 0)
+        if ((i + 1) % (asked == Asked::promises ? 100 : 10) == 0)
             std::printf("%zu of %zu scenes\n", i + 1, seeds.size()), std::fflush(stdout);
     }
     if (asked == Asked::about_scene) {
@@ -117,6 +119,13 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
             "%ld scenes, %ld judged, %ld ended by a limit\n%ld figures of certificates about the scene, true/claimed at most %.3g\n"
             "%ld findings\n",
             tally.scenes, tally.judged, tally.ended, tally.claims, tally.worst_claim, findings);
+        return findings > 0 || tally.judged == 0;
+    }
+    if (asked == Asked::matching) {
+        std::printf(
+            "%ld scenes at two rates each, %ld judged, %ld ended by a limit\nmatched does harm in %ld runs, a fact warns in %ld, "
+            "%ld of these in vain\n%ld findings\n",
+            tally.scenes, tally.judged, tally.ended, tally.harmed, tally.warned, tally.false_alarms, findings);
         return findings > 0 || tally.judged == 0;
     }
     std::printf("%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld ended by a limit, %ld refusals\n", tally.scenes,
@@ -136,9 +145,11 @@ int main(int argc, char** argv) {
         std::printf("%s", jvari::write_scene(random_case(std::strtoull(argv[2], nullptr, 10)).scene).c_str());
         return 0;
     }
-    const bool about_scene = argc == 4 && std::string(argv[1]) == "scene";
-    if (about_scene) --argc, ++argv;
-    if (argc != 3) return std::fprintf(stderr, "usage: random_scenes COUNT SEED | COUNT FILE | scene COUNT SEED|FILE | show SEED\n"), 2;
+    const std::string mode = argc == 4 ? argv[1] : "";
+    const Asked asked = mode == "scene" ? Asked::about_scene : mode == "matched" ? Asked::matching : Asked::promises;
+    if (asked != Asked::promises) --argc, ++argv;
+    if (argc != 3)
+        return std::fprintf(stderr, "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched COUNT SEED|FILE | show SEED\n"), 2;
     const std::size_t count = std::strtoull(argv[1], nullptr, 10);
     std::vector<std::uint64_t> seeds;
     if (std::ifstream file(argv[2]); file) {
@@ -147,5 +158,5 @@ int main(int argc, char** argv) {
     } else {
         for (std::size_t i = 0; i < count; ++i) seeds.push_back(std::strtoull(argv[2], nullptr, 10) + i);
     }
-    return all(about_scene ? Asked::about_scene : Asked::promises, seeds);
+    return all(asked, seeds);
 }

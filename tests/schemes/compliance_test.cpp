@@ -10,6 +10,7 @@
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/contact/matching_facts.hpp"
 #include "schemes/contact/series_contact.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -442,6 +443,50 @@ TEST(Compliance, SchemesThatAreTooSoftSaySo) {
     } catch (const Refusal& refusal) {
         EXPECT_NE(std::string(refusal.what()).find("yields more than the true one"), std::string::npos) << refusal.what();
     }
+}
+
+// ---- Where it may do harm
+
+double limit_of(const FactName& known) {
+    return std::find_if(std::begin(matching_limits), std::end(matching_limits),
+                        [&](const MatchingLimit& l) { return std::string(l.fact.name) == known.name; })
+        ->most;
+}
+
+TEST(MatchingFacts, TellALightThreadDamperFromC3sOwnAndAreGoneWhereItIsExact) {
+    Scene scene = c3_release();
+    scene.duration = 2e-3;
+    const auto overdamping = [&](const char* name, double rate, int modes) {
+        return fact(run(scheme(name), scene, matched(name, rate, modes)).facts, "thread_overdamping");
+    };
+    EXPECT_LT(overdamping("modal_two_point", 44100, 133), limit_of(facts::thread_overdamping));
+    scene.strings.front().thread = Thread{5e-3, 1.2e-3, 1e4, 0.02, 0};
+    for (const char* name : {"modal_two_point", "modal_two_point_trapezoidal", "modal_quadratised", "finite_difference_explicit"})
+        EXPECT_GT(overdamping(name, 176400, 133), limit_of(facts::thread_overdamping)) << name;
+    EXPECT_EQ(overdamping("modal_strang", 44100, 40), 0);
+    scene.strings.front().thread->damping = 0;
+    EXPECT_EQ(overdamping("modal_two_point", 176400, 133), 0);
+}
+
+TEST(MatchingFacts, TellImpactsFromSlowWrapping) {
+    Scene wraps = c3_release(), strikes = c3_release();
+    wraps.duration = strikes.duration = 0.02;
+    strikes.strings.front().thread.reset();
+    strikes.strings.front().initial = TriangleInitial{0.8, 2e-3, 0};
+    strikes.taps.pop_back();
+    bridge(strikes) = LumpedBarrier{0.75, 2e-3, -1e-4, {1e8}, 1, 0};
+    for (const char* name : {"modal_two_point", "modal_quadratised", "finite_difference_explicit", "modal_explicit_penalty"}) {
+        EXPECT_LT(fact(run(scheme(name), wraps, matched(name, 88200, 40)).facts, "impact_share"), 0.5 * limit_of(facts::impact_share))
+            << name;
+        EXPECT_GT(fact(run(scheme(name), strikes, matched(name, 88200, 40)).facts, "impact_share"), limit_of(facts::impact_share)) << name;
+    }
+}
+
+TEST(MatchingFacts, AreAbsentWithoutMatching) {
+    Scene scene = c3_release();
+    scene.duration = 1e-3;
+    for (const Fact& f : run(scheme("modal_two_point"), scene, at(44100, 133, {})).facts)
+        for (const MatchingLimit& limit : matching_limits) EXPECT_NE(f.name, limit.fact.name);
 }
 
 }  // namespace

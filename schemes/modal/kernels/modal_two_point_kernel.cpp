@@ -92,6 +92,7 @@ HWY_INLINE void step_matched(TwoPoint& m) {
         else x = solve_series_contact(s.step.points.law, now.zeta, b, m.theta);
         F_b = x.force;
         note<kind>(m, x, now.zeta);
+        m.series.impacts.take(F_b);
     }
     double moved = 0;  // Y_c^{n+1} - Y_c^n
     if constexpr (thread) {

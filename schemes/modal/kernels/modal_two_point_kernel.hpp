@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "schemes/contact/impact_share.hpp"
 #include "schemes/contact/series_step.hpp"
 #include "schemes/scheme.hpp"
 
@@ -31,7 +32,8 @@ struct TwoPointSeries {
     SeriesStep step;                // exponent 1: TwoPoint::barrier is the law in series already
     double C_be = 0, C_ce = 0;      // [m/N]
     const double* pluck = nullptr;  // force at the instant pluck_first + n, n <= pluck_steps [N]
-    double Y_c = 0;                 // of the thread, less h_c [m]; changes from step to step
+    double Y_c = 0;                 // of the thread, less h_c [m]; changes from step to step, as do
+    ImpactShare impacts;
 };
 
 // The pass goes once through memory: a line of eight modes of each column, then the next eight. Lines of absent parts are never touched.
