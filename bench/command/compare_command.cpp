@@ -18,7 +18,7 @@
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/convergence_table.hpp"
 #include "bench/compare/record/matching_note.hpp"
-#include "bench/compare/spread.hpp"
+#include "bench/compare/record/spread.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"

@@ -17,7 +17,7 @@
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/convergence_table.hpp"
 #include "bench/compare/record/scaling_table.hpp"
-#include "bench/compare/spread.hpp"
+#include "bench/compare/record/spread.hpp"
 #include "bench/map/map_report.hpp"
 #include "bench/report/figure_chart.hpp"
 #include "bench/report/report.hpp"

@@ -12,12 +12,12 @@
 #include "bench/compare/cost.hpp"
 #include "bench/compare/kept_cells.hpp"
 #include "bench/compare/needed_cells.hpp"
-#include "bench/compare/time_limit.hpp"
 #include "bench/compare/truth.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/side_by_side.hpp"
+#include "bench/store/system/time_limit.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "reference/agreement.hpp"
 #include "schemes/run.hpp"
@@ -95,14 +95,14 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
             if (in_turn[k].oversampled && k + 1 < in_turn.size() && !ordered) {
                 const std::span<ReferenceChoice> rest(in_turn.begin() + static_cast<long>(k), in_turn.end());
                 store::side_by_side({1}, 1, listener, "stand-in", [&](std::size_t, store::Done& done) {
-                    least_error_first(rest, scene, within(time_limit, told_to(done)));
+                    least_error_first(rest, scene, store::within(time_limit, told_to(done)));
                 });
                 ordered = true;
             }
             const ReferenceChoice& choice = in_turn[k];
             Reference r{choice, {}, {}, {}};
             store::side_by_side({1, 1}, jobs, listener, "reference", [&](std::size_t i, store::Done& done) {
-                const ProgressOf progress = within(time_limit, told_to(done));
+                const ProgressOf progress = store::within(time_limit, told_to(done));
                 if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress);
                 else if (choice.oversampled) run_oversampled(r, scene, progress);
                 else r.run = reference_run(choice, scene, progress);
@@ -115,8 +115,8 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
             return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();
-        } catch (const PastItsLimit& e) {
-            throw PastItsLimit(fmt::format("reference {}: {}", in_turn[k].name(), e.what()));
+        } catch (const store::PastItsLimit& e) {
+            throw store::PastItsLimit(fmt::format("reference {}: {}", in_turn[k].name(), e.what()));
         }
     throw Refusal("reference: none represents scene " + scene.name + refusals);
 }

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-#include "bench/compare/time_limit.hpp"
 #include "bench/sound/radiation.hpp"
+#include "bench/store/system/time_limit.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::compare {
@@ -31,7 +31,7 @@ void sample(Timed& t) {
     options.energy = t.added == Element::probe;
     options.timed = true;
     double seconds = 0;
-    const double from = processor_seconds();
+    const double from = store::processor_seconds();
     for (int k = 0; k < t.runs; ++k) {
         const Run r = run(*scheme, *t.scene, t.cell->settings, options);
         const auto heard = std::chrono::steady_clock::now();
@@ -41,7 +41,7 @@ void sample(Timed& t) {
         if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
             t.cell->worst_block = std::fmin(t.cell->worst_block, r.worst_block / deadline);
     }
-    t.of_processor.push_back((processor_seconds() - from) / t.runs);
+    t.of_processor.push_back((store::processor_seconds() - from) / t.runs);
     t.samples.push_back(seconds / t.runs);
 }
 // What the machine does in a round (another clock frequency, a busy neighbour) meets the cells of one rate alike, which are next to each

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "bench/compare/bound.hpp"
-#include "bench/compare/record/compare_record.hpp"
+#include "bench/store/records.hpp"
 
 namespace jvari::bench::compare {
 

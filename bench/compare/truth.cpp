@@ -7,8 +7,8 @@
 
 #include "analysis/error.hpp"
 #include "bench/compare/errors.hpp"
-#include "bench/compare/time_limit.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/time_limit.hpp"
 #include "reference/agreement.hpp"
 #include "reference/certificate.hpp"
 #include "reference/profile_points.hpp"

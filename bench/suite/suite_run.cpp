@@ -11,10 +11,10 @@
 #include <mutex>
 
 #include "bench/compare/cost.hpp"
-#include "bench/compare/time_limit.hpp"
 #include "bench/compare/truth.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/side_by_side.hpp"
+#include "bench/store/system/time_limit.hpp"
 #include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
@@ -137,7 +137,7 @@ private:
         std::string status;
         const auto told = [&fraction](long done, long rows) { fraction = static_cast<double>(done) / static_cast<double>(rows); };
         try {
-            trace = compare::run_cell(cell, point.scene, compare::within(limit, told));
+            trace = compare::run_cell(cell, point.scene, store::within(limit, told));
             if (known) {
                 const compare::Reference* own = model->truth() ? compare::of_modes(cell, *model->reference(), *truth->truth()) : nullptr;
                 compare::judge(cell, trace, *truth->trace(), own ? &own->run.trace : nullptr);
@@ -145,7 +145,7 @@ private:
         } catch (const Refusal& e) {
             status = "refused";
             cell.reason = e.what();
-        } catch (const compare::PastItsLimit& e) {
+        } catch (const store::PastItsLimit& e) {
             status = "past_time_limit";
             cell.reason = e.what();
         } catch (const std::exception& e) {

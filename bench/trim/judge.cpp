@@ -9,12 +9,12 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/record/compare_record.hpp"
-#include "bench/compare/time_limit.hpp"
 #include "bench/compare/truth.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/time_limit.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -52,12 +52,12 @@ double number(const Json& j, const char* key) {
 
 // Processor seconds of one run, the mean of as many as last `sample`.
 double timed(Scheme& scheme, const Scene& scene, const Settings& settings) {
-    const double from = compare::processor_seconds();
+    const double from = store::processor_seconds();
     double took = 0;
     int runs = 0;
     while (took < sample) {
         run(scheme, scene, settings, {.timed = true});
-        took = compare::processor_seconds() - from;
+        took = store::processor_seconds() - from;
         ++runs;
     }
     return took / runs;
@@ -224,16 +224,16 @@ Verdict Judge::verdict(const Model& m, int start, double limit) {
         const auto scheme = make_scheme(*m.scheme, scene, m.settings);
         RunOptions options;
         options.energy = true;  // what its ledger says against it
-        options.progress = compare::within(limit, [](long, long) {});
-        const double from = compare::processor_seconds();
+        options.progress = store::within(limit, [](long, long) {});
+        const double from = store::processor_seconds();
         const Run r = run(*scheme, scene, m.settings, options);
-        v.seconds = compare::processor_seconds() - from;
+        v.seconds = store::processor_seconds() - from;
         const std::string flags = names_of(compare::flags_of(compare::summary_of(*m.scheme, scene, m.settings, r)));
         v.status = r.status.outcome != Outcome::ok ? name_of(r.status.outcome) : flags.empty() ? "ok" : flags;
         v.dofs = r.dofs;
         if (r.status.outcome == Outcome::ok)
             v.error = target_.measure->error(r.trace.column(column_of(scene, tap().name)), reference, r.trace.tap_rate);
-    } catch (const compare::PastItsLimit&) {
+    } catch (const store::PastItsLimit&) {
         return {"slow", std::nan(""), limit, 0};
     } catch (const std::exception&) {  // Refusal, BadScene: what is left is no model of this scheme
         v.status = "refused";

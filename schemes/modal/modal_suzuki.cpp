@@ -92,7 +92,7 @@ public:
         if (m_.g_b.empty()) return {};
         std::vector<Fact> f = {{facts::smallest_contact_force, least_},
                                {facts::largest_contact_force, most_},
-                                {facts::deepest_penetration, most_ > 0 ? std::pow(most_ / m_.barrier.k, 1 / m_.barrier.alpha) : 0},
+                               {facts::deepest_penetration, most_ > 0 ? std::pow(most_ / m_.barrier.k, 1 / m_.barrier.alpha) : 0},
                                {facts::series_compliance, points_[0].law.S}};
         for (const Fact& fact : matching_facts(points_[0], 0, impacts_)) f.push_back(fact);
         return f;

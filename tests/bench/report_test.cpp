@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "bench/compare/spread.hpp"
+#include "bench/compare/record/spread.hpp"
 #include "bench/report/chart_data.hpp"
 #include "bench/report/identity.hpp"
 #include "bench/report/sections/page_sections.hpp"

@@ -112,7 +112,7 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
     }
     close(watch);
     EXPECT_EQ(clocks, 4);
-    EXPECT_EQ(references, 12);  // of four scenes each of two starts, and those with another number of modes
+    EXPECT_EQ(references, 16);  // of each scene the truth, those with fewer modes that bound it, and those with a cell's own
     const std::vector<int> shared = numbers_before("run,", scratch, 3);
     ASSERT_EQ(shared.size(), 6u);
     EXPECT_EQ(shared[0] + shared[2] + shared[4], alone[0]);

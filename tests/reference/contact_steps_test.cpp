@@ -75,7 +75,7 @@ TEST(ContactSteps, AreFewForEachEventOfAParabolaWhoseErrorFollowsTheTolerance) {
     const struct {
         const char* tolerance;
         double value, most;  // steps an event
-    } runs[] = {{"1e-6", 1e-6, 5}, {"1e-9", 1e-9, 8}, {"1e-12", 1e-12, 15}};
+    } runs[] = {{"1e-6", 1e-6, 5.5}, {"1e-9", 1e-9, 9.5}, {"1e-12", 1e-12, 20}};
     for (const auto& r : runs) {
         const auto found = at(r.tolerance);
         const auto fact = [&](const std::string& name) {
@@ -85,7 +85,7 @@ TEST(ContactSteps, AreFewForEachEventOfAParabolaWhoseErrorFollowsTheTolerance) {
         };
         EXPECT_EQ(fact("events"), 694) << r.tolerance;
         EXPECT_LT(fact("contact_steps"), r.most * 694) << r.tolerance;
-        EXPECT_LT(relative_difference(found.trace.column(1), truth.trace.column(1)), 10 * r.value) << r.tolerance;
+        EXPECT_LT(relative_difference(found.trace.column(1), truth.trace.column(1)), r.value) << r.tolerance;
         EXPECT_LT(relative_difference(found.trace.column(2), truth.trace.column(2)), r.value) << r.tolerance;
     }
 }

@@ -470,12 +470,13 @@ TEST(MatchingFacts, TellALightThreadDamperFromC3sOwnAndAreGoneWhereItIsExact) {
 
 TEST(MatchingFacts, TellImpactsFromSlowWrapping) {
     Scene wraps = c3_release(), strikes = c3_release();
-    wraps.duration = strikes.duration = 0.02;
+    wraps.duration = 0.02;
+    strikes.duration = 0.01;
     strikes.strings.front().thread.reset();
     strikes.strings.front().initial = TriangleInitial{0.8, 2e-3, 0};
     strikes.taps.pop_back();
-    bridge(strikes) = LumpedBarrier{0.75, 2e-3, -1e-4, {1e8}, 1, 0};
-    for (const char* name : {"modal_two_point", "modal_quadratised", "finite_difference_explicit", "modal_explicit_penalty"}) {
+    bridge(strikes) = LumpedBarrier{0.6, 2e-3, -1e-3, {1e8}, 1, 0};
+    for (const char* name : {"modal_two_point", "modal_quadratised", "finite_difference_theta", "modal_explicit_penalty"}) {
         EXPECT_LT(fact(run(scheme(name), wraps, matched(name, 88200, 40)).facts, "impact_share"), 0.5 * limit_of(facts::impact_share))
             << name;
         EXPECT_GT(fact(run(scheme(name), strikes, matched(name, 88200, 40)).facts, "impact_share"), limit_of(facts::impact_share)) << name;

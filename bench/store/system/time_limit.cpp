@@ -1,11 +1,11 @@
-#include "bench/compare/time_limit.hpp"
+#include "bench/store/system/time_limit.hpp"
 
 #include <fmt/core.h>
 
 #include <ctime>
 #include <utility>
 
-namespace jvari::bench::compare {
+namespace jvari::bench::store {
 
 double processor_seconds() {
     timespec t{};
@@ -20,4 +20,4 @@ std::function<void(long, long)> within(double seconds, std::function<void(long, 
     };
 }
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::store

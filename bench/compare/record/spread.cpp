@@ -1,4 +1,4 @@
-#include "bench/compare/spread.hpp"
+#include "bench/compare/record/spread.hpp"
 
 #include <fmt/core.h>
 
