@@ -44,17 +44,17 @@ std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
     const trim::Measure& m = *judge.target().measure;
     const trim::Truth& truth = t.truths.front();
     std::string text = fmt::format("truth: {}, {}; certain to {}, noise floor {}\n", truth.reference, truth.said,
-                                   text_of(m, truth.certificate), text_of(m, truth.floor));
+                                   certainty_text(m, truth.certificate), text_of(m, truth.floor));
     if (!t.path.found)
         return text + fmt::format("none of {} is within {} over {:g} s", fmt::join(t.path.tried, ", "), text_of(m, judge.target().most),
                                   t.whole.duration);
     for (const trim::Verified& v : t.verified)
         text += fmt::format("verified: {} from {}{}\n", text_of(m, v.error), v.said,
-                            v.judged_by ? ""
-                            : v.within  ? ", which the search did not know"
-                                        : ", which the search did not know: NOT within");
-    if (!t.independent()) text += "every start that there is judged the search: none was left to verify it\n";
-    text += fmt::format("{:.3g} times cheaper than the whole scene unasked{}, {:.3g} times than its cheapest model",
+                            !v.decided    ? fmt::format(", whose reference is certain to {} only", certainty_text(m, v.certificate))
+                            : v.judged_by ? std::string()
+                                          : ", which the search did not know");
+    if (t.independent() == 0) text += "every start that there is judged the search: none was left to verify it\n";
+    text += fmt::format("{:.3g} times cheaper than the whole scene without matched compliance{}, {:.3g} times than its cheapest model",
                         t.costs.front().median / t.costs.back().median,
                         t.full().within ? "" : fmt::format(" (which errs by {})", text_of(m, t.full().error)),
                         t.costs[std::min<std::size_t>(1, t.costs.size() - 1)].median / t.costs.back().median);

@@ -106,6 +106,12 @@ std::vector<Form> forms_of(const CompareRequest& r, const Descriptor& d, const S
     return all;
 }
 
+int most_modes_sought(const Scene& scene, int unasked, double rate) {
+    int most = static_cast<int>(std::lround(std::end(multiples)[-1] * unasked));
+    for (const String& s : scene.strings) most = std::min(most, modes_below(s, 0.5 * rate));
+    return std::max(most, unasked);
+}
+
 std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const Scene& scene, const Settings& settings,
                            const std::vector<double>& rates) {
     std::vector<Rung> rungs;
@@ -115,14 +121,10 @@ std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const S
     const bool its_own = settings.modes == 0 && scene.strings.size() == 1;  // as one whose nodes are its points of contact
     if (!r.search || !r.reference_modes || d.clock == Clock::continuous || its_own) return rungs;
     const int unasked = settings.modes > 0 ? settings.modes : modes_for(scene, settings);
-    const auto takes = [&](int modes, double rate) {
-        return std::all_of(scene.strings.begin(), scene.strings.end(),
-                           [&](const String& s) { return modes <= modes_below(s, 0.5 * rate); });
-    };
     for (const double multiple : multiples) {
         Rung rung{static_cast<int>(std::lround(multiple * unasked)), {}, true};
         for (const double rate : rates)
-            if (takes(rung.modes, rate)) rung.rates.push_back(rate);
+            if (rung.modes <= most_modes_sought(scene, unasked, rate)) rung.rates.push_back(rate);
         if (!rung.rates.empty()) rungs.push_back(std::move(rung));
     }
     if (rungs.size() == 1) return rungs;

@@ -34,6 +34,9 @@ private:
 std::vector<Form> forms_of(const CompareRequest&, const Descriptor&, const Scene&, const Settings&, const std::vector<double>& rates,
                            std::vector<bool>& used, Untried&);
 
+// The most modes that are sought: 4 times `unasked`, as far as half the rate allows on each string, but `unasked` at least.
+int most_modes_sought(const Scene&, int unasked, double rate);
+
 struct Rung {
     int modes;                  // 0: the scheme's own
     std::vector<double> rates;  // [Hz]

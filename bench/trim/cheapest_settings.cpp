@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/compare/variants.hpp"
 #include "bench/store/records.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/contact/compliance.hpp"
@@ -37,12 +38,12 @@ std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene) {
     return all;
 }
 
-CheapestSettings::CheapestSettings(Judge& judge, int judged_starts, const store::Listener& listener)
-    : judge_(judge), starts_(judged_starts), progress_(listener.begin("trim")), tap_rate_(judge.tap_rate()) {}
+CheapestSettings::CheapestSettings(Judge& judge, const std::vector<int>& starts, const store::Listener& listener)
+    : judge_(judge), starts_(starts), progress_(listener.begin("trim")), tap_rate_(judge.tap_rate()) {}
 
 std::optional<double> CheapestSettings::error_within(const Model& m, double limit) {
     double worst = 0;
-    for (int s = 0; s < starts_; ++s) {
+    for (const int s : starts_) {
         const Verdict v = judged(m, s, limit);
         if (!judge_.within(v, s)) return std::nullopt;
         worst = std::max(worst, v.error);
@@ -52,7 +53,7 @@ std::optional<double> CheapestSettings::error_within(const Model& m, double limi
 
 double CheapestSettings::worst_error(const Model& m) {
     double worst = 0;
-    for (int s = 0; s < starts_; ++s) {
+    for (const int s : starts_) {
         const Verdict v = judged(m, s, HUGE_VAL);
         if (v.status != "ok") return std::nan("");
         worst = std::max(worst, v.error);
@@ -63,6 +64,8 @@ double CheapestSettings::worst_error(const Model& m) {
 Verdict CheapestSettings::judged(const Model& m, int start, double limit) {
     const double seconds = std::min(longest, judged_over_timed * limit * judge_.scene().duration + 0.01);
     Verdict v = judge_.verdict(m, start, seconds);
+    if (start == starts_.front() && m.left_out.empty() && m.settings.options.empty() && v.status == "ok" && v.error < nearest_error_)
+        nearest_ = m, nearest_error_ = v.error;
     progress_->show(std::min(0.99, 1 - 1 / (1 + judge_.judged() / 500.0)),
                     fmt::format("{} models judged, {} read back; {}", judge_.judged(), judge_.read_back(), best_said_));
     return v;
@@ -86,7 +89,7 @@ std::optional<Found> CheapestSettings::fewest(const Variant& v, const std::vecto
             return Found{m, *error, judge_.cost(m)};
         }
         last = modes;
-        const Verdict failed = judged(m, 0, limit);
+        const Verdict failed = judged(m, starts_.front(), limit);
         if (failed.status == "slow" || failed.seconds > judged_over_timed * limit * judge_.scene().duration) {
             too_dear = modes == rungs.front();  // with more modes or at a higher rate it is dearer still
             return std::nullopt;
@@ -124,8 +127,10 @@ std::vector<CheapestSettings::Look> CheapestSettings::looked(const std::vector<V
         Look look{v, HUGE_VAL};
         std::vector<double> errors;  // at the rates where nothing but the error speaks against it
         for (const double k : first_looks) {
-            const Verdict seen = judged({left_out, v.scheme, {k * tap_rate_, tap_rate_, 0, v.options}}, 0, limit);
-            if (judge_.within(seen, 0)) {
+            Model m{left_out, v.scheme, {k * tap_rate_, tap_rate_, 0, v.options}};
+            m.settings.modes = ladder(m).back();
+            const Verdict seen = judged(m, starts_.front(), limit);
+            if (judge_.within(seen, starts_.front())) {
                 look.cost = seen.seconds / judge_.scene().duration;
                 break;
             }
@@ -157,6 +162,20 @@ std::optional<Found> CheapestSettings::of_all(const std::vector<const Descriptor
     for (const Descriptor* d : schemes)
         if ((needed_by(scene) - d->represents).empty())
             for (const Variant& v : variants_of(*d, scene)) variants.push_back(v);
+    return of_variants(variants, left_out, limit);
+}
+
+std::optional<Found> CheapestSettings::as_published(const std::vector<const Descriptor*>& schemes, bool& within) {
+    std::vector<Variant> variants;
+    for (const Descriptor* d : schemes)
+        if ((needed_by(judge_.scene()) - d->represents).empty()) variants.push_back({d, {}});
+    const auto found = of_variants(variants, {}, HUGE_VAL);
+    within = found.has_value();
+    if (found || !nearest_) return found;
+    return Found{*nearest_, worst_error(*nearest_), judge_.cost(*nearest_)};
+}
+
+std::optional<Found> CheapestSettings::of_variants(const std::vector<Variant>& variants, const std::vector<int>& left_out, double limit) {
     std::optional<Found> best;
     for (const Look& look : looked(variants, left_out, limit)) {
         const auto found = of_variant(look.variant, left_out, 0, HUGE_VAL, limit);
@@ -168,7 +187,7 @@ std::optional<Found> CheapestSettings::of_all(const std::vector<const Descriptor
     return best;
 }
 
-// From few modes to all below 20 kHz and half the rate; {0} where the scheme takes its own.
+// From few modes to the most that are sought; {0} where the scheme takes its own.
 std::vector<int> CheapestSettings::ladder(const Model& m) const {
     const auto dofs = [&](int modes) {
         Settings s = m.settings;
@@ -179,7 +198,9 @@ std::vector<int> CheapestSettings::ladder(const Model& m) const {
             return -1;
         }
     };
-    const int all = std::max(1, modes_for(judge_.scene_of(m), {m.settings.sample_rate, tap_rate_, 0, {}}));
+    const Scene scene = judge_.scene_of(m);
+    const double rate = m.settings.sample_rate;
+    const int all = compare::most_modes_sought(scene, std::max(1, modes_for(scene, {rate, tap_rate_, 0, {}})), rate);
     if (dofs(all) == dofs(std::max(1, all / 2)) && dofs(all) > 0) return {0};
     std::vector<int> modes;
     for (double n = all; n >= 2; n *= fewer) modes.push_back(static_cast<int>(std::lround(n)));

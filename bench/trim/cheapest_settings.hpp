@@ -1,6 +1,8 @@
 // Step 1 and 3 of the search: with given parts left out, the cheapest scheme, options, rate and number of modes within the tolerance.
 //
-// Every variant (a scheme, own or matched compliance) is looked at first with all its modes at two rates. Whose error is not within at
+// Modes are searched up to four times those below 20 kHz, as far as half the rate allows.
+//
+// Every variant (a scheme, own or matched compliance) is looked at first with the most modes at two rates. Whose error is not within at
 // either and would not be at the highest rate, even if it fell by twice the order seen between the two, is passed over. The others are
 // searched in the order of what the first look says they cost, so that the clock ends the dear ones early.
 #pragma once
@@ -34,7 +36,7 @@ std::vector<Variant> variants_of(const Descriptor&, const Scene&);
 
 class CheapestSettings {
 public:
-    CheapestSettings(Judge&, int judged_starts, const store::Listener&);
+    CheapestSettings(Judge&, const std::vector<int>& starts, const store::Listener&);
 
     Judge& judge() { return judge_; }
     std::optional<double> error_within(const Model&, double limit);  // the worst; nothing where one start is not within
@@ -44,6 +46,9 @@ public:
     // Between two rates; nothing that costs `limit` or more is looked for.
     std::optional<Found> of_variant(const Variant&, const std::vector<int>& left_out, double from, double to, double limit);
     std::optional<Found> of_all(const std::vector<const Descriptor*>&, const std::vector<int>& left_out, double limit);
+    // The whole scene with no option set, so that compliance is the scheme's own: the cheapest that serves, else the nearest that was
+    // judged; nothing where none was sound.
+    std::optional<Found> as_published(const std::vector<const Descriptor*>&, bool& within);
 
     std::vector<std::string> passed_over() const;  // after a first look: "name (its errors)"
 
@@ -52,13 +57,16 @@ private:
         Variant variant;
         double cost;  // [s per s] as judged, at the cheaper rate that is within; infinite where neither is
     };
+    std::optional<Found> of_variants(const std::vector<Variant>&, const std::vector<int>& left_out, double limit);
     std::vector<Look> looked(const std::vector<Variant>&, const std::vector<int>& left_out, double limit);
+    std::optional<Model> nearest_;  // as published
+    double nearest_error_ = HUGE_VAL;
     bool hopeless(double error_at_the_lower_rate, double at_the_higher) const;
     std::optional<Found> fewest(const Variant&, const std::vector<int>& left_out, double rate, double limit, bool& too_dear);
     std::vector<int> ladder(const Model&) const;
 
     Judge& judge_;
-    int starts_;
+    std::vector<int> starts_;  // that it is judged by
     std::unique_ptr<store::Progress> progress_;
     std::string best_said_ = "none is within the tolerance yet";
     double tap_rate_;

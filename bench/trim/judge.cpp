@@ -173,9 +173,15 @@ void Judge::run_truth(int start) {
     known.modes = of.choice.settings.modes;
     known.floor = target_.measure->error(moved, column, of.run.trace.tap_rate);
     known.horizon = t.horizon;
-    if (target_.measure->name == std::string("l2_50ms") && of.trust.any()) {
-        const double c = of.trust.of_scene(tap_, scene_.duration >= 50e-3 ? 1 : 2);
-        known.certificate = std::isnan(c) ? 0 : c;
+    if (target_.measure->name == std::string("l2_50ms")) {
+        if (of.trust.any()) known.certificate = of.trust.of_scene(tap_, scene_.duration >= 50e-3 ? 1 : 2);
+    } else if (!t.coarser.empty()) {  // no bound is known of the others: what the doublings tell
+        const auto changed = [&](std::size_t last) {
+            const compare::Reference& more = last < t.coarser.size() ? t.coarser[last] : of;
+            return target_.measure->error(t.coarser[last - 1].run.trace.column(tap_), more.run.trace.column(tap_), of.run.trace.tap_rate);
+        };
+        const std::size_t n = t.coarser.size();
+        known.certificate = compare::left_after(changed(n), n > 1 ? changed(n - 1) : store::nan);
     }
     const double depth = compare::fact(of.run.facts, facts::deepest_penetration);
     known.penetration = depth > 0 ? depth : 1;
@@ -250,8 +256,13 @@ Verdict Judge::verdict(const Model& m, int start, double limit) {
     return v;
 }
 
+bool Judge::certain(int start) {
+    return truth(start).certificate < (start == 0 ? 1 : 0.5) * target_.most;
+}
+
 bool Judge::within(const Verdict& v, int start) {
-    return v.status == "ok" && compare::Bound{v.error, truth(start).certificate}.most() <= target_.most;
+    const double error = start > 0 && !certain(start) ? v.error : compare::Bound{v.error, truth(start).certificate}.most();
+    return v.status == "ok" && error <= target_.most;
 }
 
 double Judge::cost(const Model& m) {

@@ -49,10 +49,10 @@ struct Verdict {
 struct Truth {  // of one start
     std::string reference, said;
     int modes = 0;
-    double certificate = 0;  // of the measure; 0 where it has none
-    double floor = 0;        // what 1e-12 of the start changes
-    double horizon = 0;      // [s], of the truth against itself with half its modes; NaN: not known
-    double penetration = 1;  // deepest [m]
+    double certificate = std::numeric_limits<double>::quiet_NaN();  // of the measure; NaN: unknown
+    double floor = 0;                                               // what 1e-12 of the start changes
+    double horizon = 0;                                             // [s], of the truth against itself with half its modes; NaN: not known
+    double penetration = 1;                                         // deepest [m]
 };
 
 using CostOf = std::function<double(const Model&, const Scene& left)>;  // [s per s]
@@ -76,7 +76,11 @@ public:
 
     // A run of more than `limit` s of processor is ended and not kept: "slow".
     Verdict verdict(const Model&, int start, double limit = HUGE_VAL);
-    bool within(const Verdict&, int start);                                  // error and certificate together
+    // The reference tells what is within the tolerance: its certificate is below that, below half of it for other starts than the
+    // scene's.
+    bool certain(int start);
+    // Error and certificate together. Of another start whose reference is not certain: the error alone.
+    bool within(const Verdict&, int start);
     double cost(const Model&);                                               // [s of processor per s], least of several; kept
     std::vector<Spread> costs(const std::vector<Model>&, int rounds) const;  // processor time, models in turn: what is quoted
 

@@ -15,17 +15,22 @@ Model turned_round(Model m, int k) {
     return m;
 }
 
-double error_of(Judge& judge, const Model& m) {
+double error_of(Judge& judge, const Model& m, const std::vector<int>& starts) {
     try {
-        const Verdict v = judge.verdict(m, 0);
-        return v.status == "ok" ? v.error : std::nan("");
+        double worst = 0;
+        for (const int s : starts) {
+            const Verdict v = judge.verdict(m, s);
+            if (v.status != "ok") return std::nan("");
+            worst = std::max(worst, v.error);
+        }
+        return worst;
     } catch (const std::exception&) {  // what is left makes no scene
         return std::nan("");
     }
 }
 }  // namespace
 
-std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimmed) {
+std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimmed, const std::vector<int>& starts) {
     std::vector<Need> needs;
     std::vector<Model> timed{whole};
     std::vector<std::size_t> timed_needs;
@@ -36,18 +41,18 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
         const Model alone = turned_round(whole, k);
         Need n{r.key,
                r.becomes.empty() ? "left out" : r.becomes,
-               error_of(judge, alone),
+               error_of(judge, alone, starts),
                std::nan(""),
                std::nan(""),
                std::ranges::binary_search(trimmed.left_out, k),
                true};
         if (!std::isnan(n.error)) {
-            n.needed = !judge.within(judge.verdict(alone, 0), 0);
+            n.needed = !std::ranges::all_of(starts, [&](int s) { return judge.within(judge.verdict(alone, s), s); });
             timed.push_back(alone);
             timed_needs.push_back(needs.size());
             gone.push_back(std::ranges::binary_search(whole.left_out, k));
         }
-        n.error_in_trimmed = error_of(judge, turned_round(trimmed, k));
+        n.error_in_trimmed = error_of(judge, turned_round(trimmed, k), starts);
         needs.push_back(n);
     }
     const std::vector<Spread> costs = judge.costs(timed, rounds_of_needs);

@@ -20,29 +20,6 @@ std::vector<int> toggled(std::vector<int> set, int k) {
     return set;
 }
 
-// The whole scene unasked: own compliance, all modes below 20 kHz; the cheapest rate that serves, else the nearest to the truth.
-std::optional<Step> unasked(CheapestSettings& s, const std::vector<const Descriptor*>& schemes) {
-    std::optional<Step> best;
-    const double tap_rate = s.judge().tap_rate();
-    for (const Descriptor* d : schemes) {
-        if (!(needed_by(s.judge().scene()) - d->represents).empty()) continue;
-        for (const int k : multiples) {
-            Step step{"the whole scene, unasked", {{}, d, {k * tap_rate, tap_rate, 0, {}}}};
-            const Verdict v = s.judged(step.model, 0, best && best->within ? best->cost : HUGE_VAL);
-            if (v.status == "slow") break;
-            if (v.status != "ok") continue;
-            step.error = s.worst_error(step.model);
-            step.within = s.error_within(step.model, HUGE_VAL).has_value();
-            if (step.within || !best || (!best->within && step.error < best->error)) {
-                step.cost = s.judge().cost(step.model);
-                if (!best || (step.within ? !best->within || step.cost < best->cost : !best->within)) best = step;
-            }
-            if (step.within) break;
-        }
-    }
-    return best;
-}
-
 // Step 2: toggles of single parts, settings sought anew, until none is cheaper.
 void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener& listener) {
     const int parts = static_cast<int>(s.judge().reductions().size());
@@ -114,14 +91,16 @@ void leave_out_what_costs_nothing(CheapestSettings& s, Found& now, Path& path) {
 }
 }  // namespace
 
-Path search(Judge& judge, const std::vector<const Descriptor*>& schemes, int judged_starts, const store::Listener& listener) {
+Path search(Judge& judge, const std::vector<const Descriptor*>& schemes, const std::vector<int>& starts, const store::Listener& listener) {
     Path path;
-    CheapestSettings s(judge, judged_starts, listener);
+    CheapestSettings s(judge, starts, listener);
     for (const Descriptor* d : schemes)
         if ((needed_by(judge.scene()) - d->represents).empty()) path.tried.emplace_back(d->name);
     if (path.tried.empty())
         throw Refusal("no scheme represents scene " + judge.scene().name + ": it needs " + names_of(needed_by(judge.scene())));
-    if (const auto first = unasked(s, schemes)) path.steps.push_back(*first);
+    bool within = false;
+    if (const auto first = s.as_published(schemes, within))
+        path.steps.push_back({"the whole scene, compliance its own", first->model, first->error, first->cost, within});
     std::vector<int> unheard;  // taps that nobody judges: the motion is the same without them
     for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k)
         if (judge.reductions()[k].part == Part::tap && judge.may_go(k)) unheard.push_back(k);

@@ -1,6 +1,7 @@
 // The cheapest model of a scene within a tolerance.
 //
 // A model is a set of parts left out, a scheme with its options, a rate and a number of modes.
+//   0. The whole scene, compliance the scheme's own, as published: what the trimmed model is held against.
 //   1. Of the whole scene, less the taps that are not judged: for each scheme, own and matched compliance, and each rate the fewest modes
 //   that serve; the cheapest stays (cheapest_settings.hpp).
 //   2. In turn the part that saves most for the error it costs is left out, the fewest modes at half, the same and twice the rate are
@@ -26,13 +27,13 @@ struct Step {
 };
 
 struct Path {
-    std::vector<Step> steps;               // [0]: the whole scene as its scheme takes it unasked; the last is the trimmed model
+    std::vector<Step> steps;               // [0]: the whole scene without matched compliance; the last is the trimmed model
     bool found = false;                    // the last step is within the tolerance
     std::vector<std::string> tried;        // schemes that represent the whole scene
     std::vector<std::string> passed_over;  // variants of the whole scene, after a first look: "name (its errors)"
 };
 
-// Judged by the starts 0 .. judged_starts-1.
-Path search(Judge&, const std::vector<const Descriptor*>& schemes, int judged_starts, const store::Listener&);
+// Judged by these starts.
+Path search(Judge&, const std::vector<const Descriptor*>& schemes, const std::vector<int>& starts, const store::Listener&);
 
 }  // namespace jvari::bench::trim

@@ -1,4 +1,5 @@
-// The scene's start and others like it. A model that is trimmed by one start is verified by another, so that it is not tuned to one.
+// The scene's start and others of another family: higher modes, a sharp triangle near an end, a pluck elsewhere. A model that is trimmed by
+// one start is verified by the others, so that it is not tuned to one.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 namespace jvari::bench::trim {
 
 constexpr int starts = 5;
-// 0: the scene's own. Further ones have another shape or place, and between six and nine tenths of its size.
+// 0: the scene's own. 1: sharp and near an end. 2: a higher mode. Further ones are elsewhere. Between six and nine tenths of its size.
 Scene started(Scene, int start);
 std::string name_of_start(const Scene& started);  // of its first string that is set in motion
 

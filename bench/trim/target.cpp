@@ -112,4 +112,8 @@ std::string text_of(const Measure& m, double error) {
     return m.unit == std::string("%") ? fmt::format("{:.2g} %", 100 * error) : fmt::format("{:.2g} dB", error);
 }
 
+std::string certainty_text(const Measure& m, double certificate) {
+    return std::isnan(certificate) ? "unknown" : text_of(m, certificate);
+}
+
 }  // namespace jvari::bench::trim

@@ -22,6 +22,7 @@ struct Target {
 // "1%", "0.01", "1dB". Throws UsageError for a measure that there is not, for a tolerance in another unit than the measure's, and for one
 // above 0.5 that says no unit.
 Target target_of(const std::string& measure, const std::string& within);
-std::string text_of(const Measure&, double error);  // "1.3 %", "0.8 dB"
+std::string text_of(const Measure&, double error);               // "1.3 %", "0.8 dB"
+std::string certainty_text(const Measure&, double certificate);  // the same, or "unknown"
 
 }  // namespace jvari::bench::trim

@@ -23,7 +23,7 @@ std::vector<const Descriptor*> schemes_of(const Request& r, const compare::Catal
 std::vector<std::string> not_tried(const Judge& judge, const Request& r, const Path& path) {
     std::vector<std::string> left{
         fmt::format("rates below {:g} Hz, at which rows are compared, and rates other than 1, 2, 4, 8, 16, 32 times it", r.tap_rate),
-        "references as models, and modes above 20 kHz",
+        "references as models, and more than four times the modes below 20 kHz",
         "several parts left out at once where each alone is beyond the tolerance",
         "other values of a part than those named: widths between, stiffness by factors other than 10 and 100",
         fmt::format("what happens after {:g} s, and other starts than those named", judge.scene().duration),
@@ -49,31 +49,50 @@ Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
             v.status == "ok" ? v.error : std::nan(""),
             judge.truth(start).certificate,
             judge.within(v, start),
-            judged_by};
+            judged_by,
+            judge.certain(start)};
+}
+
+bool fails(const Verified& v, const Target& target) {  // where the reference is no better than the tolerance nothing is told
+    return !v.within && v.certificate < target.most;
 }
 }  // namespace
 
 Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalogue, const store::Listener& listener) {
     Trimmed t{judge.scene(), judge.scene(), judge.own_duration(), {}, {}, {}, {}, {}, {}, 0, 0};
+    const Measure& measure = *judge.target().measure;
+    if (!judge.certain(0))
+        throw Refusal(
+            fmt::format("what is within {} cannot be decided: how far the reference {} ({}) is certain is {}. A shorter "
+                        "--duration or more --reference-modes may help",
+                        text_of(measure, judge.target().most), judge.truth(0).reference, judge.truth(0).said,
+                        certainty_text(measure, judge.truth(0).certificate)));
     const std::vector<const Descriptor*> schemes = schemes_of(r, catalogue);
-    for (int judged_by = 1; judged_by <= starts; ++judged_by) {
-        t.path = search(judge, schemes, judged_by, listener);
+    for (std::vector<int> by{0};;) {
+        t.path = search(judge, schemes, by, listener);
         t.verified.clear();
         if (!t.path.found) break;
-        for (int s = 0; s < std::min(judged_by + 1, starts); ++s) t.verified.push_back(verified(judge, t.last().model, s, s < judged_by));
-        if (t.verified.back().within) break;
-        listener.note(fmt::format("started otherwise ({}) it errs by {}: that start is judged by as well", t.verified.back().said,
-                                  text_of(*judge.target().measure, t.verified.back().error)));
+        for (int s = 0; s < starts; ++s) t.verified.push_back(verified(judge, t.last().model, s, std::ranges::count(by, s) > 0));
+        const auto worst = std::ranges::max_element(t.verified, {}, [&](const Verified& v) {
+            return !fails(v, judge.target()) ? -1 : std::isnan(v.error) ? HUGE_VAL : v.error;
+        });
+        if (!fails(*worst, judge.target())) {
+            Model whole = t.last().model;
+            whole.left_out = t.path.steps[1].model.left_out;
+            if (judge.verdict(whole, 0).status == "refused") whole = t.path.steps[1].model;
+            t.scene = judge.scene_of(t.last().model);
+            t.needs = needs_of(judge, whole, t.last().model, by);
+            break;
+        }
+        listener.note(fmt::format("started otherwise ({}) it errs by {}: that start is judged by as well", worst->said,
+                                  text_of(measure, worst->error)));
+        by.push_back(worst->start);
     }
     for (std::size_t s = 0; s < std::max<std::size_t>(1, t.verified.size()); ++s) t.truths.push_back(judge.truth(static_cast<int>(s)));
     if (!t.path.steps.empty()) {
         std::vector<Model> models;
         for (const Step& step : t.path.steps) models.push_back(step.model);
         t.costs = judge.costs(models, rounds);
-    }
-    if (t.path.found) {
-        t.scene = judge.scene_of(t.last().model);
-        t.needs = needs_of(judge, t.path.steps[std::min<std::size_t>(1, t.path.steps.size() - 1)].model, t.last().model);
     }
     t.not_tried = not_tried(judge, r, t.path);
     t.judged = judge.judged();

@@ -74,15 +74,15 @@ std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
     std::string text = comment(fmt::format(" The cheapest model of {} that `jvari trim` found {}.", t.whole.name, within_text(judge)));
     text += comment("   " + command_of(t, "trimmed.toml"));
     for (const Verified& v : t.verified)
-        text += comment(fmt::format(" Error {}, and the reference is certain to {}; started from {}{}.", error_text(v.error),
-                                    error_text(v.certificate), v.said,
-                                    v.judged_by ? ""
-                                    : v.within  ? ", which the search did not know"
-                                                : ", which the search did not know: not within"));
-    if (!t.independent()) text += comment(" Every start that there is judged the search: none was left to verify it.");
-    text += comment(fmt::format(" It costs {} s of computing per second of sound; {}, unasked, {} for an error of {}.",
-                                rounded(t.costs.back().median), full.model.settings_text(), rounded(t.costs.front().median),
-                                error_text(full.error)));
+        text += comment(fmt::format(" Error {}, and how far the reference is certain is {}; started from {}{}.", error_text(v.error),
+                                    certainty_text(*judge.target().measure, v.certificate), v.said,
+                                    !v.decided    ? ": not enough to be sure"
+                                    : v.judged_by ? ""
+                                                  : ", which the search did not know"));
+    if (t.independent() == 0) text += comment(" Every start that there is judged the search: none was left to verify it.");
+    text += comment(
+        fmt::format(" It costs {} s of computing per second of sound; {}, with all parts and its own compliance, {} for an error of {}.",
+                    rounded(t.costs.back().median), full.model.settings_text(), rounded(t.costs.front().median), error_text(full.error)));
     text += comment("") + comment(" What went:");
     for (const int k : last.model.left_out) {
         const Reduction& r = judge.reductions()[k];
@@ -104,14 +104,15 @@ std::string manifest_of(const Trimmed& t, const Judge& judge, const Request& r) 
     for (const Verified& v : t.verified)
         verified.push_back({{"start", v.said},
                             {"error", number(v.error)},
-                            {"certificate", v.certificate},
+                            {"certificate", number(v.certificate)},
                             {"within", v.within},
+                            {"decided", v.decided},
                             {"judged_by", v.judged_by}});
     for (const Truth& x : t.truths)
         truths.push_back({{"reference", x.reference},
                           {"said", x.said},
                           {"modes", x.modes},
-                          {"certificate", x.certificate},
+                          {"certificate", number(x.certificate)},
                           {"floor", number(x.floor)},
                           {"horizon_s", number(x.horizon)}});
     Json manifest = Json::parse(store::made_by());
