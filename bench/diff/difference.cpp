@@ -52,6 +52,7 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     columns_alone(b.cells, a.cells, d.columns.after);
     const auto columns = compared_columns(a.cells, b.cells);
     int other_truth = 0;
+    std::string how;
     for (const Pair& p : pairs) {
         bool same_truth = true;
         for (const std::string& column : columns) {
@@ -59,12 +60,15 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
             const Turn turn = turn_of(column, a.cells, p.before, b.cells, p.after);
             if (turn == Turn::same) continue;
             d.findings.push_back({turn, p.name, column, a.cells.at(p.before, column), b.cells.at(p.after, column), ""});
-            same_truth = same_truth && !column.starts_with("reference");
+            if (!column.starts_with("reference")) continue;
+            same_truth = false;
+            if (how.empty()) how = fmt::format("{} {} -> {}", column, a.cells.at(p.before, column), b.cells.at(p.after, column));
         }
         other_truth += !same_truth;
     }
     if (other_truth > 0)
-        d.notes.push_back(fmt::format("{} cells were judged by another reference: their errors differ by its change too", other_truth));
+        d.notes.push_back(fmt::format("{} of {} cells were judged by another reference ({}): their errors differ by its change too",
+                                      other_truth, pairs.size(), how));
     std::vector<CostPair> costs;
     for (const Pair& p : pairs) costs.push_back({p.name, p.before, p.after});
     compare_costs(a, b, costs, d);

@@ -76,6 +76,7 @@ std::string text_of(const Difference& d, const Folder& before, const Folder& aft
     std::string text;
     for (const auto& [name, f] : {std::pair{"before", &before}, std::pair{"after", &after}})
         text += fmt::format("{:<7} {}: commit {}, {}, {}\n", name, f->name, f->made.commit, f->made.date, f->made.machine());
+    for (const std::string& note : d.notes) text += "note: " + note + "\n";  // first: what the figures below rest on
     text += fmt::format("{} cells in both, {} fields compared: {} worse, {} better, {} moved{}\n", d.cells_in_both, d.compared,
                         d.count(Turn::worse), d.count(Turn::better), d.count(Turn::moved),
                         d.missing() > 0 ? fmt::format(", {} missing after, which counts as worse", d.missing()) : "");
@@ -86,7 +87,6 @@ std::string text_of(const Difference& d, const Folder& before, const Folder& aft
         {"cells", &d.cells}, {"columns", &d.columns}, {"modes", &d.modes}, {"points of maps", &d.points}, {"boundaries", &d.boundaries}};
     for (const auto& [what, only] : kinds)
         text += only_text(what, "before", only->before, most) + only_text(what, "after", only->after, most);
-    for (const std::string& note : d.notes) text += "\nnote: " + note + "\n";
     text.pop_back();
     return text;
 }
