@@ -19,6 +19,7 @@ file == 2 && FNR > 1 && $at["status"] == "ok" && $at["flags"] == "" && !($at["sc
     options = $at["options"]; sub(/^compliance=own$/, "", options)
     place = $at["rate"] == "" ? $at["modes"] " modes" : $at["rate"] / 1000 " kHz"
     id[$at["scheme"] (options == "" ? "" : " " options), place] = $1
+    id[$at["scheme"] (options == "" ? "" : " " options), $at["modes"] " modes, " place] = $1
     sure = $at["certificate_l2_50ms"] + 0
     error[$1, "%"] = 100 * ($at["error_l2_50ms"] + sure)
     shown[$1, "%"] = sure > 0.1 * $at["error_l2_50ms"] ? error[$1, "%"] : 100 * $at["error_l2_50ms"]

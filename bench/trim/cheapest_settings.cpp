@@ -15,6 +15,7 @@ namespace jvari::bench::trim {
 namespace {
 constexpr double fewer = 0.7;             // from one number of modes to the next that is tried
 constexpr double first_looks[] = {1, 4};  // multiples of the tap rate
+constexpr std::size_t looked_at = 5;      // numbers of modes: from the most to a quarter of them, for more at one rate can be worse
 }  // namespace
 
 std::string Variant::name() const {
@@ -128,13 +129,16 @@ std::vector<CheapestSettings::Look> CheapestSettings::looked(const std::vector<V
         std::vector<double> errors;  // at the rates where nothing but the error speaks against it
         for (const double k : first_looks) {
             Model m{left_out, v.scheme, {k * tap_rate_, tap_rate_, 0, v.options}};
-            m.settings.modes = ladder(m).back();
-            const Verdict seen = judged(m, starts_.front(), limit);
-            if (judge_.within(seen, starts_.front())) {
-                look.cost = seen.seconds / judge_.scene().duration;
-                break;
+            const std::vector<int> rungs = ladder(m);
+            double least = HUGE_VAL;
+            for (std::size_t n = rungs.size(); n-- > 0 && rungs.size() - n <= looked_at && look.cost == HUGE_VAL;) {
+                m.settings.modes = rungs[n];
+                const Verdict seen = judged(m, starts_.front(), limit);
+                if (judge_.within(seen, starts_.front())) look.cost = seen.seconds / judge_.scene().duration;
+                if (seen.status == "ok") least = std::min(least, seen.error);
             }
-            if (seen.status == "ok") errors.push_back(seen.error);
+            if (look.cost < HUGE_VAL) break;
+            if (least < HUGE_VAL) errors.push_back(least);
         }
         limit = std::min(limit, look.cost);
         if (look.cost == HUGE_VAL && errors.size() == std::size(first_looks) && hopeless(errors[0], errors[1])) {
