@@ -2,9 +2,9 @@
 //
 // Modes are searched up to four times those below 20 kHz, as far as half the rate allows.
 //
-// Every variant (a scheme, own or matched compliance) is looked at first at two rates, with the most modes down to a quarter of them. Whose error is not within at
-// either and would not be at the highest rate, even if it fell by twice the order seen between the two, is passed over. The others are
-// searched in the order of what the first look says they cost, so that the clock ends the dear ones early.
+// Every variant (a scheme, own or matched compliance) is looked at first at two rates, with the most modes down to a quarter of them. Whose
+// error is not within at either and would not be at the highest rate, even if it fell by twice the order seen between the two, is passed
+// over. The others are searched in the order of what the first look says they cost, so that the clock ends the dear ones early.
 #pragma once
 
 #include <array>
