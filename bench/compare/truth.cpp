@@ -36,7 +36,10 @@ double dearness(const Descriptor& reference, const Scene& scene) {
 }
 
 bool within_budget(const Descriptor& reference, const Scene& scene, const Size& s) {
-    const double work = scene.duration * scene.strings.size() * s.modes * s.modes * (1 + 2.5 * s.points);
+    std::size_t contacts = 2;  // the closed forms take two alike
+    for (const String& string : scene.strings) contacts = std::max(contacts, string.barriers.size());
+    const double coupled = s.points > 0 ? s.points : static_cast<double>(contacts - 2);
+    const double work = scene.duration * scene.strings.size() * s.modes * s.modes * (1 + 2.5 * coupled);
     return s.points <= most_points && s.modes <= most_modes_found && work * dearness(reference, scene) <= budget;
 }
 

@@ -14,8 +14,8 @@
 namespace jvari::bench::compare {
 
 constexpr double settled = 1e-4;  // a tenth of the finest accuracy that the table of the cheapest asks for
-constexpr double budget =
-    1.5e6;  // [s], of motion times modes^2 times 1 + 2.5 points times how dear the reference is: ten to twenty seconds
+constexpr double budget = 1.5e6;  // [s], of motion times modes^2 times 1 + 2.5 points (or barriers beyond the second) times how dear the
+                                  // reference is: ten to twenty seconds
 
 // What all further doublings change, by what the last one changed and the one before it (NaN: there was none). They are a geometric series
 // whose ratio is the one observed: at least a quarter, as of order two, since one pair can agree by chance. With one doubling, or where

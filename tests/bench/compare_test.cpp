@@ -478,6 +478,22 @@ TEST(Truth, ModesAreDoubledUntilWhatIsLeftOutMovesTheHeadlineByLittleEnough) {
     EXPECT_GT(is, 0.02 * left(truth.reference));
 }
 
+// Sixteen contacts that the string couples take 60 times as long with 1504 modes as with 752, and more than half a minute: it ends before.
+TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
+    Scene scene = bench::compare::load_scene("two_point_bridge", {}, 0.1);
+    const LumpedBarrier one = std::get<LumpedBarrier>(scene.strings[0].barriers[0]);
+    scene.strings[0].barriers.clear();
+    for (int k = 0; k < 16; ++k) {
+        LumpedBarrier b = one;
+        b.position = 1e-3 * (1 + k), b.width = 0, b.height = -4e-3 * b.position * b.position;
+        scene.strings[0].barriers.emplace_back(b);
+    }
+    const bench::compare::Plan plan = plan_for("two_point_bridge", {"modal_two_point"});
+    const auto truth = bench::compare::run_truth(plan.references, scene, 0, 1, bench::store::Listener());
+    EXPECT_LE(truth.reference.choice.settings.modes, 376) << truth.said;
+    EXPECT_NE(truth.said.find("too long"), std::string::npos) << truth.said;
+}
+
 TEST(Truth, AGivenNumberIsTakenWithItsHalfAndItsQuarterToTellWhatItLeavesOut) {
     const auto truth = truth_of(200);
     EXPECT_EQ(truth.reference.choice.settings.modes, 200);
