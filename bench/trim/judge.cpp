@@ -185,6 +185,16 @@ void Judge::run_truth(int start) {
     }
     const double depth = compare::fact(of.run.facts, facts::deepest_penetration);
     known.penetration = depth > 0 ? depth : 1;
+    const std::string id = identity({{}, nullptr, {}}, start, "truth");
+    keep(id, Json{{"identity", id},
+                  {"reference", known.reference},
+                  {"said", known.said},
+                  {"modes", known.modes},
+                  {"certificate", store::text_of(known.certificate)},
+                  {"floor", store::text_of(known.floor)},
+                  {"horizon", store::text_of(known.horizon)},
+                  {"penetration", store::text_of(known.penetration)}}
+                 .dump());
 }
 
 const Truth& Judge::truth(int start) {
@@ -197,17 +207,7 @@ const Truth& Judge::truth(int start) {
         return *truths_[start];
     }
     run_truth(start);
-    const Truth& t = *truths_[start];
-    keep(id, Json{{"identity", id},
-                  {"reference", t.reference},
-                  {"said", t.said},
-                  {"modes", t.modes},
-                  {"certificate", store::text_of(t.certificate)},
-                  {"floor", store::text_of(t.floor)},
-                  {"horizon", store::text_of(t.horizon)},
-                  {"penetration", store::text_of(t.penetration)}}
-                 .dump());
-    return t;
+    return *truths_[start];
 }
 
 const std::vector<double>& Judge::trace(int start) {

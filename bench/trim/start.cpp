@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace jvari::bench::trim {
@@ -9,7 +10,8 @@ namespace jvari::bench::trim {
 namespace {
 constexpr double sizes[starts] = {1, 0.8, 0.7, 0.9, 0.6};
 constexpr double places[starts] = {0, 0.88, 0.31, 0.42, 0.67};  // of the string's length
-constexpr double shortest[starts] = {1, 0.5, 0.7, 0.9, 0.6};    // of the time that a pluck takes
+constexpr double plectrum = 0.01;  // of the string's length: what rounds the sharpest corner, which has modes without end otherwise
+constexpr double shortest[starts] = {1, 0.5, 0.7, 0.9, 0.6};  // of the time that a pluck takes
 
 // At the start's place, or as far from the other end where that is where it was.
 double elsewhere(double position, double length, int start) {
@@ -23,7 +25,8 @@ Initial initial(const Initial& own, double length, int start) {
     const double amplitude = sizes[start] * (mode ? mode->amplitude : triangle->amplitude);
     if (start == 2) return ModeInitial{mode ? mode->number + 4 : 5, amplitude};
     const double position = elsewhere(triangle ? triangle->position : 0, length, start);
-    return TriangleInitial{position, amplitude, start == 1 ? 0 : triangle ? triangle->smoothing : 0.05 * length};
+    const double sharp = plectrum * length, smoothing = triangle ? triangle->smoothing : 0.05 * length;
+    return TriangleInitial{position, amplitude, start == 1 ? std::min(sharp, smoothing) : smoothing};
 }
 }  // namespace
 
@@ -46,7 +49,8 @@ std::string name_of_start(const Scene& scene) {
         if (!s.initial) continue;
         if (const auto* m = std::get_if<ModeInitial>(&*s.initial)) return fmt::format("mode {}, {:.3g} m", m->number, m->amplitude);
         const auto& t = std::get<TriangleInitial>(*s.initial);
-        return fmt::format("a {}triangle at {:.3g} m, {:.3g} m", t.smoothing > 0 ? "smoothed " : "", t.position, t.amplitude);
+        return fmt::format("a {}triangle at {:.3g} m, {:.3g} m", t.smoothing > plectrum * s.length ? "smoothed " : "", t.position,
+                           t.amplitude);
     }
     return "at rest";
 }

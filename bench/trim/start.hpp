@@ -1,5 +1,5 @@
-// The scene's start and others of another family: higher modes, a sharp triangle near an end, a pluck elsewhere. A model that is trimmed by
-// one start is verified by the others, so that it is not tuned to one.
+// The scene's start and others of another family: higher modes, a sharp triangle near an end (rounded as by a plectrum), a pluck elsewhere.
+// A model that is trimmed by one start is verified by the others, so that it is not tuned to one.
 #pragma once
 
 #include <string>
