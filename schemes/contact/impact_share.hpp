@@ -22,16 +22,17 @@ public:
     }
 
     void take(double force) {  // of the next step; not above 0: the contact is open
-        const bool closed = force > 0;
-        const double push = closed ? force : 0;
-        all_ += push;
-        sudden_ += since_ < steps_ ? push : 0;
-        since_ = closed ? since_ + 1 : 0;
+        if (!(force > 0)) {
+            since_ = 0;
+            return;
+        }
+        all_ += force;
+        if (since_ < steps_) sudden_ += force, ++since_;
     }
 
 private:
     double all_ = 0, sudden_ = 0;  // [N]
-    long steps_ = 1, since_ = 0;   // the window; steps since the contact closed
+    long steps_ = 1, since_ = 0;   // the window; steps since the contact closed, of the window
 };
 
 }  // namespace jvari

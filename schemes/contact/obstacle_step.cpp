@@ -134,9 +134,8 @@ std::vector<Fact> ObstacleStep::series_facts() const {
 }
 
 bool ObstacleStep::solve(const double* older, const double* free, double* force) noexcept {
-    const bool solved = several_  ? solve_several(older, free, force)
-                        : series_ ? solve_in_series(older, free, force)
-                                  : solve_points(older, free, force);
+    if (!series_ && !several_) return solve_points(older, free, force);
+    const bool solved = several_ ? solve_several(older, free, force) : solve_in_series(older, free, force);
     for (std::size_t a = 0; a < impacts_.size(); ++a) impacts_[a].take(force[a]);
     return solved;
 }

@@ -182,7 +182,7 @@ private:
         Y_ += s_c_;
         impulse_b_ += F_b_;
         impulse_c_ += F_c_;
-        impacts_.take(F_b_);
+        if (series_) impacts_.take(F_b_);
     }
     void solve() {
         if (series_) return solve_in_series();
