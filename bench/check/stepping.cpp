@@ -70,7 +70,7 @@ Verdict stores_the_same_probed_now_and_then(const Case& c, const Trace& probed) 
     for (long row = 0; row < probed.rows; ++row) {
         const bool asked = row % each == each - 1;
         scheme->advance({1, static_cast<int>(tap.size()), 1, tap.data(), asked ? energy : nullptr});
-        if (asked && std::memcmp(energy, probed.energy.data() + row, sizeof(double)) != 0)
+        if (asked && std::bit_cast<std::uint64_t>(energy[0]) != std::bit_cast<std::uint64_t>(probed.energy[static_cast<std::size_t>(row)]))
             return broken(fmt::format("stores {:.17g} J in row {} in place of {:.17g} J where the rows before it are not probed", energy[0],
                                       row, probed.energy[static_cast<std::size_t>(row)]));
     }

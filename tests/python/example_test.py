@@ -29,7 +29,7 @@ lines = [e for e in drawing.iter() if e.get("id", "").startswith("line2d_") and 
 assert len(lines) >= 3, f"{len(lines)} lines of three points are drawn"
 
 with open(os.path.join(source, "results", "work-precision", "errors.csv")) as file:
-    study = {(row["scheme"], float(row["rate"])): row for row in csv.DictReader(file) if row["options"] in ("", "compliance=own") and row["rate"]}
+    study = {(row["scheme"], float(row["rate"]), int(row["modes"])): row for row in csv.DictReader(file) if row["options"] in ("", "compliance=own") and row["rate"]}
 with open(os.path.join(source, "results", "work-precision", "manifest.json")) as file:
     made_by = json.load(file)
 here = jvari.made_by()
@@ -39,9 +39,9 @@ noise = 1e-12 if allowed else 0  # the floor is rounding itself
 
 checked = 0
 for row in rows:
-    if row["scheme"] != "modal_two_point":
+    if row["scheme"] != "modal_two_point" or row["options"] not in ("", "compliance=own") or (row["scheme"], row["rate"], row["modes"]) not in study:
         continue
-    committed = study[row["scheme"], row["rate"]]
+    committed = study[row["scheme"], row["rate"], row["modes"]]
     for column in ("error_l2_10ms", "error_l2_50ms", "error_in_model_l2_10ms", "error_in_model_l2_50ms", "floor_error_l2_50ms"):
         found, expected = row[column], float(committed[column])
         assert abs(found - expected) <= allowed * expected + noise, f"{row['rate']} Hz: {column} is {found}, not {expected}"

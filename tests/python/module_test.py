@@ -88,7 +88,7 @@ class Module(unittest.TestCase):
             jvari.scene("tanpura_c4")
         with self.assertRaisesRegex(ValueError, "no whole multiple"):
             jvari.run("tanpura_c3", "modal_two_point", rate=48000, tap_rate=44100)
-        with self.assertRaisesRegex(jvari.Refusal, "-1.* s at 44100"):
+        with self.assertRaisesRegex(jvari.SceneError, "duration: found -1 s, expected no less than a row"):
             jvari.run("tanpura_c3", "modal_two_point", duration=-1)
         with self.assertRaisesRegex(KeyError, 'did you mean .*nut'):
             jvari.run("tanpura_c3_release", "modal_two_point", **SHORT)["nutt"]
@@ -249,7 +249,7 @@ class Module(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = folder + "/a.toml"
             with open(file, "w") as f:
-                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nduration = 0.01\n')
+                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nsearch = false\nduration = 0.01\n')
             rows = jvari.suite(file, out=folder + "/out")
             self.assertEqual([row["rate"] for row in rows], [44100, 88200])
             self.assertEqual(os.listdir(folder + "/out"), ["cells"])
@@ -288,7 +288,7 @@ class Module(unittest.TestCase):
         trimmed = jvari.trim("free_string", "10%", scheme="modal_two_point", duration=0.01, reference="exact_linear")
         self.assertTrue(trimmed.found)
         self.assertLess(trimmed.path[-1]["error"], 0.1)
-        self.assertLess(trimmed.path[-1]["modes"], trimmed.path[0]["modes"] or 133)
+        self.assertLess(trimmed.path[-1]["modes"], 133)  # those of the string below 20 kHz
         self.assertIn("bending_stiffness", " ".join(row["part"] for row in trimmed.needs))
         with tempfile.TemporaryDirectory() as folder:
             with open(folder + "/trimmed.toml", "w") as f:
