@@ -16,13 +16,16 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare.hpp"
 #include "bench/compare/record/compare_record.hpp"
+#include "bench/compare/record/pareto.hpp"
 #include "bench/compare/silence.hpp"
 #include "bench/map/map_tables.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
 #include "bench/store/system/side_by_side.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/run.hpp"
 #include "bench/suite/facet.hpp"
-#include "bench/suite/suite_run.hpp"
+#include "bench/suite/suite_plan.hpp"
 #include "bench/trim/trim_record.hpp"
 #include "python/listening.hpp"
 #include "python/values.hpp"
@@ -150,7 +153,7 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
 inline py::dict tables_of(const suite::Suite& suite, const std::string& out, bool resume, int jobs) {
     const std::vector<std::string> files = plugins();
     const compare::Catalogue catalogue(files);
-    const suite::SuitePlan plan = suite::plan_of(suite, catalogue, files);
+    const study::Plan plan = suite::plan_of(suite, catalogue, files);
     for (const std::string& note : plan.notes) Ear().note(note);
     const std::filesystem::path folder = out;
     const auto below = [&folder](const char* name) {
@@ -163,17 +166,17 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
             map::Truths truths(catalogue);
             const map::MapRun maps = map::run_maps(
                 suite.maps, truths, {store::program_identity(files), suite.maps.empty() ? folder : below("points"), resume, jobs}, Ear());
-            const suite::SuiteRun run = suite::run_suite(plan, below("cells"), resume, jobs, Ear());
-            tables.emplace_back("cells", compare::with_bounds(suite::table_of(plan, run.records)));
+            const study::Study run = study::run(plan, below("cells"), resume, jobs, Ear());
+            tables.emplace_back("cells", compare::with_bounds(compare::with_front(study::table_of(plan, run.records))));
             tables.emplace_back("maps", map::maps_table(maps));
             tables.emplace_back("boundaries", map::boundaries_table(maps, {}));
             for (const suite::Facet& f : suite::facets())
-                if (store::Table rows = suite::rows_of(f.name, plan, run.records); !rows.rows.empty() && !f.write)
+                if (store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && !f.write)
                     tables.emplace_back(f.name, std::move(rows));
         },
         [&] {
             return folder.empty() ? "nothing is kept, for there is no out"
-                                  : suite::kept_of(plan, folder) + " are kept in " + out + "; resume=True goes on from there";
+                                  : study::kept_of(plan, folder) + " are kept in " + out + "; resume=True goes on from there";
         });
     py::dict rows;
     for (const auto& [name, table] : tables) rows[py::str(name)] = rows_of(table);

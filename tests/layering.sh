@@ -26,7 +26,7 @@ forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(gr
 forbid "grids see contacts and the seam" '#include "schemes/(modal|spatial|sitar)/' $(files schemes/grid)
 forbid "sitars see contacts and the seam" '#include "schemes/(modal|spatial|grid)/' $(files schemes/sitar)
 above=
-for room in command report trim check suite map diff compare trust sound store; do  # each room of bench sees itself and those after it here
+for room in command report trim check suite map diff compare study trust sound store; do  # each room of bench sees itself and those after it here
     [ -z "$above" ] || forbid "bench/$room sees nothing of the rooms above it" "#include \"bench/($above)/" $(files bench/$room)
     above=${above:+$above|}$room
     forbid "bench/$room opens the namespace of its room" "^namespace jvari(::bench::[a-z]+)? \\{$" \
@@ -36,7 +36,7 @@ forbid "locks, signals and programs see nothing else of the store" '#include "be
 forbid "a comparison does not see how it is written down" '#include "bench/compare/record/' bench/compare/*.hpp bench/compare/*.cpp
 forbid "a section of the page is seen by the report alone" '#include "bench/report/sections/' $(ls bench/report/*.hpp bench/report/*.cpp | grep -v /report.cpp)
 forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
-    $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/compare bench/diff bench/map bench/suite bench/check bench/report)
+    $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/study bench/compare bench/diff bench/map bench/suite bench/check bench/report)
 forbid "the Python module sees the engine, not the command line" '#include "bench/command/' $(files python)
 forbid "the engine sees no Python" '#include "python/' $(files scenes schemes reference analysis bench)
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)

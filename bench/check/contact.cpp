@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/check/judges.hpp"
-#include "bench/compare/summary.hpp"
+#include "bench/study/summary.hpp"
 
 namespace jvari::bench::check {
 
@@ -16,14 +16,14 @@ Verdict never_pulls(const Case& c) {
     Case one = c;
     one.scene.taps = {{"contact", Quantity::bridge_force, std::nullopt, 0}};
     const jvari::Run r = fresh(one, {});
-    double least = compare::fact(r.facts, facts::smallest_contact_force), largest = compare::fact(r.facts, facts::largest_contact_force);
+    double least = study::fact(r.facts, facts::smallest_contact_force), largest = study::fact(r.facts, facts::largest_contact_force);
     for (const double force : r.trace.column(0)) {  // what it says of single steps and of their means has to be so
         least = std::fmin(least, force);
         largest = std::fmax(largest, force);
     }
-    const double pull = compare::pull_of(least, largest);
-    return pull <= compare::pull_allowed ? kept()
-                                         : broken(fmt::format("pulls with {:.2g} N, and pushes with {:.2g} N at most", -least, largest));
+    const double pull = study::pull_of(least, largest);
+    return pull <= study::pull_allowed ? kept()
+                                       : broken(fmt::format("pulls with {:.2g} N, and pushes with {:.2g} N at most", -least, largest));
 }
 
 }  // namespace jvari::bench::check

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <sstream>
 
+#include <set>
 #include "bench/command/console.hpp"
 #include "bench/store/keys.hpp"
 #include "bench/store/machine.hpp"
@@ -148,12 +149,13 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     auto* list_verb = app.add_subcommand("list", "what exists, and which scheme represents which scene");
     list_verb
         ->add_option("what", list.what,
-                     "schemes, scenes, references, options, facts, taps, suites or keys (of suite files); absent: all, and the matrix")
-        ->check(CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites", "keys"}))
+                     "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or columns (of cells.csv); absent: "
+                     "all, and the matrix")
+        ->check(CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites", "keys", "columns"}))
         ->type_name("WHAT")
         ->option_text("");
     list_verb->add_flag("--markdown", list.markdown,
-                        "with `schemes`: the capability table of the README; with `options`, `facts` or `keys`: their table");
+                        "with `schemes`: the capability table of the README; with `options`, `facts`, `keys` or `columns`: their table");
     list_verb->footer("Example: jvari list schemes --markdown");
     add_common(*list_verb, list);
 
@@ -386,8 +388,9 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     run.options = scheme_options(run_options);
     compare.options = one_by_one(scheme_options(compare_options));
     compare.reference_modes = modes_of_reference(reference_modes);
-    if (list.markdown && list.what != "schemes" && list.what != "options" && list.what != "facts" && list.what != "keys")
-        throw store::UsageError("--markdown goes with `jvari list schemes`, `jvari list options`, `jvari list facts` or `jvari list keys`");
+    static const std::set<std::string> in_markdown{"schemes", "options", "facts", "keys", "columns"};
+    if (list.markdown && !in_markdown.contains(list.what))
+        throw store::UsageError("--markdown goes with `jvari list schemes`, and with options, facts, keys or columns in place of schemes");
 
     if (new_verb->parsed()) return fresh;
     if (list_verb->parsed()) return list;

@@ -13,7 +13,6 @@
 #include "bench/command/results_folder.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"
-#include "bench/compare/kept_cells.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/convergence_table.hpp"
@@ -23,6 +22,8 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/system/interruption.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/run.hpp"
 
 namespace jvari::bench::command {
 
@@ -30,25 +31,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-std::string kept_text(const compare::KeptCells& keep, const std::string& folder) {
-    if (folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
+std::string kept_text(const study::Kept& keep) {
+    if (keep.folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
     if (keep.of == 0) return "interrupted: no cell has its errors yet; long runs of references are kept";
     return fmt::format("interrupted: the errors of {} of {} cells are kept in {}; --resume goes on from there", keep.kept.load(),
-                       keep.of.load(), folder);
-}
-
-int code_of(const compare::Comparison& c) {
-    const auto good = [](const compare::Cell& cell) { return !cell.refused && cell.summary.status.outcome == Outcome::ok; };
-    if (c.cells.empty() || std::any_of(c.cells.begin(), c.cells.end(), good)) return exit_code::done;
-    return std::all_of(c.cells.begin(), c.cells.end(), [](const compare::Cell& cell) { return cell.refused; }) ? exit_code::refused
-                                                                                                               : exit_code::run_failed;
+                       keep.of.load(), keep.folder.parent_path().string());
 }
 
 std::string floor_text(const compare::Comparison& c) {
     std::string text;
-    for (std::size_t k = 0; k < compare::measures().size(); ++k) {
-        const compare::Measure& m = compare::measures()[k];
-        const double floor = c.floor[c.headline.tap(m)][k];
+    for (std::size_t k = 0; k < study::measures().size(); ++k) {
+        const study::Measure& m = study::measures()[k];
+        const double floor = c.against.floor[c.headline.tap(m)][k];
         if (m.less_is_better && !std::isnan(floor))
             text += fmt::format("{}{} {:.1e}", text.empty() ? "noise floor: " : ", ", m.column, floor);
     }
@@ -58,18 +52,19 @@ std::string floor_text(const compare::Comparison& c) {
 // What the reference is, and from when on waveforms cannot be compared, where that is before the end.
 std::string truth_text(const compare::Comparison& c) {
     std::string text =
-        "reference: " + (c.truth.empty() ? fmt::format("{} modes, those of the schemes", c.reference_summary.modes) : c.truth);
+        "reference: " +
+        (c.against.doubling.empty() ? fmt::format("{} modes, those of the schemes", c.reference_summary.modes) : c.against.doubling);
     const auto until = [&](double t, const char* who) {
-        if (t < c.scene.duration - 1e-3) text += fmt::format("\n{} agree within 10 % for the first {} only", who, compare::time_text(t));
+        if (t < c.scene().duration - 1e-3) text += fmt::format("\n{} agree within 10 % for the first {} only", who, compare::time_text(t));
     };
-    until(compare::horizon_of(c.floor, c.headline), "two runs of it whose starts differ by 1e-12");
+    until(study::horizon_of(c.against.floor, c.headline), "two runs of it whose starts differ by 1e-12");
     until(c.horizon, "it and a run with half of its modes");
     return text + "\n";
 }
 
 std::string certificate_text(const compare::Comparison& c) {
-    const trust::Trust& t = c.trust;
-    const std::string note = c.reference_note.empty() ? "" : "\n" + c.reference_note;
+    const trust::Trust& t = c.against.trust;
+    const std::string note = c.reference.note.empty() ? "" : "\n" + c.reference.note;
     if (!t.any()) return "its uncertainty is unknown, so no error is certain" + note;
     std::string by = t.against;
     if (!t.doubled.empty()) by += (by.empty() ? "doubling its " : " and by doubling its ") + t.doubled;
@@ -85,51 +80,45 @@ int compare_command(const CompareCall& r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     if (r.resume && r.out.empty()) throw store::UsageError("--resume: there is no --out DIR to resume from");
-    compare::KeptCells keep;
+    study::Kept keep;
     keep.resume = r.resume;
     if (!r.out.empty()) {
         must_be_ours(r.out, "comparison of " + compare::load_scene(r.scene, r.set, r.duration).name, console);
         make_folder(r.out);
         keep.folder = fs::path(r.out) / "cells";
     }
-    std::optional<store::WhenInterrupted> last_word(std::in_place, [&] { console.note(kept_text(keep, r.out)); });
+    std::optional<store::WhenInterrupted> last_word(std::in_place, [&] { console.note(kept_text(keep)); });
     const compare::Comparison c = compare::compare(r, catalogue, console, keep);
     last_word.reset();
-    if (r.resume) console.note(fmt::format("the errors of {} of {} cells were read back", keep.read.load(), keep.of.load()));
+    if (r.resume) console.note(fmt::format("the errors of {} of {} cells were read back", c.outcome.read_back, keep.of.load()));
     const store::Table cells = compare::cells_of(c);
     const std::string manifest = compare::manifest_of(c, r);
 
     const store::Table cheapest =
-        compare::cheapest_of(cells, c.scene.name, r.controls ? compare::Controls::compete : compare::Controls::stand_beside);
+        compare::cheapest_of(cells, "", r.controls ? compare::Controls::compete : compare::Controls::stand_beside);
     Json files = Json::array();
     if (!r.out.empty()) {
         const fs::path folder = r.out;
-        if (const store::Table orders = compare::convergence_of(cells, c.scene.name); !orders.rows.empty()) {
-            store::write_fresh(folder / "convergence.csv", store::csv(orders));
-            files.push_back((folder / "convergence.csv").string());
-        }
-        store::write_fresh(folder / "cells.csv", store::csv(cells));
-        store::write_fresh(folder / "errors.csv", store::csv(compare::errors_only(cells)));
-        store::write_fresh(folder / "cost.csv", store::csv(compare::cost_only(cells)));
+        for (const std::string& file : write_tables(folder, cells)) files.push_back(file);
         store::write_fresh(folder / "manifest.json", manifest + "\n");
         compare::write_sounds(c, folder);
-        for (const char* name : {"cells.csv", "errors.csv", "cost.csv", "manifest.json"}) files.push_back((folder / name).string());
+        files.push_back((folder / "manifest.json").string());
         for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
     }
 
     const double rate = c.reference_summary.rate;
-    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene.name,
-                              c.reference_name, std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene.duration,
-                              c.reference_settings.tap_rate, c.scene.taps.at(c.headline.nut).name,
-                              c.scene.taps.at(c.headline.bridge).name));
+    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene().name,
+                              c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene().duration,
+                              c.reference.settings.tap_rate, c.scene().taps.at(c.headline.nut).name,
+                              c.scene().taps.at(c.headline.bridge).name));
     console.print(headline_text(cells) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (const std::string note = compare::matching_note(cells); !note.empty()) console.print(note);
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + r.out);
-    const int code = code_of(c);
+    const int code = code_of(c.outcome.records);
     console.print_json(
-        store::indented(with_results({{"scene", c.scene.name}, {"reference", c.reference_name}, {"status", exit_code::status(code)}},
+        store::indented(with_results({{"scene", c.scene().name}, {"reference", c.reference.name()}, {"status", exit_code::status(code)}},
                                      manifest, cells, cheapest, files)));
     return code;
 }

@@ -145,10 +145,11 @@ int list_command(const ListRequest& r) {
     if (r.markdown) {
         std::vector<const Descriptor*> all = shelf.catalogue.schemes;
         all.insert(all.end(), shelf.catalogue.references.begin(), shelf.catalogue.references.end());
-        const std::string table = r.what == "options" ? list_options(shelf.catalogue).markdown
-                                  : r.what == "facts" ? list_facts().markdown
-                                  : r.what == "keys"  ? list_keys().markdown
-                                                      : list_descriptors("", all).markdown;
+        const std::string table = r.what == "options"   ? list_options(shelf.catalogue).markdown
+                                  : r.what == "facts"   ? list_facts().markdown
+                                  : r.what == "keys"    ? list_keys().markdown
+                                  : r.what == "columns" ? list_columns().markdown
+                                                        : list_descriptors("", all).markdown;
         console.print(table);
         console.print_json(store::indented({{"markdown", table}}));
         return exit_code::done;
@@ -169,6 +170,7 @@ int list_command(const ListRequest& r) {
     part("taps", taps_json(), taps_text());
     if (asked("suites")) part("suites", suites_json(), suites_text());
     listing("keys", list_keys());
+    listing("columns", list_columns());
     if (asked("scenes")) {
         json["matrix"] = matrix_json(shelf);
         text += "\n" + matrix_text(shelf);

@@ -1,5 +1,7 @@
 #include "bench/command/list_seam.hpp"
 
+#include "bench/study/columns.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -126,6 +128,40 @@ Listing list_facts() {
         json.push_back({{"name", f.name}, {"unit", f.unit}, {"meaning", f.meaning}});
         text += fmt::format("  {:<28}{:<7}{}\n", f.name, f.unit, f.meaning);
         markdown += fmt::format("| `{}` | {} | {} |\n", f.name, f.unit, f.meaning);
+    }
+    return {json.dump(), text, markdown};
+}
+
+Listing list_columns() {
+    struct Line {
+        std::string names;
+        std::string unit, meaning;
+    };
+    std::vector<Line> lines;
+    for (const study::Column& c : study::columns()) {
+        std::string name = c.name;
+        if (name == "{m}") {
+            for (const study::Measure& m : study::measures()) lines.push_back({"`" + m.column + "`", m.unit, m.title});
+            continue;
+        }
+        for (const auto& [slot, word] : {std::pair{"{m}", "<error>"},
+                                         {"{d}", "<error>"},
+                                         {"{M}", "<error_in_model>"},
+                                         {"{w}", "<window>"},
+                                         {"{f}", "<fact>"},
+                                         {"{t}", "<tap>"}})
+            if (const auto at = name.find(slot); at != std::string::npos) name.replace(at, 3, word);
+        if (*c.meaning) lines.push_back({"`" + name + "`", c.unit, c.meaning});
+        else lines.back().names += ", `" + name + "`";
+    }
+    Json json = Json::array();
+    std::string text = "columns\n", markdown = "| column | unit | meaning |\n|---|---|---|\n";
+    for (const Line& l : lines) {
+        std::string names = l.names;
+        std::erase(names, '`');
+        json.push_back({{"name", names}, {"unit", l.unit}, {"meaning", l.meaning}});
+        text += fmt::format("  {:<28}{:<7}{}\n", names, l.unit, l.meaning);
+        markdown += fmt::format("| {} | {} | {} |\n", l.names, l.unit, l.meaning);
     }
     return {json.dump(), text, markdown};
 }

@@ -15,5 +15,6 @@ struct Listing {
 Listing list_descriptors(const char* title, const std::vector<const Descriptor*>&);  // markdown: the capability table of the README
 Listing list_options(const compare::Catalogue&);
 Listing list_facts();
+Listing list_columns();  // of cells.csv
 
 }  // namespace jvari::bench::command

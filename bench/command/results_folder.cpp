@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "bench/command/console.hpp"
 #include "bench/compare/bound.hpp"
+#include "bench/compare/record/convergence_table.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/study/columns.hpp"
 
 namespace jvari::bench::command {
 
@@ -71,6 +74,25 @@ nlohmann::ordered_json with_results(nlohmann::ordered_json own, const std::strin
     own["cheapest"] = Json::parse(store::rows_json(cheapest));
     own["files"] = files;
     return own;
+}
+
+std::vector<std::string> write_tables(const std::filesystem::path& folder, const store::Table& cells) {
+    std::vector<std::string> files;
+    const auto write = [&](const char* name, const store::Table& table) {
+        store::write_fresh(folder / name, store::csv(table));
+        files.push_back((folder / name).string());
+    };
+    write("cells.csv", cells);
+    write("errors.csv", study::errors_only(cells));
+    write("cost.csv", study::cost_only(cells));
+    if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty()) write("convergence.csv", orders);
+    return files;
+}
+
+int code_of(const std::vector<study::Record>& records) {
+    const auto is = [](const char* status) { return [status](const study::Record& r) { return r.cell.status() == status; }; };
+    if (records.empty() || std::ranges::any_of(records, is("ok"))) return exit_code::done;
+    return std::ranges::all_of(records, is("refused")) ? exit_code::refused : exit_code::run_failed;
 }
 
 }  // namespace jvari::bench::command

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "bench/store/records.hpp"
 #include "bench/store/system/listener.hpp"
+#include "bench/study/record.hpp"
 
 namespace jvari::bench::command {
 
@@ -17,6 +19,12 @@ void must_be_ours(const std::filesystem::path& folder, const std::string& what, 
 
 // What they write into, once it is ours: made, found writable, and without the parts that a killed run left.
 void make_folder(const std::filesystem::path& folder);
+
+// cells.csv, errors.csv, cost.csv and, where there are orders to tell, convergence.csv; returns their paths.
+std::vector<std::string> write_tables(const std::filesystem::path& folder, const store::Table& cells);
+
+// The exit code of a study: done where a run of it was, or where there was nothing to run.
+int code_of(const std::vector<study::Record>&);
 
 // What `compare` and `suite` say of their results as JSON, behind what is their own: manifest, cells, cheapest, files.
 nlohmann::ordered_json with_results(nlohmann::ordered_json own, const std::string& manifest, const store::Table& cells,

@@ -10,7 +10,6 @@
 #include "bench/command/console.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/silence.hpp"
-#include "bench/compare/summary.hpp"
 #include "bench/report/run_chart.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/sound/audio_file.hpp"
@@ -21,6 +20,7 @@
 #include "bench/store/records.hpp"
 #include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/study/summary.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::command {
@@ -46,7 +46,7 @@ Settings settings_for(const RunRequest& r, const Descriptor& d) {
 
 // What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
 std::string dearest(const std::vector<Fact>& facts) {
-    const double coupled = compare::fact(facts, facts::coupled_contact_points);
+    const double coupled = study::fact(facts, facts::coupled_contact_points);
     if (!(coupled > 8)) return "";
     return fmt::format(
         ". Dear is its contact: {:.0f} points that push each other are solved together, each step by up to the cube of those that touch; a "
@@ -54,7 +54,7 @@ std::string dearest(const std::vector<Fact>& facts) {
         coupled);
 }
 
-std::string text_for(const compare::Summary& s) {
+std::string text_for(const study::Summary& s) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
     const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<27} {}", name, value); };
     if (s.status.outcome == Outcome::ok) line("status", "ok");
@@ -72,11 +72,11 @@ std::string text_for(const compare::Summary& s) {
     if (!std::isnan(s.largest_contact_force)) line("largest contact force", fmt::format("{:.6g} N", s.largest_contact_force));
     if (!std::isnan(s.deepest_penetration)) line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
     for (const Fact& f : s.facts) line(f.name.c_str(), fmt::format("{:.6g} {}", f.value, f.unit));
-    for (const compare::Flag& f : compare::flags_of(s)) text += "\n! " + f.sentence;
+    for (const study::Flag& f : study::flags_of(s)) text += "\n! " + f.sentence;
     return text;
 }
 
-Json json_of(const compare::Summary& s) {
+Json json_of(const study::Summary& s) {
     Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", name_of(s.status.outcome)}};
     if (s.status.outcome != Outcome::ok) j["step"] = s.status.step;
     j["rate"] = s.rate;  // NaN becomes null
@@ -94,7 +94,7 @@ Json json_of(const compare::Summary& s) {
     j[facts::largest_contact_force.name] = s.largest_contact_force;
     j[facts::deepest_penetration.name] = s.deepest_penetration;
     j["flags"] = Json::object();
-    for (const compare::Flag& f : compare::flags_of(s)) j["flags"][f.name] = f.sentence;
+    for (const study::Flag& f : study::flags_of(s)) j["flags"][f.name] = f.sentence;
     j["facts"] = Json::object();
     for (const Fact& f : s.facts) j["facts"][f.name] = f.value;
     return j;
@@ -120,7 +120,7 @@ store::TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene&
 }
 
 // What is known of the run once it is done.
-void add_attributes(store::TraceFile& file, const compare::Summary& s) {
+void add_attributes(store::TraceFile& file, const study::Summary& s) {
     const auto add = [&file](const std::string& name, const std::string& value) { file.attributes.emplace_back(name, value); };
     add("modes", std::to_string(s.modes));
     add("dofs", std::to_string(s.dofs));
@@ -193,7 +193,7 @@ int run_command(const RunRequest& r) {
         };
         result = run(d, scene, settings, options);
     }
-    const compare::Summary summary = compare::summary_of(d, scene, settings, result);
+    const study::Summary summary = study::summary_of(d, scene, settings, result);
     Json json = json_of(summary);
     std::string text = text_for(summary);
     if (!r.out.empty()) {
@@ -207,7 +207,7 @@ int run_command(const RunRequest& r) {
     }
     if (vega) {
         const std::string rate = std::isnan(summary.rate) ? "continuous time" : fmt::format("{:g} kHz", summary.rate / 1000);
-        const std::string flags = names_of(compare::flags_of(summary));
+        const std::string flags = names_of(study::flags_of(summary));
         const std::string subtitle = fmt::format("{}, {}{}", rate, scene.source, flags.empty() ? "" : "; not to be trusted: " + flags);
         draw(r.plot, {fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, result.trace}, *vega);
         json["plot"] = r.plot;

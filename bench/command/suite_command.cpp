@@ -14,8 +14,8 @@
 #include "bench/command/slurm_script.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/convergence_table.hpp"
+#include "bench/compare/record/pareto.hpp"
 #include "bench/compare/record/scaling_table.hpp"
 #include "bench/compare/record/spread.hpp"
 #include "bench/map/map_report.hpp"
@@ -26,9 +26,11 @@
 #include "bench/store/machine.hpp"
 #include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/interruption.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/run.hpp"
 #include "bench/suite/ensemble_facet.hpp"
 #include "bench/suite/facet.hpp"
-#include "bench/suite/suite_run.hpp"
+#include "bench/suite/suite_plan.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::command {
@@ -37,45 +39,36 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-store::Table clock_only(const store::Table& cells) {  // what errors_only leaves out, beside what names the cell
-    const store::Table rest = compare::errors_only(cells);
-    std::vector<std::string> names{"cell", "scene", "scheme", "rate", "modes", "status"};
-    for (const std::string& name : cells.columns)
-        if (rest.column(name) < 0) names.push_back(name);
-    return cells.only(names);
-}
-
-std::string manifest_of(const suite::Suite& suite, const suite::SuitePlan& plan) {
+std::string manifest_of(const suite::Suite& suite, const study::Plan& plan) {
     std::map<std::string, std::string> sources;
     std::map<std::string, std::string> scenes;  // of what is swept the first
-    for (const suite::PlannedCell& c : plan.cells) {
+    for (const study::Job& c : plan.jobs) {
         sources[c.cell.scheme->name] = c.cell.scheme->source;
         if (!scenes.contains(c.point->scene.name)) scenes[c.point->scene.name] = write_scene(suite::without_drawn_taps(c.point->scene));
     }
     Json manifest = Json::parse(store::made_by());
     manifest.update({{"suite", suite.name},
                      {"source", suite.source},
-                     {"cells", plan.cells.size()},
+                     {"cells", plan.jobs.size()},
                      {"maps", suite.maps.size()},
                      {"schemes", sources},
                      {"scenes", scenes}});
     return store::indented(manifest);
 }
 
-std::string table_text(const suite::SuitePlan& plan, const suite::SuiteRun& run, const store::Table& cells) {
+std::string table_text(const study::Plan& plan, const study::Study& run, const store::Table& cells) {
     const std::string headline = compare::headline_error(cells, store::all_rows(cells));
     std::vector<std::array<std::string, 8>> rows{{"scene", "scheme", "rate", "modes", "status", headline.substr(6), "s per s", ""}};
     std::map<std::string, int> statuses;
-    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
-        const store::Table& row = run.records[i].row;
-        const suite::PlannedCell& c = plan.cells[i];
-        ++statuses[row.at(0, "status")];
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+        const study::Job& c = plan.jobs[i];
+        ++statuses[cells.at(i, "status")];
         std::string what = c.point->scene.name;
         for (const auto& [key, value] : c.point->swept) what += " " + key + "=" + value;
-        const double cost = row.number(0, "cost_s_per_s");
-        rows.push_back({what, store::variant_name(c.cell.scheme->name, store::options_text(c.cell.settings.options)), row.at(0, "rate"),
-                        row.at(0, "modes"), row.at(0, "status"), compare::error_text(compare::bound_of(row, 0, headline), "{:.2e}"),
-                        std::isnan(cost) ? "" : fmt::format("{:.3g}", cost), row.at(0, "reason")});
+        const double cost = cells.number(i, "cost_s_per_s");
+        rows.push_back({what, store::variant_name(c.cell.scheme->name, store::options_text(c.cell.settings.options)), cells.at(i, "rate"),
+                        cells.at(i, "modes"), cells.at(i, "status"), compare::error_text(compare::bound_of(cells, i, headline), "{:.2e}"),
+                        std::isnan(cost) ? "" : fmt::format("{:.3g}", cost), cells.at(i, "reason")});
     }
     std::array<std::size_t, 8> widths{};
     for (const auto& row : rows)
@@ -84,14 +77,14 @@ std::string table_text(const suite::SuitePlan& plan, const suite::SuiteRun& run,
     for (const auto& r : rows)
         text += fmt::format("  {:<{}} {:<{}} {:>{}} {:>{}}  {:<{}} {:>{}} {:>{}}  {}\n", r[0], widths[0], r[1], widths[1], r[2], widths[2],
                             r[3], widths[3], r[4], widths[4], r[5], widths[5], r[6], widths[6], r[7]);
-    text += fmt::format("{} cells, {} run, {} timed, {} read back:", plan.cells.size(), run.ran, run.timed, run.read_back);
+    text += fmt::format("{} cells, {} run, {} timed, {} read back:", plan.jobs.size(), run.ran, run.timed, run.read_back);
     for (const auto& [status, count] : statuses) text += fmt::format(" {} {}", count, status);
     return text;
 }
 
-std::string kept_text(const suite::SuitePlan& plan, const fs::path& folder) {
+std::string kept_text(const study::Plan& plan, const fs::path& folder) {
     if (folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
-    return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", suite::kept_of(plan, folder), folder.string());
+    return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", study::kept_of(plan, folder), folder.string());
 }
 
 int print_script(const SuiteRequest& r, const suite::Suite& suite, const Console& console) {
@@ -111,11 +104,6 @@ void note_missing_locks(const fs::path& folder, const Console& console) {
     }
 }
 
-int code_of(const std::vector<suite::SuiteRecord>& records) {
-    const auto is = [](const char* status) { return [status](const suite::SuiteRecord& r) { return r.row.at(0, "status") == status; }; };
-    if (records.empty() || std::any_of(records.begin(), records.end(), is("ok"))) return exit_code::done;  // empty: a suite of maps alone
-    return std::all_of(records.begin(), records.end(), is("refused")) ? exit_code::refused : exit_code::run_failed;
-}
 }  // namespace
 
 int suite_command(const SuiteRequest& r) {
@@ -124,7 +112,7 @@ int suite_command(const SuiteRequest& r) {
     const suite::Suite suite = suite::read_suite(r.suite);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
-    suite::SuitePlan plan = suite::plan_of(suite, catalogue, r.plugins);
+    study::Plan plan = suite::plan_of(suite, catalogue, r.plugins);
     if (!r.print.empty()) return print_script(r, suite, console);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
@@ -134,11 +122,11 @@ int suite_command(const SuiteRequest& r) {
         if (r.resume) note_missing_locks(folder, console);
     }
     const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
-    if (r.resume) suite::keep_references_in(plan, folder / "references");
+    if (r.resume) study::keep_references_in(plan, folder / "references");
     const map::RecordedMaps maps =
         map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs}, console);
-    const suite::SuiteRun run = suite::run_suite(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
-    const store::Table cells = suite::table_of(plan, run.records);
+    const study::Study run = study::run(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
+    const store::Table cells = compare::with_front(study::table_of(plan, run.records));
     const std::string manifest = manifest_of(suite, plan);
     const store::Table cheapest = compare::cheapest_of(cells);
     Json files = maps.files;
@@ -147,27 +135,23 @@ int suite_command(const SuiteRequest& r) {
             store::write_fresh(folder / name, content);
             files.push_back((folder / name).string());
         };
-        if (!plan.cells.empty()) {
-            write("cells.csv", store::csv(cells));
-            write("errors.csv", store::csv(compare::errors_only(cells)));
-            write("cost.csv", store::csv(clock_only(cells)));
-        }
+        if (!plan.jobs.empty())
+            for (const std::string& file : write_tables(folder, cells)) files.push_back(file);
         for (const suite::Facet& f : suite::facets())
-            if (const store::Table rows = suite::rows_of(f.name, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
+            if (const store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
             else if (!rows.rows.empty()) write((std::string(f.name) + ".csv").c_str(), store::csv(rows));
-        if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty()) write("convergence.csv", store::csv(orders));
-        if (const store::Table scaling = compare::scaling_of(cells, suite::sets_of(plan)); !scaling.rows.empty())
+        if (const store::Table scaling = compare::scaling_of(cells, study::sets_of(plan)); !scaling.rows.empty())
             write("scaling.csv", store::csv(scaling));
         write("manifest.json", manifest + "\n");
         for (const report::DrawnFigure& f : report::draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
-        if (!plan.cells.empty() || !suite.maps.empty())
+        if (!plan.jobs.empty() || !suite.maps.empty())
             for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
     }
     // Files first: nothing is lost where nobody reads this.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
-    if (!plan.cells.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
+    if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
-    if (const store::Table told = suite::rows_of(suite::measured::ensemble, plan, run.records); !told.rows.empty())
+    if (const store::Table told = study::rows_of(suite::measured::ensemble, plan, run.records); !told.rows.empty())
         console.print("by 32 runs of each\n" + suite::ensemble_text(told));
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + folder.string());

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/compare/summary.hpp"
 #include "bench/compare/variants.hpp"
 #include "bench/store/rates.hpp"
+#include "bench/study/summary.hpp"
 #include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/controls.hpp"
@@ -54,7 +54,7 @@ Made made(const Descriptor& d, const Scene& scene, const Settings& settings) {
         const auto scheme = make_scheme(d, scene, settings);
         const std::vector<Fact> facts = scheme->facts();
         const auto count = [&facts](const char* name) {
-            const double n = fact(facts, name);
+            const double n = study::fact(facts, name);
             return n > 0 ? static_cast<int>(n) : 0;
         };
         return {false, count("interior_nodes"), count("contact_points")};
@@ -94,9 +94,9 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     return chosen;
 }
 
-std::vector<ReferenceChoice> references_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene,
-                                            const Settings& at_highest, const Descriptor& first_scheme, std::vector<bool>& used) {
-    std::vector<ReferenceChoice> choices;
+std::vector<study::ReferenceChoice> references_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene,
+                                                   const Settings& at_highest, const Descriptor& first_scheme, std::vector<bool>& used) {
+    std::vector<study::ReferenceChoice> choices;
     const auto add = [&](const Descriptor& d, const std::string& note) {
         Settings s = at_highest;
         if (d.clock == Clock::continuous) s.sample_rate = 0;
@@ -138,7 +138,7 @@ void add_cells(Plan& plan, const CompareRequest& r, const Descriptor& d, const S
     if (d.clock != Clock::continuous) settings.modes = modes_of(d, scene, r, at_lowest, plan.notes);
     for (const Rung& rung : rungs_of(r, d, scene, settings, form.rates))
         for (const double rate : rung.rates) {
-            Cell cell{&d, settings};
+            study::Cell cell{&d, settings};
             cell.settings.modes = rung.modes;
             cell.settings.sample_rate = rate;
             cell.added = rung.added;

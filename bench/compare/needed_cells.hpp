@@ -11,12 +11,12 @@
 
 #include <vector>
 
-#include "bench/compare/compare.hpp"
+#include "bench/study/cell.hpp"
 
 namespace jvari::bench::compare {
 
 // Cells that were run over the window, their headline errors and what the reference is uncertain by there (NaN: unknown, counts as 0).
 // Those that are not needed get needed = false and a reason.
-void mark_needed(std::vector<Cell>&, const std::vector<double>& errors, double certificate);
+void mark_needed(std::vector<study::Cell>&, const std::vector<double>& errors, double certificate);
 
 }  // namespace jvari::bench::compare

@@ -46,7 +46,8 @@ void columns_alone(const store::Table& a, const store::Table& b, std::vector<std
 
 void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     const bool with_modes = modes_name(a.cells) || modes_name(b.cells);
-    const auto pairs = in_both(named_cells(a.cells, with_modes), named_cells(b.cells, with_modes), d.cells);
+    const bool with_scene = a.cells.column("scene") >= 0 && b.cells.column("scene") >= 0;  // comparisons of before had no such column
+    const auto pairs = in_both(named_cells(a.cells, with_modes, with_scene), named_cells(b.cells, with_modes, with_scene), d.cells);
     d.cells_in_both = static_cast<int>(pairs.size());
     columns_alone(a.cells, b.cells, d.columns.before);
     columns_alone(b.cells, a.cells, d.columns.after);

@@ -113,10 +113,11 @@ bool modes_name(const store::Table& cells) {
     return false;
 }
 
-Named named_cells(const store::Table& cells, bool with_modes) {
+Named named_cells(const store::Table& cells, bool with_modes, bool with_scene) {
     Named named;
     std::map<std::string, int> seen;
-    const auto names = store::naming_columns(cells);
+    auto names = store::naming_columns(cells);
+    if (!with_scene) std::erase(names, "scene");
     for (std::size_t i = 0; i < cells.rows.size(); ++i) {
         const std::string modes = with_modes && !cells.at(i, "modes").empty() ? ", " + cells.at(i, "modes") + " modes" : "";
         named[counted(seen, cell_text(cells, i, names) + modes)] = i;

@@ -37,7 +37,7 @@ Folder read_folder(const std::filesystem::path&);
 
 // Rows by the text that names them: scene, swept keys, scheme, options and rate; the modes too where a table has several at one rate.
 using Named = std::map<std::string, std::size_t>;
-Named named_cells(const store::Table& cells, bool with_modes);
+Named named_cells(const store::Table& cells, bool with_modes, bool with_scene);
 bool modes_name(const store::Table& cells);  // two rows differ in their modes alone
 
 // Rows by the values of these columns, "x=1 y=2"; where several have the same, the second is "... #2".

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "bench/compare/bound.hpp"
-#include "bench/compare/errors.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/errors.hpp"
 
 namespace jvari::bench::diff {
 
@@ -13,23 +14,15 @@ constexpr double floors = 1000, rounding = 1e-9, centroid = 1e3;  // [Hz]
 constexpr double row = 1.0 / 44100;                               // [s]
 
 template <std::size_t n>
-bool one_of(const std::string& column, const char* const (&names)[n]) {
-    return std::any_of(names, names + n, [&](const char* name) { return column == name; });
-}
-template <std::size_t n>
 bool begins(const std::string& column, const char* const (&names)[n]) {
     return std::any_of(names, names + n, [&](const char* name) { return column.starts_with(name); });
 }
 
-bool is_text(const std::string& column) {
-    return one_of(column, {"scene", "scheme", "options", "status", "flags", "reference", "reference_doubling", "reason"});
-}
-
-bool is_closed_form(const std::string& column) {  // or a count that the settings fix
-    return begins(
-        column, {"fact_static_compliance", "fact_start_phase_offset", "fact_start_phase_error", "fact_period_error_cents", "fact_loss_fit_",
-                 "fact_grid_intervals", "fact_interior_nodes", "fact_modes_above_nyquist", "fact_contact_points", "fact_bridge_nodes",
-                 "fact_theta", "fact_stable_stiffness_limit", "rate", "modes", "dofs", "state_bytes", "steps"});
+// Facts that follow from closed forms, or count what the settings fix.
+bool is_closed_form(const std::string& column) {
+    return begins(column, {"fact_static_compliance", "fact_start_phase_offset", "fact_start_phase_error", "fact_period_error_cents",
+                           "fact_loss_fit_", "fact_grid_intervals", "fact_interior_nodes", "fact_modes_above_nyquist",
+                           "fact_contact_points", "fact_bridge_nodes", "fact_theta", "fact_stable_stiffness_limit"});
 }
 
 // The row's own sensitivity: the largest noise floor of its relative L2 errors.
@@ -54,15 +47,17 @@ double tolerance_of(const std::string& column, const store::Table& before, std::
         const double noise = floors * floor + rounding * (old + (column.starts_with("centroid_hz") ? centroid : 0));
         return of_scene == column ? noise : std::fmax(noise, motion);
     }
-    if (column.starts_with("floor_")) return 9 * old + 1e-9;
-    if (column.starts_with("horizon_s") || column == "failed_at_s") return 2 * row;
-    if (column == "failed_step") return 2;
-    if (column.starts_with("energy_residual")) return 1e-9 + motion;
-    if (column == "smallest_contact_force") return 1e-9 + motion;  // [N]
-    if (column == "deepest_penetration") return 1e-15 + motion;    // [m]
-    if (is_closed_form(column)) return rounding * old;
-    if (column.starts_with("fact_")) return 1e-9 + 1e-2 * old;
-    return motion;
+    switch (study::rule_of(column)) {
+        case study::Rule::floor: return 9 * old + 1e-9;
+        case study::Rule::instant: return 2 * row;
+        case study::Rule::step: return 2;
+        case study::Rule::ledger:
+        case study::Rule::force: return 1e-9 + motion;   // [1], [N]
+        case study::Rule::depth: return 1e-15 + motion;  // [m]
+        case study::Rule::closed_form: return rounding * old;
+        case study::Rule::fact: return is_closed_form(column) ? rounding * old : 1e-9 + 1e-2 * old;
+        default: return column.starts_with("horizon_s") ? 2 * row : motion;
+    }
 }
 
 bool same_number(double before, double after, double tolerance) {
@@ -73,7 +68,7 @@ bool same_number(double before, double after, double tolerance) {
 int worse_where_larger(const std::string& column) {
     for (const char* name : {"energy_residual", "error_in_model", "certificate"})
         if (column.starts_with(name)) return 1;
-    for (const compare::Measure& m : compare::measures())
+    for (const study::Measure& m : study::measures())
         if (column.starts_with(m.column)) return m.less_is_better ? 1 : -1;
     return 0;
 }
@@ -92,9 +87,7 @@ const char* name_of(Turn t) {
 }
 
 bool is_cost(const std::string& column) {
-    return one_of(column,
-                  {"pareto", "repeats", "ns_per_step", "times_real_time", "worst_block_of_deadline", "machine", "load", "governor"}) ||
-           begins(column, {"cost_", "processor_", "wall_seconds"});
+    return study::rule_of(column) == study::Rule::clock;
 }
 
 bool is_judged(const std::string& column) {
@@ -102,11 +95,11 @@ bool is_judged(const std::string& column) {
 }
 
 bool is_skipped(const std::string& column) {
-    return column == "cell" || column == "below_floor";
+    return study::rule_of(column) == study::Rule::name;
 }
 
 Turn turn_of(const std::string& column, const store::Table& before, std::size_t i, const store::Table& after, std::size_t k) {
-    if (is_text(column)) return text_turn(column, before.at(i, column), after.at(k, column));
+    if (study::rule_of(column) == study::Rule::text) return text_turn(column, before.at(i, column), after.at(k, column));
     const double was = before.number(i, column), is = after.number(k, column);
     if (same_number(was, is, tolerance_of(column, before, i))) return Turn::same;
     const int sign = worse_where_larger(column);

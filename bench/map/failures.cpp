@@ -62,7 +62,7 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalog
         const fs::path folder = request.folder.empty() ? fs::path() : request.folder / store::hash_of(identity);
         const store::FileLock lock(folder, "minimises how " + std::string(r.trial.scheme->name) + " fails");
         if (request.resume && read_back(folder, catalogue, r)) return;
-        const compare::ProgressOf look = [&done](long, long) { done.look(); };
+        const study::ProgressOf look = [&done](long, long) { done.look(); };
         const Verdict wanted = r.expected.verdict;
         r.trial = minimised(r.trial, [&](const Trial& t) { return run_trial(t, truths, look).judgement.verdict == wanted; });
         r.trial.scene.name += "_minimised";

@@ -67,7 +67,7 @@ std::string identity_of(const Trial& t) {
         .dump();
 }
 
-const Truths::Truth& Truths::of(const Trial& t, const compare::ProgressOf& progress) {
+const Truths::Truth& Truths::of(const Trial& t, const study::ProgressOf& progress) {
     static const Truth none;
     if (t.reference == "none") return none;
     const Descriptor& named = !t.reference.empty()            ? catalogue_.find(t.reference)
@@ -87,7 +87,7 @@ const Truths::Truth& Truths::of(const Trial& t, const compare::ProgressOf& progr
     return *truth;
 }
 
-void Truths::make(Truth& truth, const Trial& t, const compare::ProgressOf& progress) const {
+void Truths::make(Truth& truth, const Trial& t, const study::ProgressOf& progress) const {
     RunOptions options;
     options.progress = progress;
     std::vector<const Descriptor*> candidates = catalogue_.references;
@@ -106,7 +106,7 @@ void Truths::make(Truth& truth, const Trial& t, const compare::ProgressOf& progr
         }
 }
 
-Tried run_trial(const Trial& t, Truths& truths, const compare::ProgressOf& progress) {
+Tried run_trial(const Trial& t, Truths& truths, const study::ProgressOf& progress) {
     Tried tried;
     const Scene scene = listened(t.scene);
     RunOptions probed;

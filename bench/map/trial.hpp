@@ -48,17 +48,17 @@ public:
         std::string name;  // "": none represents the scene, or none came to the end
         Trace trace;
     };
-    const Truth& of(const Trial&, const compare::ProgressOf& = {});
+    const Truth& of(const Trial&, const study::ProgressOf& = {});
     const compare::Catalogue& catalogue() const { return catalogue_; }
 
 private:
-    void make(Truth&, const Trial&, const compare::ProgressOf&) const;
+    void make(Truth&, const Trial&, const study::ProgressOf&) const;
     const compare::Catalogue& catalogue_;
     const std::filesystem::path folder_;
     std::mutex mutex_;
     std::map<std::string, std::unique_ptr<Truth>> truths_;
 };
 
-Tried run_trial(const Trial&, Truths&, const compare::ProgressOf& = {});  // what that throws ends it
+Tried run_trial(const Trial&, Truths&, const study::ProgressOf& = {});  // what that throws ends it
 
 }  // namespace jvari::bench::map

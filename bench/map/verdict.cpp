@@ -9,8 +9,8 @@
 
 #include "analysis/energy.hpp"
 #include "analysis/error.hpp"
-#include "bench/compare/summary.hpp"
 #include "bench/store/records.hpp"
+#include "bench/study/summary.hpp"
 
 namespace jvari::bench::map {
 
@@ -42,9 +42,9 @@ Judgement judge(const Figures& f) {
     if (f.displacement > std::sqrt(energy_budget))
         return {Verdict::diverged, fmt::format("displacement {:.3g} times what its energy allows", f.displacement), 0};
     if (stopped) return {Verdict::not_converged, fmt::format("at step {}", f.status.step), f.status.step};
-    if (f.energy_gain > (f.balance == Balance::exact ? compare::energy_allowed : gain_allowed_unpromised))
+    if (f.energy_gain > (f.balance == Balance::exact ? study::energy_allowed : gain_allowed_unpromised))
         return {Verdict::energy_gaining, fmt::format("{:.3g} of its energy gained", f.energy_gain), 0};
-    if (f.pull > compare::pull_allowed) return {Verdict::adhesive, fmt::format("pulls by {:.3g} of the largest contact force", f.pull), 0};
+    if (f.pull > study::pull_allowed) return {Verdict::adhesive, fmt::format("pulls by {:.3g} of the largest contact force", f.pull), 0};
     if (f.error > error_allowed) return {Verdict::inaccurate, fmt::format("error {:.3g}", f.error), 0};
     if (std::isnan(f.displacement) && std::isnan(f.energy_gain) && std::isnan(f.pull) && std::isnan(f.error))
         return {Verdict::unjudged, "no energy, no smallest contact force and no reference to judge it by", 0};
@@ -71,8 +71,7 @@ Figures figures_of(const Descriptor& d, const Scene& scene, const Run& run, cons
     const EnergyGain energy = energy_gain(run.trace);
     f.energy_gain = energy.largest;
     f.displacement = f.error = store::nan;
-    f.pull =
-        compare::pull_of(compare::fact(run.facts, facts::smallest_contact_force), compare::fact(run.facts, facts::largest_contact_force));
+    f.pull = study::pull_of(study::fact(run.facts, facts::smallest_contact_force), study::fact(run.facts, facts::largest_contact_force));
     for (int k = 0; k < run.trace.taps(); ++k) {
         const Tap& tap = scene.taps[k];
         if (tap.quantity == Quantity::displacement) {

@@ -33,7 +33,7 @@ struct Figures {              // NaN where a run has no such figure
     Status status;            // of the run
     double displacement = 0;  // largest |y| over sqrt(E L/(2T))
     double energy_gain = 0;   // largest excess over the ledger, over E
-    double pull = 0;          // compare::pull_of the run
+    double pull = 0;          // study::pull_of the run
     double error = 0;         // relative L2 of the nut force
     Balance balance = Balance::exact;
 };

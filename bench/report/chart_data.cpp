@@ -9,9 +9,9 @@
 #include <set>
 
 #include "bench/compare/bound.hpp"
-#include "bench/compare/errors.hpp"
 #include "bench/compare/record/pareto.hpp"
 #include "bench/report/identity.hpp"
+#include "bench/study/errors.hpp"
 
 namespace jvari::bench::report {
 
@@ -136,7 +136,7 @@ std::string chart_fronts(const WorkPrecision& w) {
 std::vector<Axis> error_axes(const store::Table& cells, const std::vector<std::string>& taps, const std::string& first) {
     std::vector<Axis> axes;
     for (const std::string& tap : taps)
-        for (const compare::Measure& m : compare::measures()) {
+        for (const study::Measure& m : study::measures()) {
             const Axis axis{m.column + (tap.empty() ? "" : "_" + tap), m.title + (tap.empty() ? "" : ", tap " + tap), m.column, tap};
             bool finite = false;
             for (std::size_t i = 0; i < cells.rows.size(); ++i) finite = finite || std::isfinite(cells.number(i, axis.column));

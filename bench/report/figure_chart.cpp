@@ -100,11 +100,10 @@ const Json config = {{"font", "system-ui, -apple-system, 'Segoe UI', 'DejaVu San
                      {"header", {{"title", nullptr}, {"labelFontSize", 12}, {"labelFontWeight", "bold"}, {"labelAnchor", "start"}}},
                      {"legend", {{"labelFontSize", 12}, {"labelLimit", 500}, {"symbolStrokeWidth", 3}}}};
 
-std::string spectrogram_figure(const suite::Figure& f, const suite::SuitePlan& plan, const std::vector<suite::SuiteRecord>& records,
-                               const store::Table& cells) {
+std::string spectrogram_figure(const suite::Figure& f, const std::vector<study::Record>& records, const store::Table& cells) {
     std::vector<Panel> panels;
     for (std::size_t i = 0; i < records.size(); ++i)
-        if (plan.cells[i].set->measures(suite::measured::spectrogram) && chosen(f, cells, i))
+        if (records[i].levels.frames > 0 && chosen(f, cells, i))
             panels.push_back({name_in(f, cells, i, f.colour), name_in(f, cells, i, f.panels), cells.at(i, "status"), records[i].levels});
     if (panels.empty()) throw store::UsageError("no cell with a spectrogram is left by `where`");
     const int scale = panels.size() == 1 ? 2 : 1;
@@ -226,14 +225,13 @@ std::vector<DrawnFigure> drawn(const std::vector<suite::Figure>& figures, const 
 }
 }  // namespace
 
-std::vector<DrawnFigure> draw_figures(const suite::Suite& suite, const suite::SuitePlan& plan,
-                                      const std::vector<suite::SuiteRecord>& records, const store::Table& cells,
-                                      const store::Listener& listener) {
+std::vector<DrawnFigure> draw_figures(const suite::Suite& suite, const study::Plan& plan, const std::vector<study::Record>& records,
+                                      const store::Table& cells, const store::Listener& listener) {
     if (suite.figures.empty()) return {};
     return drawn(suite.figures, listener, [&](const suite::Figure& f) {
-        if (f.kind == suite::FigureKind::spectrogram) return spectrogram_figure(f, plan, records, cells);
+        if (f.kind == suite::FigureKind::spectrogram) return spectrogram_figure(f, records, cells);
         for (const suite::Facet& facet : suite::facets())
-            if (facet.rows && f.table == facet.name) return figure_spec(f, suite::rows_of(facet.name, plan, records));
+            if (facet.rows && f.table == facet.name) return figure_spec(f, study::rows_of(facet.name, plan, records));
         return figure_spec(f, cells);
     });
 }

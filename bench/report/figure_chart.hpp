@@ -8,8 +8,9 @@
 #include "bench/store/records.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/study/columns.hpp"
 #include "bench/suite/figure_file.hpp"
-#include "bench/suite/suite_record.hpp"
+#include "bench/suite/suite_file.hpp"
 
 namespace jvari::bench::report {
 
@@ -20,8 +21,8 @@ struct DrawnFigure {
     std::string file, svg;
 };
 // What cannot be drawn is said as a note, with the reason, and left out.
-std::vector<DrawnFigure> draw_figures(const suite::Suite&, const suite::SuitePlan&, const std::vector<suite::SuiteRecord>&,
-                                      const store::Table& cells, const store::Listener&);
+std::vector<DrawnFigure> draw_figures(const suite::Suite&, const study::Plan&, const std::vector<study::Record>&, const store::Table& cells,
+                                      const store::Listener&);
 // Of a folder whose manifest names a suite of the library: its figures again, of the tables that lie there. Spectrograms have none.
 std::vector<DrawnFigure> redraw_figures(const std::filesystem::path& folder, const store::Listener&);
 

@@ -77,7 +77,7 @@ Json spectrum(const std::string& title, std::span<const double> x, double rate, 
 }
 
 Json spectrogram_panel(const std::string& title, std::span<const double> x, double rate) {
-    Json one = Json::parse(spectrogram_spec("", "", {{title, "", "", suite::levels_of(x, rate)}}, 2800)).at("concat").at(0);
+    Json one = Json::parse(spectrogram_spec("", "", {{title, "", "", study::levels_of(x, rate)}}, 2800)).at("concat").at(0);
     one["width"] = width;
     one["height"] = 160;
     one["title"] = {{"text", title}, {"anchor", "start"}, {"fontSize", 12}};

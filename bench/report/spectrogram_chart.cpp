@@ -32,8 +32,8 @@ struct Tile {
 };
 
 // The strongest of the merged cells, in steps of level; -range for background.
-int stepped(const suite::Levels& l, int frame, int row, const Steps& s, int top) {
-    int strongest = suite::silent_level;
+int stepped(const study::Levels& l, int frame, int row, const Steps& s, int top) {
+    int strongest = study::silent_level;
     for (int m = frame; m < std::min(frame + s.frames, l.frames); ++m)
         for (int r = row; r < std::min(row + s.rows, l.rows); ++r)
             strongest = std::max(strongest, l.level[static_cast<std::size_t>(m) * l.rows + r]);
@@ -45,8 +45,8 @@ std::vector<Tile> tiles_of(const std::vector<Panel>& panels, int top, const Step
     std::vector<Tile> tiles;
     const int background = layer == Layer::level ? -range : 0;
     for (std::size_t p = 0; p < panels.size(); ++p) {
-        const suite::Levels& l = panels[p].levels;
-        const suite::Levels* against = panels[p].against ? &*panels[p].against : nullptr;
+        const study::Levels& l = panels[p].levels;
+        const study::Levels* against = panels[p].against ? &*panels[p].against : nullptr;
         if (layer == Layer::difference && !against) continue;
         const auto level_at = [&](int m, int row) {
             const int own = stepped(l, m, row, s, top);
@@ -122,12 +122,12 @@ double rounded(double x) {
 }  // namespace
 
 std::string spectrogram_spec(const std::string& title, const std::string& subtitle, std::vector<Panel> panels, int most) {
-    int top = suite::silent_level;
+    int top = study::silent_level;
     double first = HUGE_VAL, last = 0, highest = 1;
     int frames = 1;
     std::vector<std::string> across, down;
     for (const Panel& p : panels) {
-        const suite::Levels& l = p.levels;
+        const study::Levels& l = p.levels;
         add_once(across, p.across);
         add_once(down, p.down);
         for (int level : l.level) top = std::max(top, level);

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "bench/suite/spectrogram_levels.hpp"
+#include "bench/study/spectrogram_levels.hpp"
 
 namespace jvari::bench::report {
 
 struct Panel {
     std::string across, down;  // names of its column and of its row
     std::string status;        // stands where there is no spectrogram: "refused"
-    suite::Levels levels;
-    std::optional<suite::Levels> against{};  // on the same grid: with it the signal `shown_field`, "level" or "difference", chooses
+    study::Levels levels;
+    std::optional<study::Levels> against{};  // on the same grid: with it the signal `shown_field`, "level" or "difference", chooses
 };
 void add_once(std::vector<std::string>& names, const std::string& name);  // at the end
 

@@ -7,10 +7,10 @@
 #include <deque>
 #include <map>
 
-#include "bench/compare/errors.hpp"
 #include "bench/store/base64.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/sound.hpp"
+#include "bench/study/errors.hpp"
 
 namespace jvari::bench::suite {
 
@@ -35,7 +35,7 @@ std::vector<std::int16_t> samples_of(const std::string& text) {
 
 store::Table sound_rows(const MeasuredCell& c) {
     store::Table t{{"tap", "quantity", "sample_rate", "peak", "samples", "reference_peak", "reference_samples"}, {}};
-    const int tap = compare::headline_of(c.scene).nut;
+    const int tap = study::headline_of(c.scene).nut;
     const auto whole = static_cast<std::size_t>(c.scene.duration * c.trace.tap_rate);
     if (c.trace.column(tap).size() < whole) return t;  // it failed on its way
     const store::Sound own = store::sound_of(c.trace.column(tap), c.trace.tap_rate);

@@ -55,9 +55,9 @@ std::vector<std::string> names_of_facets() {
     return all;
 }
 
-store::Kind<compare::Element> element() {
-    std::vector<std::pair<std::string, compare::Element>> words;
-    for (const compare::Element e : compare::elements()) words.emplace_back(compare::name_of(e), e);
+store::Kind<study::Element> element() {
+    std::vector<std::pair<std::string, study::Element>> words;
+    for (const study::Element e : study::elements()) words.emplace_back(study::name_of(e), e);
     return store::one_of("element", std::move(words));
 }
 
@@ -229,7 +229,7 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
                     });
                 for (const compare::CompareRequest& r : requests) {
                     points.push_back({&set, r});
-                    for (const compare::Element e : set.elements) points.push_back({&set, r, e});
+                    for (const study::Element e : set.elements) points.push_back({&set, r, e});
                 }
             }
     return points;

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/compare/elements.hpp"
 #include "bench/compare/request.hpp"
 #include "bench/map/map_file.hpp"
+#include "bench/study/elements.hpp"
 #include "bench/suite/figure_facets.hpp"
 #include "bench/suite/figure_file.hpp"
 
@@ -41,7 +41,7 @@ struct CellSet {
     std::vector<VariedOption> options;
     std::vector<SweptKey> sweep;
     std::vector<std::string> measure{measured::errors};  // names of facets
-    std::vector<compare::Element> elements;
+    std::vector<study::Element> elements;
     std::optional<double> time_limit;  // [s]
     FigureFacets figures;
     bool measures(std::string_view facet) const;
@@ -73,7 +73,7 @@ std::vector<std::string> library_suites();
 struct SuitePoint {
     const CellSet* set;
     compare::CompareRequest request;
-    std::optional<compare::Element> element = {};  // that the scene is to be without
+    std::optional<study::Element> element = {};  // that the scene is to be without
 };
 std::vector<SuitePoint> points_of(const Suite&);
 

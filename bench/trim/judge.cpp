@@ -9,13 +9,13 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/record/compare_record.hpp"
-#include "bench/compare/truth.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/time_limit.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/study/truth.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::trim {
@@ -31,7 +31,7 @@ constexpr double worth_keeping = 5e-3;  // of a verdict: below, a file takes lon
 int tap_named(const Scene& scene, const std::string& name) {
     if (scene.taps.empty())
         throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to judge. A [[tap]] says what to hear");
-    if (name.empty()) return compare::headline_of(scene).nut;
+    if (name.empty()) return study::headline_of(scene).nut;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < scene.taps.size(); ++k) {
         if (scene.taps[k].name == name) return static_cast<int>(k);
@@ -161,8 +161,8 @@ void Judge::run_truth(int start) {
     r.search = false;
     r.tap_rate = request_.tap_rate;
     const compare::Plan plan = compare::plan_of(r, catalogue_, scene);
-    const compare::Truth t = compare::run_truth(plan.references, scene, request_.reference_modes, request_.jobs, listener_);
-    const compare::Reference& of = t.reference;
+    const study::Truth t = study::run_truth(plan.references, scene, request_.reference_modes, request_.jobs, listener_);
+    const study::Reference& of = t.reference;
     if (of.run.status.outcome != Outcome::ok)
         throw Refusal(fmt::format("reference {} {}: there is no truth to trim by", of.choice.name(), name_of(of.run.status.outcome)));
     const auto column = of.run.trace.column(tap_), moved = of.moved.trace.column(tap_);
@@ -177,13 +177,13 @@ void Judge::run_truth(int start) {
         if (of.trust.any()) known.certificate = of.trust.of_scene(tap_, scene_.duration >= 50e-3 ? 1 : 2);
     } else if (!t.coarser.empty()) {  // no bound is known of the others: what the doublings tell
         const auto changed = [&](std::size_t last) {
-            const compare::Reference& more = last < t.coarser.size() ? t.coarser[last] : of;
+            const study::Reference& more = last < t.coarser.size() ? t.coarser[last] : of;
             return target_.measure->error(t.coarser[last - 1].run.trace.column(tap_), more.run.trace.column(tap_), of.run.trace.tap_rate);
         };
         const std::size_t n = t.coarser.size();
-        known.certificate = compare::left_after(changed(n), n > 1 ? changed(n - 1) : store::nan);
+        known.certificate = study::left_after(changed(n), n > 1 ? changed(n - 1) : store::nan);
     }
-    const double depth = compare::fact(of.run.facts, facts::deepest_penetration);
+    const double depth = study::fact(of.run.facts, facts::deepest_penetration);
     known.penetration = depth > 0 ? depth : 1;
     const std::string id = identity({{}, nullptr, {}}, start, "truth");
     keep(id, Json{{"identity", id},
@@ -234,7 +234,7 @@ Verdict Judge::verdict(const Model& m, int start, double limit) {
         const double from = store::processor_seconds();
         const Run r = run(*scheme, scene, m.settings, options);
         v.seconds = store::processor_seconds() - from;
-        const std::string flags = names_of(compare::flags_of(compare::summary_of(*m.scheme, scene, m.settings, r)));
+        const std::string flags = names_of(study::flags_of(study::summary_of(*m.scheme, scene, m.settings, r)));
         v.status = r.status.outcome != Outcome::ok ? name_of(r.status.outcome) : flags.empty() ? "ok" : flags;
         v.dofs = r.dofs;
         if (r.status.outcome == Outcome::ok)

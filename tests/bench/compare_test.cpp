@@ -9,11 +9,11 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/needed_cells.hpp"
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/convergence_table.hpp"
 #include "bench/compare/record/pareto.hpp"
-#include "bench/compare/summary.hpp"
-#include "bench/compare/truth.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/summary.hpp"
+#include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/run.hpp"
@@ -250,8 +250,8 @@ std::vector<double> tone(double hertz, long rows) {
     return x;
 }
 int place_of(const char* column) {
-    for (std::size_t k = 0; k < bench::compare::measures().size(); ++k)
-        if (bench::compare::measures()[k].column == column) return static_cast<int>(k);
+    for (std::size_t k = 0; k < bench::study::measures().size(); ++k)
+        if (bench::study::measures()[k].column == column) return static_cast<int>(k);
     return -1;
 }
 
@@ -261,7 +261,7 @@ TEST(Errors, AWindowEndsWhereItsNameSays) {
     const auto wrong_at = [&](double seconds) {  // in one row
         std::vector<double> x = truth;
         x[std::lround(seconds * 44100)] += 1;
-        return bench::compare::errors_of(trace_of({truth, x}), trace_of({truth, truth}));
+        return bench::study::errors_of(trace_of({truth, x}), trace_of({truth, truth}));
     };
     const std::pair<const char*, double> ends[] = {{"error_l2_10ms", 0.010}, {"error_l2_50ms", 0.050}};
     for (const auto& [column, end] : ends) {
@@ -276,8 +276,8 @@ TEST(Errors, OfATonePitchedAndLoudAsTheyAre) {
     const long rows = 44100;
     std::vector<double> loud = tone(1000, rows);
     for (double& v : loud) v *= 2;
-    const bench::compare::Errors e =
-        bench::compare::errors_of(trace_of({loud, tone(1500, rows)}), trace_of({tone(1000, rows), tone(1000, rows)}));
+    const bench::study::Errors e =
+        bench::study::errors_of(trace_of({loud, tone(1500, rows)}), trace_of({tone(1000, rows), tone(1000, rows)}));
     EXPECT_NEAR(e[0][place_of("third_octave_db")], 20 * std::log10(2), 1e-6);
     EXPECT_NEAR(e[0][place_of("centroid_hz")], 0, 1e-6);
     EXPECT_NEAR(e[1][place_of("centroid_hz")], 500, 1);
@@ -287,57 +287,60 @@ TEST(Errors, OfATonePitchedAndLoudAsTheyAre) {
 // ---- Flags
 
 TEST(Flags, EachIsRaisedAboveItsThresholdAndSaysWhatHappened) {
-    bench::compare::Summary s{};
+    bench::study::Summary s{};
     s.largest_contact_force = 30;
     s.smallest_contact_force = -0.9e-6 * 30;
     s.energy_residual_accumulated = 0.9e-6;
     s.facts = {{"psi_out_of_contact", 0.9e-9, ""}, {"modes_above_nyquist", 0, ""}};
-    EXPECT_EQ(names_of(bench::compare::flags_of(s)), "");
+    EXPECT_EQ(names_of(bench::study::flags_of(s)), "");
     s.smallest_contact_force = -0.55;
-    EXPECT_EQ(names_of(bench::compare::flags_of(s)), "adhesion");
-    EXPECT_EQ(bench::compare::flags_of(s)[0].sentence,
+    EXPECT_EQ(names_of(bench::study::flags_of(s)), "adhesion");
+    EXPECT_EQ(bench::study::flags_of(s)[0].sentence,
               "the contact pulls with 0.55 N, and pushes with 30 N at most: only a contact with loss may pull");
     s.facts = {{"psi_out_of_contact", 1.1e-9, ""}, {"modes_above_nyquist", 12, ""}};
     s.energy_residual_accumulated = 1.1e-6;
-    EXPECT_EQ(names_of(bench::compare::flags_of(s)), "adhesion psi_gap energy modes_above_nyquist");
+    EXPECT_EQ(names_of(bench::study::flags_of(s)), "adhesion psi_gap energy modes_above_nyquist");
     s.smallest_contact_force = s.energy_residual_accumulated = std::nan("");
     s.facts.clear();
-    EXPECT_EQ(names_of(bench::compare::flags_of(s)), "");
+    EXPECT_EQ(names_of(bench::study::flags_of(s)), "");
 }
 
 // ---- The table of cells
 
 TEST(CellsTable, EachColumnHasWhatItsNameSays) {
-    bench::compare::Comparison c;
-    c.scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.1);
-    c.headline = bench::compare::headline_of(c.scene);
-    const std::size_t taps = c.scene.taps.size(), measures_of = bench::compare::measures().size();
+    bench::study::Plan plan;
+    bench::study::Point& point = plan.points.emplace_back();
+    point.scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.1);
+    point.taps = point.scene.taps.size();
+    const std::size_t taps = point.scene.taps.size(), measures_of = bench::study::measures().size();
     const auto errors_from = [&](double start) {
-        bench::compare::Errors e(taps, std::vector<double>(measures_of));
+        bench::study::Errors e(taps, std::vector<double>(measures_of));
         for (std::size_t tap = 0; tap < taps; ++tap)
             for (std::size_t k = 0; k < measures_of; ++k) e[tap][k] = start + 100 * static_cast<double>(tap) + static_cast<double>(k);
         return e;
     };
-    bench::compare::Cell cell{};
+    bench::study::Cell cell{};
     static const bench::compare::Catalogue catalogue;
     cell.scheme = &catalogue.find("modal_two_point");
     cell.settings.sample_rate = 88200;
-    bench::compare::Summary& s = cell.summary;
+    bench::study::Record record;
+    bench::study::Summary& s = cell.summary;
     s.modes = 133, s.dofs = 266, s.steps = 8820, s.rows = 4411, s.duration = 0.1;
     s.energy_residual_per_step = 1e-13, s.energy_residual_accumulated = 2e-12;
     s.smallest_contact_force = -0.25, s.largest_contact_force = 30, s.deepest_penetration = 3e-8;
     s.facts = {{"static_compliance", 0.9, ""}};
     cell.errors = errors_from(1000);
-    c.floor = errors_from(5000);
+    record.against.floor = errors_from(5000);
     for (std::size_t tap = 0; tap < taps; ++tap) {
         const double x = 0.01 * static_cast<double>(tap + 1);
-        c.trust.figure.push_back({x, x + 0.001, x + 0.002});
+        record.against.trust.figure.push_back({x, x + 0.001, x + 0.002});
     }
     cell.wall = {5, 0.02, 0.016, 0.026, 0.01, 0.03};
     cell.processor = {5, 0.018, 0.015, 0.025, 0.01, 0.03};
     cell.worst_block = 0.4;
-    c.cells = {cell};
-    const bench::store::Table t = bench::compare::cells_of(c);
+    record.cell = cell;
+    plan.jobs.push_back({&point, cell});
+    const bench::store::Table t = bench::compare::with_front(bench::study::table_of(plan, {record}));
     const std::pair<const char*, double> expected[] = {{"rate", 88200},
                                                        {"modes", 133},
                                                        {"cost_s_per_s", 0.2},
@@ -364,14 +367,14 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     for (const auto& [column, value] : expected) EXPECT_NEAR(t.number(0, column), value, 1e-12 * std::abs(value)) << column;
     EXPECT_EQ(t.at(0, "flags"), "adhesion");
     EXPECT_EQ(t.at(0, "pareto"), "0");  // it pulls
-    EXPECT_EQ(c.scene.taps[0].name, "nut");
-    ASSERT_EQ(c.scene.taps[2].name, "bridge");
+    EXPECT_EQ(point.scene.taps[0].name, "nut");
+    ASSERT_EQ(point.scene.taps[2].name, "bridge");
     for (std::size_t k = 0; k < measures_of; ++k) {
-        const bench::compare::Measure& m = bench::compare::measures()[k];
+        const bench::study::Measure& m = bench::study::measures()[k];
         const double own = static_cast<double>(k);
         EXPECT_EQ(t.number(0, m.column), 1000 + own + (m.column == "third_octave_db" ? 200 : 0)) << m.column;
         for (std::size_t tap = 0; tap < taps; ++tap)
-            EXPECT_EQ(t.number(0, m.column + "_" + c.scene.taps[tap].name), 1000 + own + 100 * static_cast<double>(tap));
+            EXPECT_EQ(t.number(0, m.column + "_" + point.scene.taps[tap].name), 1000 + own + 100 * static_cast<double>(tap));
         if (m.less_is_better) {
             EXPECT_EQ(t.number(0, "floor_" + m.column + "_bridge"), 5200 + own);
         }
@@ -390,10 +393,10 @@ TEST(Facts, OfSeveralStringsTheLeastContactForceAndTheMostOfAnythingElseStand) {
                                   {"string.2.deepest_penetration", 2, "m"},
                                   {"contact_points", 5, ""},
                                   {"string.0.contact_points", 7, ""}};
-    EXPECT_EQ(bench::compare::fact(facts, "smallest_contact_force"), -2);
-    EXPECT_EQ(bench::compare::fact(facts, "deepest_penetration"), 3);
-    EXPECT_EQ(bench::compare::fact(facts, "contact_points"), 5);  // said of all
-    EXPECT_TRUE(std::isnan(bench::compare::fact(facts, "points")));
+    EXPECT_EQ(bench::study::fact(facts, "smallest_contact_force"), -2);
+    EXPECT_EQ(bench::study::fact(facts, "deepest_penetration"), 3);
+    EXPECT_EQ(bench::study::fact(facts, "contact_points"), 5);  // said of all
+    EXPECT_TRUE(std::isnan(bench::study::fact(facts, "points")));
 }
 
 // ---- Equal modes
@@ -415,7 +418,7 @@ TEST(Plan, TheReferenceAndEveryCellCarryTheSameModes) {
         const int modes = plan.references.front().settings.modes;
         EXPECT_EQ(modes, scene == std::string("two_point_bridge") ? 94 : 133);
         ASSERT_EQ(plan.cells.size(), 4u);
-        for (const bench::compare::Cell& c : plan.cells) {
+        for (const bench::study::Cell& c : plan.cells) {
             EXPECT_EQ(c.settings.modes, modes) << scene << " " << c.scheme->name;
             EXPECT_EQ(make_scheme(*c.scheme, bench::compare::load_scene(scene, {}, {}), c.settings)->dofs() >= 2 * modes, true);
         }
@@ -426,13 +429,13 @@ TEST(Plan, TheReferenceAndEveryCellCarryTheSameModes) {
 TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSaysSo) {
     const bench::compare::Plan plan = plan_for("sitar_parabola", {"modal_spatial_newton", "finite_difference_explicit"});
     EXPECT_EQ(plan.references.front().settings.modes, 94);
-    for (const bench::compare::Cell& c : plan.cells)
+    for (const bench::study::Cell& c : plan.cells)
         EXPECT_EQ(c.settings.modes, std::string("modal_spatial_newton") == c.scheme->name ? 0 : 94);
     ASSERT_EQ(plan.notes.size(), 1u);
     EXPECT_NE(plan.notes[0].find("modal_spatial_newton carries 421 modes"), std::string::npos) << plan.notes[0];
     const bench::compare::Plan asked = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
     EXPECT_TRUE(asked.notes.empty());
-    for (const bench::compare::Cell& c : asked.cells) EXPECT_EQ(c.settings.modes, 300);
+    for (const bench::study::Cell& c : asked.cells) EXPECT_EQ(c.settings.modes, 300);
     EXPECT_EQ(asked.references.front().settings.modes, 300);
 }
 
@@ -448,7 +451,7 @@ TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
     const auto reference = [&] { return bench::compare::plan_of(r, catalogue, scene).references.front(); };
     EXPECT_TRUE(declares(*reference().scheme, "compliance"));
     EXPECT_EQ(reference().settings.options, OptionValues());
-    for (const bench::compare::Cell& c : bench::compare::plan_of(r, catalogue, scene).cells)
+    for (const bench::study::Cell& c : bench::compare::plan_of(r, catalogue, scene).cells)
         EXPECT_EQ(c.settings.options, c.scheme->name == std::string("modal_two_point") ? matched : OptionValues());
     r.options.push_back({reference().scheme->name, "compliance", "matched"});
     EXPECT_EQ(reference().settings.options, matched);
@@ -456,20 +459,20 @@ TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
 
 // ---- The truth: the modes that the reference is given
 
-bench::compare::Truth truth_of(int modes, double duration = 0.01) {
+bench::study::Truth truth_of(int modes, double duration = 0.01) {
     Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, duration);
     bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
     for (auto& c : plan.references) c.kept = false;
-    return bench::compare::run_truth(plan.references, scene, modes, 1, bench::store::Listener());
+    return bench::study::run_truth(plan.references, scene, modes, 1, bench::store::Listener());
 }
 
 TEST(Truth, ModesAreDoubledUntilWhatIsLeftOutMovesTheHeadlineByLittleEnough) {
     const auto truth = truth_of(0);
     const int modes = truth.reference.choice.settings.modes, nut = 0;
-    const auto left = [&](const bench::compare::Reference& r) { return r.trust.left_out[nut][0]; };
-    EXPECT_LT(left(truth.reference), bench::compare::settled);
+    const auto left = [&](const bench::study::Reference& r) { return r.trust.left_out[nut][0]; };
+    EXPECT_LT(left(truth.reference), bench::study::settled);
     ASSERT_GE(truth.coarser.size(), 2u);
-    EXPECT_GE(left(truth.coarser.back()), bench::compare::settled);
+    EXPECT_GE(left(truth.coarser.back()), bench::study::settled);
     for (std::size_t k = 0; k < truth.coarser.size(); ++k) EXPECT_EQ(truth.coarser[k].choice.settings.modes, 133 << k);
     EXPECT_EQ(truth.said.find("too long"), std::string::npos) << truth.said;
     const auto finer = truth_of(2 * modes);  // by the reference itself: what it leaves out is what it says, or less
@@ -489,7 +492,7 @@ TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
         scene.strings[0].barriers.emplace_back(b);
     }
     const bench::compare::Plan plan = plan_for("two_point_bridge", {"modal_two_point"});
-    const auto truth = bench::compare::run_truth(plan.references, scene, 0, 1, bench::store::Listener());
+    const auto truth = bench::study::run_truth(plan.references, scene, 0, 1, bench::store::Listener());
     EXPECT_LE(truth.reference.choice.settings.modes, 376) << truth.said;
     EXPECT_NE(truth.said.find("too long"), std::string::npos) << truth.said;
 }
@@ -503,7 +506,7 @@ TEST(Truth, AGivenNumberIsTakenWithItsHalfAndItsQuarterToTellWhatItLeavesOut) {
 }
 
 TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
-    using bench::compare::left_after;
+    using bench::study::left_after;
     EXPECT_NEAR(left_after(1e-3, 3e-3), 5e-4, 1e-12);      // 1/3 + 1/9 + ...
     EXPECT_NEAR(left_after(1e-6, 1e-1), 1e-6 / 3, 1e-18);  // no better than order two, since one pair can agree by chance
     EXPECT_NEAR(left_after(1e-3, nan), 2.5e-3, 1e-12);     // one doubling: order one half
@@ -515,7 +518,7 @@ TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
 TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
     const Scene scene = bench::compare::load_scene("tanpura_c3_release", {"string.0.tension=40"}, 1e-3);  // no certificate is of it
     const bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
-    const auto truth = bench::compare::run_truth(plan.references, scene, 1, 1, bench::store::Listener());  // nothing is below one mode
+    const auto truth = bench::study::run_truth(plan.references, scene, 1, 1, bench::store::Listener());  // nothing is below one mode
     EXPECT_TRUE(truth.coarser.empty());
     EXPECT_FALSE(truth.reference.trust.any());
     EXPECT_TRUE(std::isnan(truth.reference.trust.of_scene(0, 2)));
@@ -523,8 +526,8 @@ TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
 
 // ---- What is tried where nothing is named
 
-std::vector<bench::compare::Cell> sought(bench::compare::CompareRequest r, const std::vector<std::string>& set = {},
-                                         std::vector<std::string>* notes = nullptr) {
+std::vector<bench::study::Cell> sought(bench::compare::CompareRequest r, const std::vector<std::string>& set = {},
+                                       std::vector<std::string>* notes = nullptr) {
     static const bench::compare::Catalogue catalogue;
     const bench::compare::Plan plan = bench::compare::plan_of(r, catalogue, bench::compare::load_scene(r.scene, set, 0.01));
     if (notes) *notes = plan.notes;
@@ -537,7 +540,7 @@ bench::compare::CompareRequest request_for(std::vector<std::string> schemes, std
     r.rates = std::move(rates);
     return r;
 }
-std::vector<std::string> names_of(const std::vector<bench::compare::Cell>& cells) {
+std::vector<std::string> names_of(const std::vector<bench::study::Cell>& cells) {
     std::vector<std::string> names;
     for (const auto& c : cells)
         names.push_back(bench::store::options_text(c.settings.options) + " " + std::to_string(c.settings.modes) + " " +
@@ -589,16 +592,16 @@ TEST(Search, AReferenceTakesOneValueOfAnOption) {
     EXPECT_THROW(sought(r), bench::store::UsageError);
 }
 
-bench::compare::Cell tried(const char* scheme, double rate, int modes) {
+bench::study::Cell tried(const char* scheme, double rate, int modes) {
     static const bench::compare::Catalogue catalogue;
-    bench::compare::Cell c{&catalogue.find(scheme), {rate, 44100, modes, {}}};
+    bench::study::Cell c{&catalogue.find(scheme), {rate, 44100, modes, {}}};
     c.summary.modes = modes;
     c.summary.dofs = 2 * modes;
     c.summary.steps = std::lround(rate * 0.05);
     c.searched = true;
     return c;
 }
-std::vector<bool> needed(std::vector<bench::compare::Cell> cells, const std::vector<double>& errors, double certificate = 0) {
+std::vector<bool> needed(std::vector<bench::study::Cell> cells, const std::vector<double>& errors, double certificate = 0) {
     bench::compare::mark_needed(cells, errors, certificate);
     std::vector<bool> all;
     for (const auto& c : cells) {
@@ -612,7 +615,7 @@ TEST(Search, ACellIsLeftOutWhereOneThatSurelyCostsLessDoesAsWell) {
     const auto two_point = [](double rate, int modes) { return tried("modal_two_point", rate, modes); };
     using Flags = std::vector<bool>;
     const auto more = [&](double rate, int modes) {
-        bench::compare::Cell c = two_point(rate, modes);
+        bench::study::Cell c = two_point(rate, modes);
         c.added = true;
         return c;
     };
@@ -629,7 +632,7 @@ TEST(Search, ACellIsLeftOutWhereOneThatSurelyCostsLessDoesAsWell) {
     const auto grid = [](double rate, int nodes) { return tried("finite_difference_theta", rate, nodes); };
     EXPECT_EQ(needed({two_point(44100, 100), grid(44100, 3000), grid(88200, 1600)}, {0.05, 0.05, 0.05}), (Flags{true, true, false}));
     // what fails is a finding at the modes that the scheme takes unasked, and none beyond
-    std::vector<bench::compare::Cell> failed{two_point(44100, 100), two_point(88200, 100), two_point(88200, 200)};
+    std::vector<bench::study::Cell> failed{two_point(44100, 100), two_point(88200, 100), two_point(88200, 200)};
     failed[2].added = true;
     failed[1].reason = failed[2].reason = "diverged";
     bench::compare::mark_needed(failed, {0.05, HUGE_VAL, HUGE_VAL}, 0);
@@ -649,7 +652,7 @@ TEST(Truth, SaysTheModesThatItHasWhereNoMoreWereMeasured) {
     s.damping = table;
     bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
     for (auto& c : plan.references) c.kept = false;
-    const auto truth = bench::compare::run_truth(plan.references, scene, 0, 1, bench::store::Listener());
+    const auto truth = bench::study::run_truth(plan.references, scene, 0, 1, bench::store::Listener());
     EXPECT_EQ(truth.reference.choice.settings.modes, 133);
     EXPECT_EQ(truth.said.rfind("133 modes", 0), 0u) << truth.said;
 }

@@ -7,8 +7,10 @@
 #include "bench/report/identity.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/sound/radiation.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/run.hpp"
 #include "bench/suite/figure_rows.hpp"
-#include "bench/suite/suite_run.hpp"
+#include "bench/suite/suite_plan.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/registry.hpp"
@@ -100,8 +102,8 @@ const char* one_mode = R"(
 )";
 struct OneMode {
     bench::suite::Suite suite = bench::suite::parse_suite(one_mode, "a.toml");
-    bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    std::vector<bench::suite::SuiteRecord> records = bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records;
+    bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    std::vector<bench::study::Record> records = bench::study::run(plan, "", false, 1, bench::store::Listener()).records;
     const Scene& scene = plan.points[0].scene;
     double omega = modes_of(scene.strings[0], 1).omega0[0];
     double amplitude = initial_displacement(modes_of(scene.strings[0], 1), scene.strings[0])[0];
@@ -110,8 +112,8 @@ struct OneMode {
 
 TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
     const OneMode m;
-    ASSERT_EQ(m.records[0].row.at(0, "status"), "ok");
-    const auto rows = [&m](const char* f) { return bench::suite::rows_of(f, m.plan, m.records); };
+    ASSERT_EQ(m.records[0].cell.status(), "ok");
+    const auto rows = [&m](const char* f) { return bench::study::rows_of(f, m.plan, m.records); };
     const double digits = 1e-7 * m.amplitude;  // eight are written
 
     const bench::store::Table profile = rows("profile");
@@ -176,9 +178,9 @@ TEST(FigureRows, OfACentroidKnowOnlyTheirBand) {
             centroid = { taps = ["nut"], window = 0.1, hop = 0.1)" + band +
                                                                         " }",
                                                                     "a.toml");
-        const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-        const auto records = bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records;
-        return bench::suite::rows_of("centroid", plan, records).number(0, "centroid_hz");
+        const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+        const auto records = bench::study::run(plan, "", false, 1, bench::store::Listener()).records;
+        return bench::study::rows_of("centroid", plan, records).number(0, "centroid_hz");
     };
     const auto modes = modes_of(read_scene("free_string").strings[0], 2);
     const double first = modes.omega0[0] / (2 * std::numbers::pi), second = modes.omega0[1] / (2 * std::numbers::pi);
@@ -210,10 +212,10 @@ TEST(FigureRows, OfAPressureAreTheForceThroughTheBodysResponse) {
     }
     const bench::suite::Suite suite = bench::suite::parse_suite(
         set + "sweep = { \"body.bridge\" = [\"synthetic_bridge.wav\"], \"body.nut\" = [\"synthetic_nut.wav\"] }", "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    const auto records = bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records;
-    const bench::store::Table rows = bench::suite::rows_of("trace", plan, records);
-    EXPECT_EQ(records[0].row.column("error_l2_whole_bridge_pressure"), -1);  // what is drawn alone has no error
+    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const auto records = bench::study::run(plan, "", false, 1, bench::store::Listener()).records;
+    const bench::store::Table rows = bench::study::rows_of("trace", plan, records);
+    EXPECT_EQ(bench::study::table_of(plan, records).column("error_l2_whole_bridge_pressure"), -1);  // what is drawn alone has no error
 
     Scene scene = plan.points[0].scene;
     const Body body = scene.body.value();
@@ -262,7 +264,7 @@ TEST(FigureRows, TheExtentOfARampHasTheFirstAndTheLastRowOfEachInterval) {
 
 TEST(FigureRows, ThePositionsOfAProfileAreNoTapsOfTheTableOfErrors) {
     const OneMode m;
-    const bench::store::Table t = bench::suite::table_of(m.plan, m.records);
+    const bench::store::Table t = bench::study::table_of(m.plan, m.records);
     EXPECT_GE(t.column("error_l2_whole_middle"), 0);
     for (const std::string& name : t.columns) EXPECT_EQ(name.find("profile_"), std::string::npos) << name;
 }
@@ -270,8 +272,8 @@ TEST(FigureRows, ThePositionsOfAProfileAreNoTapsOfTheTableOfErrors) {
 TEST(FigureRows, ACellWithAnotherWindowIsAnotherCell) {
     std::string other = one_mode;
     other.replace(other.find("[0.1, 0.11]"), 11, "[0.1, 0.12]");
-    EXPECT_NE(plan_of(bench::suite::parse_suite(one_mode, "a"), bench::compare::Catalogue(), {}).cells[0].id,
-              plan_of(bench::suite::parse_suite(other, "a"), bench::compare::Catalogue(), {}).cells[0].id);
+    EXPECT_NE(plan_of(bench::suite::parse_suite(one_mode, "a"), bench::compare::Catalogue(), {}).jobs[0].id,
+              plan_of(bench::suite::parse_suite(other, "a"), bench::compare::Catalogue(), {}).jobs[0].id);
 }
 
 // ---- The specification

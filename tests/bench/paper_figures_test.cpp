@@ -9,7 +9,9 @@
 
 #include "analysis/line.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/suite/suite_run.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/run.hpp"
+#include "bench/suite/suite_plan.hpp"
 
 namespace jvari::test {
 namespace {
@@ -256,9 +258,9 @@ TEST(Tanpura, Figure11ThePrecursorOfTheFirstStringFallsInARunOfToday) {
         centroid = { taps = ["string_0"], window = 0.0928, hop = 0.0928, from_hz = 980, to_hz = 3920 }
     )",
                                                                 "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
     const bench::store::Table made =
-        bench::suite::rows_of("centroid", plan, bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
+        bench::study::rows_of("centroid", plan, bench::study::run(plan, "", false, 1, bench::store::Listener()).records);
     for (const char* options : {"compliance=own", "compliance=matched"}) {
         EXPECT_TRUE(falls(descent(made, {{"options", options}}, "0", "6.03e-05", 0))) << options;
         EXPECT_FALSE(falls(descent(made, {{"options", options}}, "0", "0", 0))) << options;
@@ -278,9 +280,9 @@ TEST(Tanpura, TheCommittedProfilesAreWhatTheProgramMakes) {
         profile = { instants = [49.0e-3, 208.4e-3, 212.0e-3], from = 0, to = 1, positions = 11 }
     )",
                                                                 "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
     const bench::store::Table made =
-        bench::suite::rows_of("profile", plan, bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
+        bench::study::rows_of("profile", plan, bench::study::run(plan, "", false, 1, bench::store::Listener()).records);
     ASSERT_EQ(made.rows.size(), 33u);
     for (std::size_t i = 0; i < made.rows.size(); ++i) {
         const Series s = series(kept, {{"scheme", "modal_two_point"}, {"time_s", made.at(i, "time_s")}}, "position_m", "displacement_m");
@@ -420,9 +422,9 @@ TEST(Obstacle, TheCommittedTracesAreWhatTheProgramMakes) {
         trace = { taps = ["v10mm"], windows = [[0.0, 0.0052]] }
     )",
                                                                 "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
     const bench::store::Table made =
-        bench::suite::rows_of("trace", plan, bench::suite::run_suite(plan, "", false, 1, bench::store::Listener()).records);
+        bench::study::rows_of("trace", plan, bench::study::run(plan, "", false, 1, bench::store::Listener()).records);
     auto where = point;
     where["window_s"] = "0";
     const Series s = series(kept, where, "time_s", "value");

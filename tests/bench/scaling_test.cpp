@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/elements.hpp"
+#include "bench/study/elements.hpp"
 #include "bench/suite/suite_plan.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/suite_text.hpp"
@@ -113,44 +113,42 @@ TEST(Elements, EachIsTakenAwayWithTheTapsOfItsForceAndNothingElse) {
         for (const Tap& t : s.taps) all += t.name + " ";
         return all;
     };
-    for (const bench::compare::Element e : bench::compare::elements()) {
-        if (e == bench::compare::Element::strings) continue;  // it has one
-        const Scene s = bench::compare::without(e, whole);
+    for (const bench::study::Element e : bench::study::elements()) {
+        if (e == bench::study::Element::strings) continue;  // it has one
+        const Scene s = bench::study::without(e, whole);
         EXPECT_NO_THROW(validate(s));
-        EXPECT_EQ(s.strings[0].thread.has_value(), e != bench::compare::Element::thread);
-        EXPECT_EQ(s.strings[0].barriers.empty(), e == bench::compare::Element::contact);
-        EXPECT_EQ(s.strings[0].bending_stiffness == 0, e == bench::compare::Element::stiffness);
-        EXPECT_EQ(std::holds_alternative<NoDamping>(s.strings[0].damping), e == bench::compare::Element::losses);
-        EXPECT_EQ(s.body.has_value(), e != bench::compare::Element::body);
-        EXPECT_EQ(names(s), e == bench::compare::Element::thread    ? "nut y03 bridge "
-                            : e == bench::compare::Element::contact ? "nut y03 thread "
-                            : e == bench::compare::Element::taps    ? "nut "
-                                                                    : "nut y03 bridge thread ");
+        EXPECT_EQ(s.strings[0].thread.has_value(), e != bench::study::Element::thread);
+        EXPECT_EQ(s.strings[0].barriers.empty(), e == bench::study::Element::contact);
+        EXPECT_EQ(s.strings[0].bending_stiffness == 0, e == bench::study::Element::stiffness);
+        EXPECT_EQ(std::holds_alternative<NoDamping>(s.strings[0].damping), e == bench::study::Element::losses);
+        EXPECT_EQ(s.body.has_value(), e != bench::study::Element::body);
+        EXPECT_EQ(names(s), e == bench::study::Element::thread    ? "nut y03 bridge "
+                            : e == bench::study::Element::contact ? "nut y03 thread "
+                            : e == bench::study::Element::taps    ? "nut "
+                                                                  : "nut y03 bridge thread ");
     }
 }
 
 TEST(Elements, WithoutItsOtherStringsAnInstrumentHasItsFirst) {
     const Scene drone = bench::compare::load_scene("tanpura_drone", {}, 0.01);
-    const Scene one = bench::compare::without(bench::compare::Element::strings, drone);
+    const Scene one = bench::study::without(bench::study::Element::strings, drone);
     ASSERT_EQ(one.strings.size(), 1u);
     EXPECT_EQ(one.strings[0], drone.strings[0]);
     EXPECT_EQ(one.taps, drone.taps);
-    EXPECT_EQ(bench::compare::without(bench::compare::Element::radiation, drone), drone);
+    EXPECT_EQ(bench::study::without(bench::study::Element::radiation, drone), drone);
 }
 
 TEST(Elements, ASceneThatHasNoneOfItIsRefused) {
-    using enum bench::compare::Element;
+    using enum bench::study::Element;
     const Scene one = bench::compare::load_scene("tanpura_c3_release", {}, 0.01);
-    for (const bench::compare::Element e : {strings, body, radiation})
-        EXPECT_THROW(bench::compare::without(e, one), bench::store::UsageError);
+    for (const bench::study::Element e : {strings, body, radiation}) EXPECT_THROW(bench::study::without(e, one), bench::store::UsageError);
     Scene untapped = bench::compare::load_scene("tanpura_drone", {}, 0.01);
     untapped.taps = {{"y", Quantity::displacement, 0, 0.5}};
-    EXPECT_THROW(bench::compare::without(radiation, untapped), bench::store::UsageError);
+    EXPECT_THROW(bench::study::without(radiation, untapped), bench::store::UsageError);
     const Scene parabola = bench::compare::load_scene("sitar_parabola", {}, 0.01);
-    EXPECT_THROW(bench::compare::without(bench::compare::Element::thread, parabola), bench::store::UsageError);
-    EXPECT_THROW(
-        bench::compare::without(bench::compare::Element::contact, bench::compare::without(bench::compare::Element::contact, parabola)),
-        bench::store::UsageError);
+    EXPECT_THROW(bench::study::without(bench::study::Element::thread, parabola), bench::store::UsageError);
+    EXPECT_THROW(bench::study::without(bench::study::Element::contact, bench::study::without(bench::study::Element::contact, parabola)),
+                 bench::store::UsageError);
 }
 
 TEST(Elements, ASetHasACellForTheSceneAndForEachChangeOfIt) {
@@ -164,14 +162,14 @@ measure = ["errors", "cost"]
 )";
     const bench::suite::Suite suite = bench::suite::parse_suite(text, "a.toml");
     const bench::compare::Catalogue catalogue;
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, catalogue, {});
-    ASSERT_EQ(plan.cells.size(), 6u);
-    EXPECT_TRUE(plan.cells[0].point->swept.empty());
+    const bench::study::Plan plan = bench::suite::plan_of(suite, catalogue, {});
+    ASSERT_EQ(plan.jobs.size(), 6u);
+    EXPECT_TRUE(plan.jobs[0].point->swept.empty());
     const char* changes[] = {"", "-thread", "-contact", "-stiffness", "-taps", "+probe"};
     for (std::size_t i = 1; i < 6; ++i) {
-        ASSERT_EQ(plan.cells[i].point->swept.size(), 1u);
-        EXPECT_EQ(plan.cells[i].point->swept[0], std::pair(std::string("element"), std::string(changes[i])));
-        EXPECT_NE(plan.cells[i].id, plan.cells[0].id);
+        ASSERT_EQ(plan.jobs[i].point->swept.size(), 1u);
+        EXPECT_EQ(plan.jobs[i].point->swept[0], std::pair(std::string("element"), std::string(changes[i])));
+        EXPECT_NE(plan.jobs[i].id, plan.jobs[0].id);
     }
     EXPECT_EQ(sets_of(plan), std::vector<bench::store::Rows>{(bench::store::Rows{0, 1, 2, 3, 4, 5})});
 }

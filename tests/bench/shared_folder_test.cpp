@@ -15,7 +15,8 @@
 #include "bench/compare/record/scaling_table.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/file_lock.hpp"
-#include "bench/suite/suite_clock.hpp"
+#include "bench/study/clock.hpp"
+#include "bench/suite/suite_plan.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {
@@ -333,18 +334,18 @@ measure = ["errors", "cost"]
     ASSERT_EQ(shell(scratch, "$J suite a.toml --out all --quiet").code, 0) << content(scratch / "stderr");
     const bench::suite::Suite suite = bench::suite::parse_suite(content(scratch / "a.toml"), "a.toml");
     const bench::compare::Catalogue catalogue;
-    bench::suite::SuitePlan plan = bench::suite::plan_of(suite, catalogue, {});
+    bench::study::Plan plan = bench::suite::plan_of(suite, catalogue, {});
     const fs::path cells = scratch / "all/cells";
     const auto timed_elsewhere = [&](std::size_t i, bool as_well) {
-        const fs::path here = cells / bench::suite::clock_file(plan.cells[i], bench::store::stamp_now());
-        auto clock = bench::suite::read_clock(here, plan.cells[i].identity);
+        const fs::path here = cells / bench::study::clock_file(plan.jobs[i], bench::store::stamp_now());
+        auto clock = bench::study::read_clock(here, plan.jobs[i].identity);
         ASSERT_TRUE(clock);
         EXPECT_GT(clock->wall.median, 0);
         EXPECT_FALSE(clock->stamp.name.empty() || clock->stamp.load.empty() || clock->stamp.at.empty());
         if (!as_well) fs::remove(here);
         clock->stamp.name = "another CPU, 64 cores";
         clock->wall.median = 77;
-        std::ofstream(cells / bench::suite::clock_file(plan.cells[i], clock->stamp)) << clock_json(*clock, plan.cells[i].identity);
+        std::ofstream(cells / bench::study::clock_file(plan.jobs[i], clock->stamp)) << clock_json(*clock, plan.jobs[i].identity);
     };
     timed_elsewhere(0, true);  // of the first set one cell, as well as here: the set stays on this machine
     timed_elsewhere(2, false);
@@ -359,12 +360,12 @@ measure = ["errors", "cost"]
     EXPECT_EQ(t.number(3, "wall_seconds"), 77);
     EXPECT_EQ(bench::store::read_csv(content(scratch / "all/errors.csv")).column("machine"), -1);
 
-    fs::remove(cells / bench::suite::clock_file(plan.cells[1], bench::store::stamp_now()));  // the set has no machine that timed all of it
+    fs::remove(cells / bench::study::clock_file(plan.jobs[1], bench::store::stamp_now()));  // the set has no machine that timed all of it
     const Outcome resumed = shell(scratch, "$J suite a.toml --out all --resume");
     EXPECT_NE(resumed.out.find("4 cells, 0 run, 1 timed"), std::string::npos) << resumed.out;
     bench::store::Stamp elsewhere;
     elsewhere.name = "another CPU, 64 cores";
-    fs::remove(cells / bench::suite::clock_file(plan.cells[3], elsewhere));  // nor has the other: both of its cells are timed here
+    fs::remove(cells / bench::study::clock_file(plan.jobs[3], elsewhere));  // nor has the other: both of its cells are timed here
     EXPECT_NE(shell(scratch, "$J suite a.toml --out all --resume").out.find("4 cells, 0 run, 2 timed"), std::string::npos);
 }
 

@@ -4,11 +4,13 @@
 #include <set>
 #include <thread>
 
-#include "bench/compare/record/compare_record.hpp"
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/suite/suite_run.hpp"
+#include "bench/study/clock.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/run.hpp"
+#include "bench/suite/suite_plan.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/command_line.hpp"
 #include "tests/suite_text.hpp"
@@ -43,11 +45,11 @@ TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
     const auto points = bench::suite::points_of(suite);
     ASSERT_EQ(points.size(), 2u * 2 * 2 + 1);
     EXPECT_EQ(points[1].request.set, (std::vector<std::string>{"string.0.tension=31.5", "tap.0.name=\"a\""}));
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    EXPECT_EQ(plan.cells.size(), 2u * 2 * 2 * 2 * 3);  // the second set repeats six cells of the first
+    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    EXPECT_EQ(plan.jobs.size(), 2u * 2 * 2 * 2 * 3);  // the second set repeats six cells of the first
     std::set<std::string> ids;
-    for (const bench::suite::PlannedCell& c : plan.cells) ids.insert(c.id);
-    EXPECT_EQ(ids.size(), plan.cells.size());
+    for (const bench::study::Job& c : plan.jobs) ids.insert(c.id);
+    EXPECT_EQ(ids.size(), plan.jobs.size());
     EXPECT_EQ(plan.points[1].scene.strings[0].tension, 31.5);
     EXPECT_EQ(plan.points[0].scene.duration, 0.01);
 }
@@ -74,7 +76,7 @@ TEST(SuiteFile, WhatASetDoesNotNameIsSoughtUnlessItSaysNot) {
         const auto suite = bench::suite::parse_suite(
             "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = [\"modal_two_point\"]\nrates = [44100, 88200]\n" + more, "a.toml");
         std::vector<std::string> all;
-        for (const auto& c : bench::suite::plan_of(suite, bench::compare::Catalogue(), {}).cells)
+        for (const auto& c : bench::suite::plan_of(suite, bench::compare::Catalogue(), {}).jobs)
             all.push_back(bench::store::options_text(c.cell.settings.options) + " " + std::to_string(c.cell.settings.modes));
         return all;
     };
@@ -98,10 +100,10 @@ TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
         measure = ["spectrogram"]
     )",
                                                                 "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    ASSERT_EQ(plan.cells.size(), 3u);  // sitar_fdm is the same at both points, and no reference differs
-    EXPECT_EQ(bench::store::options_text(plan.cells[0].cell.settings.options), "length=integer");
-    EXPECT_EQ(bench::store::options_text(plan.cells[2].cell.settings.options), "length=fractional");
+    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    ASSERT_EQ(plan.jobs.size(), 3u);  // sitar_fdm is the same at both points, and no reference differs
+    EXPECT_EQ(bench::store::options_text(plan.jobs[0].cell.settings.options), "length=integer");
+    EXPECT_EQ(bench::store::options_text(plan.jobs[2].cell.settings.options), "length=fractional");
 }
 
 TEST(SuiteFile, DotsAreCountedInKeysAlone) {
@@ -163,9 +165,9 @@ TEST(SuiteFile, OfMoreCellsThanCanBeRunIsRefusedBeforeTheyArePlanned) {
 TEST(SuiteFile, EverySuiteOfTheLibraryCanBePlanned) {
     for (const std::string& name : bench::suite::library_suites()) {
         const bench::suite::Suite suite = bench::suite::read_suite(name);
-        EXPECT_FALSE(plan_of(suite, bench::compare::Catalogue(), {}).cells.empty() && suite.maps.empty()) << name;
+        EXPECT_FALSE(plan_of(suite, bench::compare::Catalogue(), {}).jobs.empty() && suite.maps.empty()) << name;
     }
-    EXPECT_EQ(plan_of(bench::suite::read_suite("paper-deshmukh"), bench::compare::Catalogue(), {}).cells.size(),
+    EXPECT_EQ(plan_of(bench::suite::read_suite("paper-deshmukh"), bench::compare::Catalogue(), {}).jobs.size(),
               16u);  // eight variants, two schemes
 }
 
@@ -233,14 +235,14 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
     const Scratch scratch;
     const Workshop w;
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    ASSERT_EQ(plan.cells.size(), 8u);
+    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    ASSERT_EQ(plan.jobs.size(), 8u);
     makes = 0;
-    const bench::suite::SuiteRun first = bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
+    const bench::study::Study first = bench::study::run(plan, scratch.path, false, 2, w.listener);
     EXPECT_EQ(first.ran, 8);
     EXPECT_EQ(first.timed, 8);
     EXPECT_EQ(makes, 8 * (1 + 2));  // each once for its errors and twice for the clock
-    const bench::suite::SuiteRun second = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
+    const bench::study::Study second = bench::study::run(plan, scratch.path, true, 2, w.listener);
     EXPECT_EQ(makes, 8 * (1 + 2));
     EXPECT_EQ(second.read_back, 8);
     EXPECT_EQ(second.ran + second.timed, 0);
@@ -248,7 +250,7 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
     EXPECT_EQ(second.records[0].levels.level, first.records[0].levels.level);
     EXPECT_EQ(scratch.files(), 8 + 8);  // numbers and clocks
 
-    const bench::store::Table t = bench::suite::table_of(plan, first.records);
+    const bench::store::Table t = bench::study::table_of(plan, first.records);
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         EXPECT_EQ(t.at(i, "status"), "ok") << t.at(i, "reason");
         EXPECT_GT(t.number(i, "error_l2_whole"), 0);
@@ -262,34 +264,34 @@ TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone
     const Scratch scratch;
     const Workshop w;
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
     const std::string whole = bench::store::csv(
-        bench::compare::errors_only(bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.listener).records)));
-    bench::suite::run_suite(plan, scratch.path, false, 3, w.listener);
-    fs::remove(scratch.path / (plan.cells[1].id + ".json"));
-    fs::remove(scratch.path / (plan.cells[6].id + ".json"));
-    fs::resize_file(scratch.path / (plan.cells[3].id + ".json"), 100);  // not ours: files appear whole
-    fs::copy_file(scratch.path / (plan.cells[5].id + ".json"), scratch.path / (plan.cells[4].id + ".json"),
+        bench::study::errors_only(bench::study::table_of(plan, bench::study::run(plan, "", false, 1, w.listener).records)));
+    bench::study::run(plan, scratch.path, false, 3, w.listener);
+    fs::remove(scratch.path / (plan.jobs[1].id + ".json"));
+    fs::remove(scratch.path / (plan.jobs[6].id + ".json"));
+    fs::resize_file(scratch.path / (plan.jobs[3].id + ".json"), 100);  // not ours: files appear whole
+    fs::copy_file(scratch.path / (plan.jobs[5].id + ".json"), scratch.path / (plan.jobs[4].id + ".json"),
                   fs::copy_options::overwrite_existing);  // another cell's
     makes = 0;
-    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 3, w.listener);
+    const bench::study::Study resumed = bench::study::run(plan, scratch.path, true, 3, w.listener);
     EXPECT_EQ(resumed.ran, 4);
     EXPECT_EQ(makes, 4);  // their clocks are there
-    EXPECT_EQ(bench::store::csv(bench::compare::errors_only(table_of(plan, resumed.records))), whole);
+    EXPECT_EQ(bench::store::csv(bench::study::errors_only(table_of(plan, resumed.records))), whole);
 }
 
 TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
     const Scratch scratch;
     const Workshop w;
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    const std::string whole = bench::store::csv(bench::compare::errors_only(
-        bench::suite::table_of(plan, bench::suite::run_suite(plan, scratch.path, false, 2, w.listener).records)));
-    const std::string path = scratch / (plan.cells[2].id + ".json"), kept = content(path);
+    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const std::string whole = bench::store::csv(
+        bench::study::errors_only(bench::study::table_of(plan, bench::study::run(plan, scratch.path, false, 2, w.listener).records)));
+    const std::string path = scratch / (plan.jobs[2].id + ".json"), kept = content(path);
     const auto ran_with = [&](const std::string& text) {
         std::ofstream(path, std::ios::binary) << text;
-        const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
-        EXPECT_EQ(bench::store::csv(bench::compare::errors_only(table_of(plan, resumed.records))), whole);
+        const bench::study::Study resumed = bench::study::run(plan, scratch.path, true, 2, w.listener);
+        EXPECT_EQ(bench::store::csv(bench::study::errors_only(table_of(plan, resumed.records))), whole);
         return resumed.ran;
     };
     EXPECT_EQ(ran_with(kept), 0);
@@ -312,24 +314,24 @@ TEST(SuiteRun, ARowWithoutItsFieldsIsNotBelieved) {  // of what a facet measures
     )",
                                                                 "a.toml");
     const Workshop w;
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    bench::suite::run_suite(plan, scratch.path, false, 1, w.listener);
-    const std::string path = scratch / (plan.cells[0].id + ".json");
+    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::study::run(plan, scratch.path, false, 1, w.listener);
+    const std::string path = scratch / (plan.jobs[0].id + ".json");
     auto json = nlohmann::ordered_json::parse(bench::store::unsealed(content(path)));
     json["rows"]["sound"]["rows"][0] = nlohmann::ordered_json::array();
     std::ofstream(path) << bench::store::sealed(json.dump());
-    EXPECT_EQ(run_suite(plan, scratch.path, true, 1, w.listener).ran, 1);
+    EXPECT_EQ(bench::study::run(plan, scratch.path, true, 1, w.listener).ran, 1);
 }
 
 TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
     const Scratch scratch;
     const Workshop w;
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
+    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::study::run(plan, scratch.path, false, 2, w.listener);
     const std::string another = "0123456-another";
     const auto recorded_by_another = [&](int cell, const std::string& what) {  // a file of this cell's name, of another program
-        const fs::path path = scratch.path / (plan.cells[cell].id + ".json");
+        const fs::path path = scratch.path / (plan.jobs[cell].id + ".json");
         std::string text = bench::store::unsealed(content(path));
         const std::string own = nlohmann::json(what).dump();
         const auto at = text.find(own, text.find("\"program\""));
@@ -339,7 +341,7 @@ TEST(SuiteRun, WhatAnotherProgramRecordedIsRunAgain) {
     recorded_by_another(1, bench::store::machine().cell_sources);
     recorded_by_another(2, bench::store::machine().build);
     recorded_by_another(5, bench::store::machine().compiler);
-    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
+    const bench::study::Study resumed = bench::study::run(plan, scratch.path, true, 2, w.listener);
     EXPECT_EQ(resumed.ran, 3);
     EXPECT_EQ(resumed.read_back, 5);
 }
@@ -372,11 +374,11 @@ TEST(SuiteRun, ACellThatWasRunAndNotTimedIsTimedAlone) {
     const Scratch scratch;
     const Workshop w;
     const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    bench::suite::run_suite(plan, scratch.path, false, 2, w.listener);
-    EXPECT_TRUE(fs::remove(scratch.path / clock_file(plan.cells[2], bench::store::stamp_now())));
+    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    bench::study::run(plan, scratch.path, false, 2, w.listener);
+    EXPECT_TRUE(fs::remove(scratch.path / clock_file(plan.jobs[2], bench::store::stamp_now())));
     makes = 0;
-    const bench::suite::SuiteRun resumed = bench::suite::run_suite(plan, scratch.path, true, 2, w.listener);
+    const bench::study::Study resumed = bench::study::run(plan, scratch.path, true, 2, w.listener);
     EXPECT_EQ(resumed.ran, 0);
     EXPECT_EQ(resumed.timed, 1);
     EXPECT_EQ(makes, 2);
@@ -396,8 +398,8 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         measure = ["errors", "cost", "spectrogram"]
     )",
                                                                 "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 2, w.listener).records);
+    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const bench::store::Table t = bench::study::table_of(plan, bench::study::run(plan, "", false, 2, w.listener).records);
     const std::pair<const char*, const char*> expected[] = {
         {"ok", ""}, {"refused", "it is not willing"}, {"error", "out of luck"}, {"past_time_limit", "past its time limit of 0.45 s"}};
     ASSERT_EQ(t.rows.size(), 4u);
@@ -422,8 +424,8 @@ TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
         measure = ["errors"]
     )",
                                                                 "a.toml");
-    const bench::suite::SuitePlan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    const bench::store::Table t = bench::suite::table_of(plan, bench::suite::run_suite(plan, "", false, 1, w.listener).records);
+    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const bench::store::Table t = bench::study::table_of(plan, bench::study::run(plan, "", false, 1, w.listener).records);
     EXPECT_EQ(t.at(0, "status"), "ok");
     EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
     EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.5 s");
@@ -488,7 +490,7 @@ TEST(SuiteCommand, ExitCodesAreThoseOfTheProgram) {
 TEST(Spectrograms, ASineStandsInItsRowWithItsPower) {
     std::vector<double> signal(44100);
     for (std::size_t n = 0; n < signal.size(); ++n) signal[n] = 0.01 * std::sin(2 * M_PI * 1012.0 * static_cast<double>(n) / 44100);
-    const bench::suite::Levels l = bench::suite::levels_of(signal, 44100);
+    const bench::study::Levels l = bench::study::levels_of(signal, 44100);
     ASSERT_EQ(l.rows, 100);
     EXPECT_NEAR(l.frames, 60, 1);
     for (int m = 0; m < l.frames; ++m) {
@@ -501,9 +503,9 @@ TEST(Spectrograms, ASineStandsInItsRowWithItsPower) {
 }
 
 TEST(Spectrograms, OneScaleForAllAndNoMoreRectanglesThanAsked) {
-    bench::suite::Levels noise{60, 100, 0, 0.016, 80, {}};
+    bench::study::Levels noise{60, 100, 0, 0.016, 80, {}};
     for (int k = 0; k < 6000; ++k) noise.level.push_back(-437 - (k * 7919) % 600);
-    bench::suite::Levels quiet = noise;
+    bench::study::Levels quiet = noise;
     for (int& level : quiet.level) level -= 2000;
     const auto spec = nlohmann::json::parse(
         bench::report::spectrogram_spec("a", "b", {{"s", "x", "ok", noise}, {"t", "x", "ok", quiet}, {"t", "y", "refused", {}}}, 2000));
@@ -521,8 +523,8 @@ TEST(Spectrograms, OneScaleForAllAndNoMoreRectanglesThanAsked) {
 }
 
 TEST(Spectrograms, ADifferenceIsThatOfTheLevelsWhereEitherIsHeard) {
-    const bench::suite::Levels truth{2, 2, 0, 0.016, 80, {0, -100, -900, -200}};
-    bench::suite::Levels louder = truth;
+    const bench::study::Levels truth{2, 2, 0, 0.016, 80, {0, -100, -900, -200}};
+    bench::study::Levels louder = truth;
     for (int& level : louder.level) level += 60;
     bench::report::Panel compared{"s", "x", "ok", louder, truth};
     const auto spec = nlohmann::json::parse(bench::report::spectrogram_spec("a", "b", {{"truth", "x", "ok", truth}, compared}));

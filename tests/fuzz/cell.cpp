@@ -4,8 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
-#include "bench/suite/suite_record.hpp"
+#include "bench/study/record.hpp"
 #include "fuzz.hpp"
+#include "schemes/registry.hpp"
 
 using namespace jvari;
 using namespace jvari::test;
@@ -13,12 +14,14 @@ using namespace jvari::test;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static OwnFile file("cell.json");
     const std::string text = test::text_of(data, size), identity = R"({"scene":"a"})";
-    const auto record = bench::suite::read_record(file.holding(bench::store::sealed("{\"cell\":" + identity + "," + text + "}")), identity);
+    static const bench::study::Cell planned{&schemes().front(), {}};
+    const auto record =
+        bench::study::read_record(file.holding(bench::store::sealed("{\"job\":" + identity + "," + text + "}")), identity, planned);
     if (!record) return 0;
     ++inputs_read;
-    for (const std::string& name : record->row.columns) record->row.number(0, name);
-    const std::string written = bench::suite::json_of(*record, identity);
-    const auto again = bench::suite::read_record(file.holding(written), identity);
-    promise(again && bench::suite::json_of(*again, identity) == written, "written and read back is the same record", written);
+    record->cell.status();
+    const std::string written = bench::study::json_of(*record, identity);
+    const auto again = bench::study::read_record(file.holding(written), identity, planned);
+    promise(again && bench::study::json_of(*again, identity) == written, "written and read back is the same record", written);
     return 0;
 }

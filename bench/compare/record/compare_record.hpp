@@ -1,4 +1,4 @@
-// A comparison as rows and as its manifest.
+// A comparison as rows, as its manifest and as sounds.
 //
 // cells.csv has everything, one row per scheme x rate x modes. errors.csv has what repeats bit for bit on one program and cost.csv what
 // the clock said: only those two are committed, for numbers of the two kinds never share a committed file.
@@ -6,10 +6,8 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "bench/compare/compare.hpp"
-#include "bench/store/records.hpp"
 
 namespace jvari::bench::compare {
 
@@ -18,8 +16,5 @@ std::string manifest_of(const Comparison&, const CompareRequest&);  // JSON
 
 // sounds/ and sounds.csv: the reference, and of each scheme its lowest and its highest rate; the rates between while all are small.
 void write_sounds(const Comparison&, const std::filesystem::path& folder);
-
-store::Table errors_only(const store::Table& cells);
-store::Table cost_only(const store::Table& cells);
 
 }  // namespace jvari::bench::compare

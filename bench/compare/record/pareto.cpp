@@ -56,4 +56,18 @@ std::vector<bool> pareto_front(const store::Table& cells, const store::Rows& row
     return of_rows;
 }
 
+store::Table with_front(store::Table cells) {
+    std::vector<std::string> problem = store::swept_keys(cells);
+    problem.emplace_back("scene");
+    std::vector<bool> front(cells.rows.size(), false);
+    for (const store::Rows& rows : store::alike(cells, store::all_rows(cells), problem)) {
+        const std::vector<bool> own = pareto_front(cells, rows, headline_error(cells, rows), "cost_s_per_s");
+        for (std::size_t k = 0; k < rows.size(); ++k) front[rows[k]] = own[k];
+    }
+    const auto at = cells.column("governor") + 1;
+    cells.columns.insert(cells.columns.begin() + at, "pareto");
+    for (std::size_t i = 0; i < cells.rows.size(); ++i) cells.rows[i].insert(cells.rows[i].begin() + at, front[i] ? "1" : "0");
+    return cells;
+}
+
 }  // namespace jvari::bench::compare

@@ -22,4 +22,8 @@ std::vector<bool> pareto_front(std::span<const Point>);
 // known. Where the cost is a clock's and cells were timed on several machines, each machine has a front of its own.
 std::vector<bool> pareto_front(const store::Table& cells, const store::Rows&, const std::string& error, const std::string& cost);
 
+// The table with the column `pareto` after what the clock said: 1 for the rows on the front of `cost_s_per_s` and the headline error of
+// their scene at their point of a sweep.
+store::Table with_front(store::Table cells);
+
 }  // namespace jvari::bench::compare

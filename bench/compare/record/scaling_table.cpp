@@ -7,8 +7,8 @@
 #include <set>
 
 #include "analysis/convergence.hpp"
-#include "bench/compare/elements.hpp"
 #include "bench/store/cell_rows.hpp"
+#include "bench/study/elements.hpp"
 #include "schemes/facts.hpp"
 
 namespace jvari::bench::compare {
@@ -115,7 +115,7 @@ private:
     void add_element(std::size_t changed) {
         const auto whole = whole_of(changed);
         if (!whole) return;
-        for (const Element e : elements()) {
+        for (const study::Element e : study::elements()) {
             if (cells_.at(changed, "element") != change_of(e)) continue;
             const Nanoseconds step = step_of(cells_, changed), other = step_of(cells_, *whole);
             const Nanoseconds &more = is_added(e) ? step : other, &less = is_added(e) ? other : step;

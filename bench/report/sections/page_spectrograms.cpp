@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct Kept {
     bool asked = false;
-    suite::Levels levels;
+    study::Levels levels;
 };
 
 Kept levels_in(const fs::path& file) {
@@ -39,8 +39,8 @@ Kept levels_in(const fs::path& file) {
     }
 }
 // Of each problem whose reference was heard: the truth that the panels beside it are to be seen against.
-std::map<std::string, suite::Levels> references_in(const Results& r) {
-    std::map<std::string, suite::Levels> references;
+std::map<std::string, study::Levels> references_in(const Results& r) {
+    std::map<std::string, study::Levels> references;
     const store::Table& t = r.sounds;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         const std::filesystem::path file = t.at(i, "file");
@@ -48,12 +48,12 @@ std::map<std::string, suite::Levels> references_in(const Results& r) {
         const store::Sound sound = store::read_wav(r.folder / file, t.number(i, "peak"));
         std::vector<double> signal;
         for (const int x : sound.samples) signal.push_back(x * sound.peak / 32767);
-        references[t.at(i, "problem")] = suite::levels_of(signal, sound.rate);
+        references[t.at(i, "problem")] = study::levels_of(signal, sound.rate);
     }
     return references;
 }
 
-bool on_one_grid(const suite::Levels& a, const suite::Levels& b) {
+bool on_one_grid(const study::Levels& a, const study::Levels& b) {
     const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-6 * std::abs(x) + 1e-9; };
     return a.frames > 0 && b.frames > 0 && near(a.start, b.start) && near(a.hop, b.hop) && near(a.row_hz, b.row_hz);
 }

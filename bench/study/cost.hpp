@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "bench/compare/compare.hpp"
-#include "bench/compare/elements.hpp"
+#include "bench/study/cell.hpp"
+#include "bench/study/elements.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 // The worst block: the longest of 64 rows over the time those rows sound, in the run where it was shortest, so that it is the scheme's
 // worst and not what the machine did meanwhile. The first block of a run and failed runs do not count.
@@ -22,4 +22,4 @@ struct Contender {
 };
 void time_cells(const std::vector<Contender>&, int repeats, const store::Listener&);
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

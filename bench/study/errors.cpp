@@ -1,4 +1,4 @@
-#include "bench/compare/errors.hpp"
+#include "bench/study/errors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "analysis/spectrum.hpp"
 #include "bench/store/records.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 namespace {
 
@@ -27,21 +27,22 @@ std::vector<double> errors_of(std::span<const double> c, std::span<const double>
 
 const std::vector<Measure>& measures() {  // in the order of errors_of
     static const std::vector<Measure> all = {
-        {"error_l2_10ms", "relative L2 error, 0\u201310 ms", false, true, 10e-3},
-        {"error_l2_50ms", "relative L2 error, 0\u201350 ms", false, true, 50e-3},
-        {"error_l2_whole", "relative L2 error, whole run", false, true, HUGE_VAL},
-        {"horizon_s", "predictability horizon [s]", false, false, HUGE_VAL},
-        {"third_octave_db", "third-octave difference [dB rms]", true, true, HUGE_VAL},
-        {"stft_db", "multi-resolution STFT difference [dB]", false, true, HUGE_VAL},
-        {"stft_convergence", "multi-resolution spectral convergence", false, true, HUGE_VAL},
-        {"centroid_hz", "centroid track difference [Hz rms]", false, true, HUGE_VAL},
+        {"error_l2_10ms", "1", "relative L2 error, 0\u201310 ms", false, true, 10e-3},
+        {"error_l2_50ms", "1", "relative L2 error, 0\u201350 ms", false, true, 50e-3},
+        {"error_l2_whole", "1", "relative L2 error, whole run", false, true, HUGE_VAL},
+        {"horizon_s", "s", "predictability horizon [s]", false, false, HUGE_VAL},
+        {"third_octave_db", "dB", "third-octave difference [dB rms]", true, true, HUGE_VAL},
+        {"stft_db", "dB", "multi-resolution STFT difference [dB]", false, true, HUGE_VAL},
+        {"stft_convergence", "1", "multi-resolution spectral convergence", false, true, HUGE_VAL},
+        {"centroid_hz", "Hz", "centroid track difference [Hz rms]", false, true, HUGE_VAL},
     };
     return all;
 }
 
-Errors errors_of(const Trace& candidate, const Trace& reference) {
+Errors errors_of(const Trace& candidate, const Trace& reference, int taps) {
     Errors errors;
-    for (int k = 0; k < reference.taps(); ++k) errors.push_back(errors_of(candidate.column(k), reference.column(k), reference.tap_rate));
+    for (int k = 0; k < (taps < 0 ? reference.taps() : taps); ++k)
+        errors.push_back(errors_of(candidate.column(k), reference.column(k), reference.tap_rate));
     return errors;
 }
 
@@ -69,4 +70,4 @@ double horizon_of(const Errors& errors, const Headline& h) {
     return errors.empty() ? store::nan : errors[h.nut][k];
 }
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

@@ -7,11 +7,12 @@
 #include "scenes/scene.hpp"
 #include "schemes/trace.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 struct Measure {
     std::string column;  // "error_l2_50ms"
-    std::string title;   // "relative L2, 0-50 ms"
+    std::string unit;    // "1", "s", "dB", "Hz"
+    std::string title;   // "relative L2 error, 0-50 ms"
     bool bridge;         // the headline figure is of the bridge tap, else of the nut tap
     bool less_is_better;
     double window;  // [s] of the run that it is of; infinite: the whole
@@ -21,7 +22,7 @@ const std::vector<Measure>& measures();
 // One row per tap, one column per measure; NaN where the reference says nothing (a window that it does not cover), +inf for a run
 // that stopped inside the window.
 using Errors = std::vector<std::vector<double>>;
-Errors errors_of(const Trace& candidate, const Trace& reference);
+Errors errors_of(const Trace& candidate, const Trace& reference, int taps = -1);  // of the first `taps`; -1: of all
 
 // The taps of the headline columns: the first nut force and the first bridge force, else the first driving force, else the first tap.
 struct Headline {
@@ -32,4 +33,4 @@ Headline headline_of(const Scene&);
 double horizon_of(const Errors&, const Headline&);  // [s]
 double headline_window(double duration);            // the end [s] of the headline figure of the nut tap, infinite for a run below 10 ms
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

@@ -1,4 +1,4 @@
-#include "bench/compare/truth.hpp"
+#include "bench/study/truth.hpp"
 
 #include <fmt/core.h>
 
@@ -6,16 +6,16 @@
 #include <string_view>
 
 #include "analysis/error.hpp"
-#include "bench/compare/errors.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/time_limit.hpp"
+#include "bench/study/errors.hpp"
 #include "reference/agreement.hpp"
 #include "reference/certificate.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 namespace {
 constexpr int most_modes_found = 4096;  // beyond, a stiff string's highest frequency makes the work grow faster than modes^2
@@ -146,4 +146,4 @@ const Reference* of_modes(const Cell& cell, const Reference& model, const Truth&
     return cell.settings.modes == truth.reference.choice.settings.modes ? &truth.reference : nullptr;
 }
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

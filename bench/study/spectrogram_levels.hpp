@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace jvari::bench::suite {
+namespace jvari::bench::study {
 
 // A spectrogram made coarse enough to be drawn: the strongest bin in each row of frequency, frame by frame.
 struct Levels {
@@ -18,4 +18,4 @@ constexpr int silent_level = -4000;  // [0.1 dB]
 // At most 60 frames of 46 ms (Hann; shorter where the signal is) and 100 rows; none for fewer than 64 rows of signal.
 Levels levels_of(std::span<const double> signal, double rate);
 
-}  // namespace jvari::bench::suite
+}  // namespace jvari::bench::study

@@ -1,4 +1,4 @@
-#include "bench/compare/cost.hpp"
+#include "bench/study/cost.hpp"
 
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@
 #include "bench/store/system/time_limit.hpp"
 #include "schemes/run.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 namespace {
 constexpr double shortest_sample = 0.02;  // [s]
@@ -70,7 +70,7 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
     std::vector<Timed> timed;
     double work = 0, finished = 0;
     for (const Contender& c : contenders) {
-        if (c.cell->refused) continue;
+        if (!c.cell->ran()) continue;
         const double once = std::max(c.cell->summary.wall_seconds, 1e-6);
         const int runs = static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
         const int most = static_cast<int>(std::clamp(cell_budget / (once * runs), 2.0, 1e6));
@@ -112,4 +112,4 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
     }
 }
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

@@ -1,4 +1,4 @@
-#include "bench/suite/suite_clock.hpp"
+#include "bench/study/clock.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -6,7 +6,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/whole.hpp"
 
-namespace jvari::bench::suite {
+namespace jvari::bench::study {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -25,7 +25,6 @@ Spread spread_in(const Json& j, int count) {
 
 std::string clock_json(const KeptClock& c, const std::string& identity) {
     return store::sealed(Json{{"clock_of", Json::parse(identity)},
-                              {"ran", c.ran},
                               {"repeats", c.wall.count},
                               {"wall_seconds", quoted(c.wall)},
                               {"processor_seconds", quoted(c.processor)},
@@ -39,7 +38,6 @@ std::optional<KeptClock> read_clock(const fs::path& path, const std::string& ide
         const Json j = Json::parse(store::unsealed(store::read_whole(path)));
         if (j.at("clock_of") != Json::parse(identity)) return std::nullopt;
         KeptClock c;
-        c.ran = j.at("ran");
         const int repeats = store::whole<int>(j.at("repeats"));
         c.wall = spread_in(j.at("wall_seconds"), repeats);
         c.processor = spread_in(j.at("processor_seconds"), repeats);
@@ -51,11 +49,11 @@ std::optional<KeptClock> read_clock(const fs::path& path, const std::string& ide
     }
 }
 
-std::string clock_file(const PlannedCell& cell, const store::Stamp& stamp) {
+std::string clock_file(const Job& cell, const store::Stamp& stamp) {
     return cell.id + "." + store::hash_of(stamp.name).substr(0, 8) + ".clock";
 }
 
-std::vector<Clocks> clocks_in(const fs::path& folder, const SuitePlan& plan, const store::Rows& cells) {
+std::vector<Clocks> clocks_in(const fs::path& folder, const Plan& plan, const store::Rows& cells) {
     std::multimap<std::string, fs::path> files;  // by the id of their cell
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
@@ -64,9 +62,9 @@ std::vector<Clocks> clocks_in(const fs::path& folder, const SuitePlan& plan, con
     std::vector<Clocks> all;
     for (const std::size_t i : cells) {
         Clocks& own = all.emplace_back();
-        const auto [from, to] = files.equal_range(plan.cells[i].id);
+        const auto [from, to] = files.equal_range(plan.jobs[i].id);
         for (auto file = from; file != to; ++file)
-            if (auto clock = read_clock(file->second, plan.cells[i].identity)) own.emplace(clock->stamp.name, std::move(*clock));
+            if (auto clock = read_clock(file->second, plan.jobs[i].identity)) own.emplace(clock->stamp.name, std::move(*clock));
     }
     return all;
 }
@@ -85,4 +83,4 @@ Chosen machine_of(const std::vector<Clocks>& cells) {
     return best;
 }
 
-}  // namespace jvari::bench::suite
+}  // namespace jvari::bench::study

@@ -1,4 +1,4 @@
-#include "bench/compare/summary.hpp"
+#include "bench/study/summary.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include "bench/store/records.hpp"
 #include "scenes/modes.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::string names_of(const std::vector<Flag>& flags) {
     return names;
 }
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

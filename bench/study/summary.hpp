@@ -6,7 +6,7 @@
 
 #include "schemes/run.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 struct Summary {
     std::string scheme, scene;
@@ -56,4 +56,4 @@ constexpr double pull_floor = 1e-9;  // [N]
 constexpr double psi_allowed = 1e-9;     // energy of a quadratised contact that is open, as sqrt(2V) over its largest
 constexpr double energy_allowed = 1e-6;  // what the ledger may be open by, of the largest stored energy
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

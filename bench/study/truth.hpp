@@ -9,9 +9,10 @@
 // certificate its uncertainty is unknown. An error of less than ten times the uncertainty is shown as a bound (bound.hpp).
 #pragma once
 
-#include "bench/compare/compare_plan.hpp"
+#include "bench/study/cell.hpp"
+#include "bench/study/reference.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 constexpr double settled = 1e-4;  // a tenth of the finest accuracy that the table of the cheapest asks for
 constexpr double budget = 1.5e6;  // [s], of motion times modes^2 times 1 + 2.5 points (or barriers beyond the second) times how dear the
@@ -36,4 +37,4 @@ Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, in
 // Of those that were run the one with the cell's modes, or nullptr. `model`: with those that cells take unasked (0: each its own).
 const Reference* of_modes(const Cell&, const Reference& model, const Truth&);
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

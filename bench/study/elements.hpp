@@ -6,7 +6,7 @@
 
 #include "scenes/scene.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 enum class Element { strings, thread, contact, losses, stiffness, taps, body, probe, radiation };
 std::span<const Element> elements();
@@ -22,4 +22,4 @@ std::string change_of(Element);
 // Throws UsageError where the scene has nothing of it: it would cost nothing, and the clock would say otherwise.
 Scene without(Element, Scene);
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

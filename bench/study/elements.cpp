@@ -1,4 +1,4 @@
-#include "bench/compare/elements.hpp"
+#include "bench/study/elements.hpp"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 #include "bench/store/usage.hpp"
 #include "scenes/reduction.hpp"
 
-namespace jvari::bench::compare {
+namespace jvari::bench::study {
 
 namespace {
 constexpr std::array all = {Element::strings, Element::thread, Element::contact, Element::losses,   Element::stiffness,
@@ -68,4 +68,4 @@ Scene without(Element e, Scene scene) {
     return scene;
 }
 
-}  // namespace jvari::bench::compare
+}  // namespace jvari::bench::study

@@ -1,11 +1,11 @@
-#include "bench/suite/spectrogram_levels.hpp"
+#include "bench/study/spectrogram_levels.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/spectrum.hpp"
 
-namespace jvari::bench::suite {
+namespace jvari::bench::study {
 
 namespace {
 constexpr double highest_hz = 8000;
@@ -36,4 +36,4 @@ Levels levels_of(std::span<const double> signal, double rate) {
     return l;
 }
 
-}  // namespace jvari::bench::suite
+}  // namespace jvari::bench::study

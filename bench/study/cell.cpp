@@ -1,0 +1,38 @@
+#include "bench/study/cell.hpp"
+
+#include <fmt/core.h>
+
+#include "bench/store/system/time_limit.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari::bench::study {
+
+std::string Cell::status() const {
+    return !ran() ? failure : !needed ? "not_needed" : name_of(summary.status.outcome);
+}
+
+Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
+    RunOptions options;
+    options.energy = true;
+    options.progress = progress;
+    Run result = run(*cell.scheme, scene, cell.settings, options);
+    cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
+    if (result.status.outcome != Outcome::ok)
+        cell.reason =
+            fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
+    return std::move(result.trace);
+}
+
+void fail(Cell& cell, const std::exception& e) {
+    cell.failure = dynamic_cast<const Refusal*>(&e)               ? "refused"
+                   : dynamic_cast<const store::PastItsLimit*>(&e) ? "past_time_limit"
+                                                                  : "error";
+    cell.reason = e.what();
+}
+
+void judge(Cell& cell, const Trace& done, const Trace& truth, const Trace* model, int taps) {
+    cell.errors = errors_of(done, truth, taps);
+    cell.in_model = !model ? Errors{} : model == &truth ? cell.errors : errors_of(done, *model, taps);
+}
+
+}  // namespace jvari::bench::study

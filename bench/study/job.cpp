@@ -1,0 +1,81 @@
+#include "bench/study/job.hpp"
+
+#include <fmt/core.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/store/checksum.hpp"
+#include "bench/store/machine.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace jvari::bench::study {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+Json settings_json(const Settings& s) {
+    return {{"rate", store::text_of(s.sample_rate)}, {"tap_rate", store::text_of(s.tap_rate)}, {"modes", s.modes}, {"options", s.options}};
+}
+
+Json references_json(const Point& p) {
+    Json references = Json::array();
+    for (const ReferenceChoice& c : p.references) references.push_back({{"name", c.name()}, {"settings", settings_json(c.settings)}});
+    return references;
+}
+}  // namespace
+
+void address(Plan& plan, const std::vector<std::string>& plugins) {
+    const Json program = Json::parse(store::program_identity(plugins));
+    for (Point& p : plan.points) {
+        const Json references = references_json(p);
+        const std::string limit = store::text_of(p.time_limit);
+        p.hash = scene_hash(p.scene);
+        p.reference_key = p.hash + references.dump() + limit;
+        if (!p.truth_modes) continue;
+        Json modeless = references;
+        for (Json& r : modeless) r["settings"].erase("modes");
+        p.truth_key = std::to_string(*p.truth_modes) + p.hash + modeless.dump() + limit;
+    }
+    std::set<std::string> seen;
+    std::vector<Job> once;
+    for (Job& job : plan.jobs) {
+        const Point& p = *job.point;
+        Json identity{{"program", program},
+                      {"scene", p.scene.name},
+                      {"scene_hash", p.hash},
+                      {"scheme", job.cell.scheme->name},
+                      {"settings", settings_json(job.cell.settings)},
+                      {"judged_taps", p.taps},
+                      {"sounds", job.sounds},
+                      {"measured", job.measured}};
+        if (job.judged) identity["references"] = references_json(p);
+        if (job.judged && p.truth_modes) identity["reference_modes"] = *p.truth_modes;
+        if (job.repeats > 0) identity["repeats"] = job.repeats;
+        if (p.element && is_added(*p.element)) identity[name_of(*p.element)] = true;
+        if (!std::isinf(p.time_limit)) identity["time_limit_s"] = p.time_limit;
+        job.identity = identity.dump();
+        job.id = store::hash_of(job.identity);
+        if (seen.insert(job.identity).second) once.push_back(std::move(job));
+    }
+    plan.jobs = std::move(once);
+}
+
+std::string what_of(const Job& job) {
+    std::string text = job.point->scene.name;
+    for (const auto& [key, value] : job.point->swept) text += " " + key + "=" + value;
+    text += ": " + store::variant_name(job.cell.scheme->name, store::options_text(job.cell.settings.options));
+    if (job.cell.settings.sample_rate > 0) text += fmt::format(" at {} Hz", job.cell.settings.sample_rate);
+    return text;
+}
+
+std::vector<store::Rows> sets_of(const Plan& plan) {
+    std::map<int, store::Rows> sets;
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i) sets[plan.jobs[i].set].push_back(i);
+    std::vector<store::Rows> all;
+    for (auto& [set, jobs] : sets) all.push_back(std::move(jobs));
+    return all;
+}
+
+}  // namespace jvari::bench::study

@@ -1,0 +1,65 @@
+// What a study asks: jobs on points. A point is one scene and who is its reference; a job is a cell on it, and what is measured of that.
+// Compare makes the jobs of one point, a suite those of its file.
+#pragma once
+
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/store/cell_rows.hpp"
+#include "bench/study/elements.hpp"
+#include "bench/study/record.hpp"
+#include "bench/study/reference.hpp"
+
+namespace jvari::bench::study {
+
+struct Point {
+    Scene scene;
+    std::size_t taps = 0;                                    // the first so many are judged; more are drawn alone
+    std::vector<std::pair<std::string, std::string>> swept;  // key, value; the last may be "element", "-thread"
+    std::optional<Element> element;                          // that the scene is without; an added one: that is on while it is timed
+    std::vector<ReferenceChoice> references;
+    std::optional<int> truth_modes = 0;  // 0: found by doubling; none: the reference with the cells' modes is all there is
+    double time_limit = HUGE_VAL;        // of each run, of a reference too [s]
+    std::string hash{};                  // of the scene
+    std::string reference_key{};         // points that share it share the reference's run
+    std::string truth_key{};             // likewise of the truth, whose modes are none of the cells'; "": there is none
+};
+
+struct Ran {  // a job whose accuracy run reached its end or its failure
+    const Point& point;
+    const Cell& cell;
+    const Trace& trace;
+    const Trace* reference;  // on the same rows; nullptr where there is none
+};
+
+struct Job {
+    const Point* point;
+    Cell cell;
+    bool judged = true;                                  // against the point's reference
+    bool sounds = false;                                 // its headline's nut tap is to be heard
+    int repeats = 0;                                     // of the clock; 0: it is not timed
+    int set = 0;                                         // jobs of one set are timed in one interleaved run
+    std::function<void(const Ran&, Record&)> measure{};  // whatever else is measured of it
+    std::string measured{};                              // that, as JSON: part of its identity
+    std::string identity{};                              // JSON: all that its result depends on
+    std::string id{};                                    // hash_of it
+};
+
+struct Plan {
+    std::deque<Point> points;  // does not move what it holds
+    std::vector<Job> jobs;     // each identity once
+    std::vector<std::string> notes;
+};
+
+// Fills keys and identities, and leaves each job once. `plugins` are files whose contents count as part of the program.
+void address(Plan&, const std::vector<std::string>& plugins);
+
+std::string what_of(const Job&);                // for people: "tanpura_c3_release: modal_two_point at 44100 Hz"
+std::vector<store::Rows> sets_of(const Plan&);  // indices of jobs by the set they are of
+
+}  // namespace jvari::bench::study

@@ -1,0 +1,163 @@
+#include "bench/study/record.hpp"
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "bench/store/base64.hpp"
+#include "bench/store/checksum.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/outcome_name.hpp"
+#include "bench/store/whole.hpp"
+
+namespace jvari::bench::study {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+template <class Lines>
+Json numbers(const Lines& lines) {  // as texts: JSON has no NaN
+    Json all = Json::array();
+    for (const auto& line : lines) {
+        Json row = Json::array();
+        for (const double x : line) row.push_back(store::text_of(x));
+        all.push_back(row);
+    }
+    return all;
+}
+Errors errors_in(const Json& j) {
+    Errors errors;
+    for (const Json& row : j) {
+        errors.emplace_back();
+        for (const Json& x : row) errors.back().push_back(store::number_of(x));
+        if (errors.back().size() != measures().size()) throw std::runtime_error("not one number for each measure");
+    }
+    return errors;
+}
+std::vector<std::array<double, 3>> figures_in(const Json& j) {
+    std::vector<std::array<double, 3>> figures;
+    for (const Json& row : j) figures.push_back({store::number_of(row.at(0)), store::number_of(row.at(1)), store::number_of(row.at(2))});
+    return figures;
+}
+
+// Every number of a summary, in one order for both ways.
+template <class Summary_, class Number>
+void each_number(Summary_& s, Number number) {
+    number("rate", s.rate);
+    number("duration", s.duration);
+    number("wall_seconds", s.wall_seconds);
+    number("ns_per_step", s.ns_per_step);
+    number("times_real_time", s.times_real_time);
+    number("energy_residual_per_step", s.energy_residual_per_step);
+    number("energy_residual_accumulated", s.energy_residual_accumulated);
+    number("smallest_contact_force", s.smallest_contact_force);
+    number("largest_contact_force", s.largest_contact_force);
+    number("deepest_penetration", s.deepest_penetration);
+}
+
+Json summary_json(const Summary& s) {
+    Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"modes", s.modes}, {"dofs", s.dofs}, {"steps", s.steps}, {"rows", s.rows}};
+    j["status"] = {name_of(s.status.outcome), s.status.step};
+    each_number(s, [&j](const char* name, double x) { j[name] = store::text_of(x); });
+    j["facts"] = Json::array();
+    for (const Fact& f : s.facts) j["facts"].push_back({f.name, store::text_of(f.value), f.unit});
+    return j;
+}
+Summary summary_in(const Json& j) {
+    Summary s{};
+    s.scheme = j.at("scheme");
+    s.scene = j.at("scene");
+    s.modes = store::whole<int>(j.at("modes"));
+    s.dofs = store::whole<int>(j.at("dofs"));
+    s.steps = store::whole<long>(j.at("steps"));
+    s.rows = store::whole<long>(j.at("rows"));
+    s.status = {store::outcome_named(j.at("status").at(0)), store::whole<long>(j.at("status").at(1))};
+    each_number(s, [&j](const char* name, double& x) { x = store::number_of(j.at(name)); });
+    for (const Json& f : j.at("facts")) s.facts.push_back({f.at(0), store::number_of(f.at(1)), f.at(2)});
+    return s;
+}
+
+Json sound_json(const store::Sound& s) {
+    const std::string_view samples(reinterpret_cast<const char*>(s.samples.data()), s.samples.size() * sizeof(std::int16_t));
+    return {store::text_of(s.rate), store::text_of(s.peak), store::base64(samples)};
+}
+store::Sound sound_in(const Json& j) {
+    store::Sound s;
+    s.rate = store::number_of(j.at(0));
+    s.peak = store::number_of(j.at(1));
+    const std::string samples = store::bytes_of_base64(j.at(2).get<std::string>());
+    s.samples.resize(samples.size() / sizeof(std::int16_t));
+    std::memcpy(s.samples.data(), samples.data(), s.samples.size() * sizeof(std::int16_t));
+    return s;
+}
+
+Json levels_json(const Levels& l) {
+    return {{"frames", l.frames}, {"rows", l.rows}, {"start", l.start}, {"hop", l.hop}, {"row_hz", l.row_hz}, {"tenths_of_db", l.level}};
+}
+Levels levels_in(const Json& j) {
+    Levels l{store::whole<int>(j.at("frames")), store::whole<int>(j.at("rows")), j.at("start"), j.at("hop"), j.at("row_hz"), {}};
+    for (const Json& tenths : j.at("tenths_of_db")) l.level.push_back(store::whole<int>(tenths));
+    if (l.frames < 0 || l.rows < 0 || l.level.size() != static_cast<std::size_t>(l.frames) * l.rows)
+        throw std::runtime_error("not one level for each frame and row");
+    return l;
+}
+}  // namespace
+
+std::string json_of(const Record& r, const std::string& identity) {
+    const Cell& c = r.cell;
+    const Against& a = r.against;
+    Json rows = Json::object();
+    for (const auto& [facet, table] : r.rows) rows[facet] = {{"columns", table.columns}, {"rows", table.rows}};
+    return store::sealed(Json{
+        {"job", Json::parse(identity)},
+        {"failure", c.failure},
+        {"reason", c.reason},
+        {"summary", summary_json(c.summary)},
+        {"errors", numbers(c.errors)},
+        {"in_model", numbers(c.in_model)},
+        {"against",
+         {{"reference", a.reference},
+          {"modes", a.modes},
+          {"doubling", a.doubling},
+          {"floor", numbers(a.floor)},
+          {"certificate", numbers(a.trust.figure)},
+          {"left_out", numbers(a.trust.left_out)},
+          {"certificate_in_model", numbers(a.model_trust.figure)}}},
+        {"sound", sound_json(c.sound)},
+        {"levels", levels_json(r.levels)},
+        {"rows", rows}}.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::optional<Record> read_record(const std::filesystem::path& path, const std::string& identity, const Cell& planned) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+    try {
+        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
+        if (j.at("job") != Json::parse(identity)) return std::nullopt;
+        Record r{planned, {}, {}, {}};
+        r.cell.failure = j.at("failure");
+        r.cell.reason = j.at("reason");
+        r.cell.summary = summary_in(j.at("summary"));
+        r.cell.errors = errors_in(j.at("errors"));
+        r.cell.in_model = errors_in(j.at("in_model"));
+        r.cell.sound = sound_in(j.at("sound"));
+        const Json& a = j.at("against");
+        r.against.reference = a.at("reference");
+        r.against.modes = store::whole<int>(a.at("modes"));
+        r.against.doubling = a.at("doubling");
+        r.against.floor = errors_in(a.at("floor"));
+        r.against.trust.figure = figures_in(a.at("certificate"));
+        r.against.trust.left_out = figures_in(a.at("left_out"));
+        r.against.model_trust.figure = figures_in(a.at("certificate_in_model"));
+        r.levels = levels_in(j.at("levels"));
+        for (const auto& [facet, kept] : j.at("rows").items()) {
+            const store::Table& table = r.rows[facet] = {kept.at("columns"), kept.at("rows")};
+            for (const auto& fields : table.rows)
+                if (fields.size() != table.columns.size()) return std::nullopt;
+        }
+        return r;
+    } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
+        return std::nullopt;
+    }
+}
+
+}  // namespace jvari::bench::study

@@ -1,0 +1,37 @@
+// What a job came to, as it is kept: one file per job, FOLDER/<id>.json, written by rename. Numbers stay numbers until a table is written.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "bench/store/records.hpp"
+#include "bench/study/cell.hpp"
+#include "bench/study/spectrogram_levels.hpp"
+#include "bench/trust/certificate_library.hpp"
+
+namespace jvari::bench::study {
+
+struct Against {            // what a cell was measured against
+    std::string reference;  // its name, "" where there is none: then the rest is empty
+    int modes = 0;
+    std::string doubling;             // how far the doubling of its modes went
+    Errors floor;                     // of the reference started 1e-12 apart
+    trust::Trust trust, model_trust;  // of the reference, and of the one with the cells' modes
+};
+
+struct Record {
+    Cell cell;
+    Against against;
+    Levels levels;                             // of the spectrogram; none where it was not asked for
+    std::map<std::string, store::Table> rows;  // of each facet that makes rows and was asked for
+    bool timed() const { return cell.wall.count > 0; }
+};
+
+// Without what the clock said: that is kept apart (clock.hpp).
+std::string json_of(const Record&, const std::string& identity);
+// Of the cell in `planned`. Nothing where there is no such file, it is of another job, its checksum is not its own, or it cannot be read.
+std::optional<Record> read_record(const std::filesystem::path&, const std::string& identity, const Cell& planned);
+
+}  // namespace jvari::bench::study

@@ -1,0 +1,35 @@
+// Which solution cells are measured against, and its run.
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/store/system/listener.hpp"
+#include "bench/trust/certificate_library.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari::bench::study {
+
+struct ReferenceChoice {
+    const Descriptor* scheme;
+    Settings settings;
+    std::string note;                 // why this one, "" where it is the rule or was asked for
+    int oversampled = 0;              // a scheme, and the multiple of the coarsest rate of three; 0: a reference
+    bool kept = false;                // its run may be one of before (kept_run.hpp): the reference is of this program and not of a plugin
+    std::filesystem::path kept_in{};  // a study's own folder, for all of its runs; "": kept_runs_folder(), for those worth keeping
+    std::string name() const { return (oversampled ? "oversampled " : "") + std::string(scheme->name); }
+};
+
+struct Reference {
+    ReferenceChoice choice;
+    Run run, moved;      // moved: started 1e-12 apart
+    trust::Trust trust;  // what its certificate, or its own estimate, says of it
+};
+// The first of the choices that represents the scene and gets going, its two runs side by side where `jobs` are not 1; of the schemes that
+// may stand in the one that estimates its own error least goes first. Throws Refusal where none does, and PastItsLimit where one of the two
+// runs computes for longer than `time_limit` [s]: another in its place would make the errors a matter of the machine.
+Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const store::Listener&, double time_limit = HUGE_VAL);
+
+}  // namespace jvari::bench::study

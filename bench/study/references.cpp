@@ -1,0 +1,95 @@
+#include "bench/study/references.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include "bench/store/system/file_lock.hpp"
+
+namespace jvari::bench::study {
+
+class References::Shared {
+public:
+    template <class Make>
+    void make(Make run, std::size_t taps) {
+        if (made_) return;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock) throw store::Busy{"another thread, which runs a reference"};
+        if (made_) return;
+        try {
+            truth_ = std::make_unique<Truth>(run());
+            floor_ = errors_of(truth_->reference.moved.trace, truth_->reference.run.trace, static_cast<int>(taps));
+        } catch (const store::Busy& busy) {
+            busy_ = busy;
+            again_ = Clock::now() + std::chrono::milliseconds(500);
+            throw;
+        } catch (const std::exception& e) {
+            refused_ = e.what();
+        }
+        made_ = true;
+    }
+    void look() {
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (lock && Clock::now() < again_) throw store::Busy(busy_);
+    }
+    void hold() { ++needed_by_; }
+    void release() {
+        if (--needed_by_ == 0) truth_.reset();
+    }
+    const Truth* truth() const { return truth_.get(); }
+    const Errors& floor() const { return floor_; }
+    const std::string& refused() const { return refused_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::mutex mutex_;  // of what follows, until it is made
+    std::unique_ptr<Truth> truth_;
+    Errors floor_;
+    std::string refused_;
+    store::Busy busy_;
+    Clock::time_point again_{};
+    std::atomic<bool> made_ = false;
+    std::atomic<int> needed_by_ = 0;
+};
+
+Against References::Of::against() const {
+    if (!truth) return {};
+    const Reference& r = truth->reference;
+    return {r.choice.name(), r.choice.settings.modes, truth->said, *floor, r.trust, model ? model->trust : trust::Trust{}};
+}
+
+References::References(std::span<const Job> jobs) {
+    for (const Job& job : jobs)
+        if (job.judged) {
+            for (const std::string& key : {job.point->reference_key, job.point->truth_key})
+                if (auto& shared = all_[key]; !shared) shared = std::make_unique<Shared>();
+            hold(*job.point);
+        }
+}
+
+References::~References() = default;
+
+void References::each_of(const Point& p, void (Shared::*act)()) {
+    (all_.at(p.reference_key).get()->*act)();
+    if (!p.truth_key.empty()) (all_.at(p.truth_key).get()->*act)();
+}
+
+References::Of References::make(const Point& p, int jobs, const store::Listener& listener) {
+    Shared& model = *all_.at(p.reference_key);
+    model.make([&] { return Truth{run_reference(p.references, p.scene, jobs, listener, p.time_limit), {}, {}}; }, p.taps);
+    Shared& truth = p.truth_key.empty() ? model : *all_.at(p.truth_key);
+    if (p.truth_modes) truth.make([&] { return run_truth(p.references, p.scene, *p.truth_modes, jobs, listener, p.time_limit); }, p.taps);
+    return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(), truth.refused()};
+}
+
+void References::look(const Point& p) {
+    each_of(p, &Shared::look);
+}
+void References::hold(const Point& p) {
+    each_of(p, &Shared::hold);
+}
+void References::release(const Point& p) {
+    each_of(p, &Shared::release);
+}
+
+}  // namespace jvari::bench::study

@@ -1,0 +1,182 @@
+#include "bench/study/run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/system/side_by_side.hpp"
+#include "bench/store/system/time_limit.hpp"
+#include "bench/study/clock.hpp"
+#include "bench/study/cost.hpp"
+
+namespace jvari::bench::study {
+
+namespace {
+namespace fs = std::filesystem;
+
+Record record_of(const Job& job, References& references, store::Done& done) {
+    const Point& point = *job.point;
+    References::Of known;
+    if (job.judged) known = references.make(point, 1, store::PartOf(done));
+    Record r{job.cell, {}, {}, {}};
+    Cell& cell = r.cell;
+    const auto told = [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
+    const Trace* truth = known.truth ? &known.truth->reference.run.trace : nullptr;
+    try {
+        const Trace trace = run_cell(cell, point.scene, store::within(point.time_limit, told));
+        if (truth) {
+            const Reference* own = known.model ? of_modes(cell, *known.model, *known.truth) : nullptr;
+            judge(cell, trace, *truth, own ? &own->run.trace : nullptr, static_cast<int>(point.taps));
+        }
+        if (job.sounds && cell.reason.empty()) cell.sound = store::sound_of(trace.column(headline_of(point.scene).nut), trace.tap_rate);
+        if (job.measure) job.measure({point, cell, trace, truth}, r);
+    } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
+        fail(cell, e);
+    }
+    if (!known.refused.empty()) cell.reason += (cell.reason.empty() ? "" : "; ") + known.refused;
+    r.against = known.against();
+    return r;
+}
+
+// Of the jobs that are not there: run here, or read back where another process has run them meanwhile.
+void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, References& references, Kept& keep, int threads,
+                 const store::Listener& listener, Study& into) {
+    std::vector<double> sizes;
+    for (const std::size_t i : missing)
+        sizes.push_back(std::max(plan.jobs[i].cell.settings.sample_rate, 44100.0) * std::max(1, plan.jobs[i].cell.settings.modes) *
+                        plan.jobs[i].point->scene.duration);
+    std::atomic<int> ran = 0;
+    store::side_by_side(
+        sizes, threads, listener, "errors",
+        [&](std::size_t k, store::Done& done) {
+            const Job& job = plan.jobs[missing[k]];
+            if (job.judged) references.look(*job.point);
+            const fs::path file = keep.folder.empty() ? fs::path() : keep.folder / (job.id + ".json");
+            const store::FileLock lock(file, "runs " + what_of(job));
+            std::optional<Record> record;
+            if (keep.resume && !file.empty()) record = read_record(file, job.identity, job.cell);
+            if (!record) {
+                record = record_of(job, references, done);
+                if (!file.empty()) store::write_fresh(file, json_of(*record, job.identity));
+                ++ran;
+            }
+            if (job.judged) references.release(*job.point);
+            into.records[missing[k]] = std::move(*record);
+            ++keep.kept;
+        },
+        [&](std::size_t k) { return what_of(plan.jobs[missing[k]]); });
+    into.ran = ran;
+}
+
+void show_clock(Cell& cell, const KeptClock& clock) {
+    cell.wall = clock.wall;
+    cell.processor = clock.processor;
+    cell.worst_block = clock.worst_block;
+    cell.stamp = clock.stamp;
+}
+
+// Jobs of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike. Where one of them has
+// no clock of the machine that timed the others, all are timed here.
+std::vector<Clocks> time_set(const Plan& plan, const store::Rows& indices, const Kept& keep, Study& into, const store::Listener& listener) {
+    std::vector<Clocks> clocks(indices.size());
+    if (keep.resume && !keep.folder.empty()) clocks = clocks_in(keep.folder, plan, indices);
+    if (machine_of(clocks).all) return clocks;
+    const std::string here = store::stamp_now().name;
+    std::vector<std::size_t> todo;  // of indices
+    std::vector<Cell> cells;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        if (clocks[k].contains(here)) continue;
+        todo.push_back(k);
+        cells.push_back(into.records[indices[k]].cell);
+    }
+    std::vector<Contender> contenders;
+    for (std::size_t t = 0; t < todo.size(); ++t) {
+        const Point& p = *plan.jobs[indices[todo[t]]].point;
+        contenders.push_back({&cells[t], &p.scene, p.element && is_added(*p.element) ? p.element : std::nullopt});
+    }
+    time_cells(contenders, plan.jobs[indices.front()].repeats, listener);
+    for (std::size_t t = 0; t < todo.size(); ++t) {
+        const Cell& c = cells[t];
+        const Job& job = plan.jobs[indices[todo[t]]];
+        const KeptClock clock{c.wall, c.processor, c.worst_block, c.stamp};
+        if (!keep.folder.empty()) store::write_fresh(keep.folder / clock_file(job, clock.stamp), clock_json(clock, job.identity));
+        clocks[todo[t]].insert_or_assign(clock.stamp.name, clock);
+        ++into.timed;
+    }
+    return clocks;
+}
+
+// Into the records of those jobs: the costs of one machine, of others where that has none.
+void show_clocks(const store::Rows& indices, const std::vector<Clocks>& clocks, Study& into) {
+    const std::string machine = machine_of(clocks).machine;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        if (clocks[k].empty()) continue;
+        const auto own = clocks[k].find(machine);
+        show_clock(into.records[indices[k]].cell, own == clocks[k].end() ? clocks[k].begin()->second : own->second);
+    }
+}
+
+// One process of the folder times while no other does. None of them runs jobs then: each begins here once all are there.
+void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Listener& listener) {
+    std::vector<store::Rows> sets = sets_of(plan);
+    for (store::Rows& set : sets)
+        std::erase_if(set, [&](std::size_t i) { return plan.jobs[i].repeats == 0 || !into.records[i].cell.ran(); });
+    std::erase_if(sets, [](const store::Rows& set) { return set.empty(); });
+    if (sets.empty()) return;
+    const auto lock =
+        store::lock_once_free(keep.folder.empty() ? keep.folder : keep.folder / "clock", "times the cells of this folder", listener);
+    for (const store::Rows& set : sets) show_clocks(set, time_set(plan, set, keep, into, listener), into);
+}
+}  // namespace
+
+Study run(const Plan& plan, References& references, Kept& keep, int threads, const store::Listener& listener) {
+    Study result;
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+        const Job& job = plan.jobs[i];
+        std::optional<Record> kept;
+        if (keep.resume && !keep.folder.empty()) kept = read_record(keep.folder / (job.id + ".json"), job.identity, job.cell);
+        if (!kept) missing.push_back(i);
+        else if (job.judged) references.release(*job.point);
+        result.records.push_back(kept ? std::move(*kept) : Record{job.cell, {}, {}, {}});
+    }
+    keep.of = static_cast<int>(plan.jobs.size());
+    keep.kept = keep.of - static_cast<int>(missing.size());
+    if (!missing.empty()) run_missing(plan, missing, references, keep, threads, listener, result);
+    result.read_back = keep.of - result.ran;
+    time_sets(plan, keep, result, listener);
+    return result;
+}
+
+Study run(const Plan& plan, const fs::path& folder, bool resume, int threads, const store::Listener& listener) {
+    References references(plan.jobs);
+    Kept keep{folder, resume};
+    return run(plan, references, keep, threads, listener);
+}
+
+std::string kept_of(const Plan& plan, const fs::path& folder) {
+    std::error_code error;
+    const auto files = [&](const char* in, const char* extension) {
+        return std::count_if(fs::directory_iterator(folder / in, error), fs::directory_iterator(),
+                             [extension](const fs::directory_entry& e) { return e.path().extension() == extension; });
+    };
+    std::vector<std::string> kept;
+    if (!plan.jobs.empty()) {
+        const auto lies = [&](const Job& c) { return fs::exists(folder / "cells" / (c.id + ".json"), error); };
+        kept.push_back(fmt::format("{} of {} cells", std::count_if(plan.jobs.begin(), plan.jobs.end(), lies), plan.jobs.size()));
+    }
+    if (const auto n = files("points", ".json"); n > 0 || plan.jobs.empty()) kept.push_back(fmt::format("{} points of maps", n));
+    if (const auto n = files("references", ".run"); n > 0) kept.push_back(fmt::format("{} runs of references", n));
+    std::string text = kept.front();
+    for (std::size_t i = 1; i < kept.size(); ++i) text += (i + 1 < kept.size() ? ", " : " and ") + kept[i];
+    return text;
+}
+
+void keep_references_in(Plan& plan, const fs::path& folder) {
+    for (Point& p : plan.points)
+        for (ReferenceChoice& c : p.references) c.kept_in = folder;
+}
+
+}  // namespace jvari::bench::study
