@@ -15,7 +15,7 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     std::vector<double> own;
     for (double omega : modes.omega0) own.push_back(1 / (modes.mass * omega * omega));
     InSeries series;
-    series.C = modal_compliance(descriptor, scene, ModeBasis(s, modes.count(), 0), own);
+    series.C = modal_compliance(descriptor, scene, modes_of(s, modes.count()), own);
     if (s.thread && !(series.C.cc > 0)) refuse("needs modes that are left out: nothing is missing at the thread");
     const ContactLaw law = barrier ? ContactLaw{barrier->stiffness.k, barrier->exponent} : ContactLaw{};
     const Thread thread = s.thread.value_or(Thread{});

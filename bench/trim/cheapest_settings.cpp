@@ -33,7 +33,6 @@ std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene) {
         all.push_back({&d, matched});
         all.back().options.emplace_back(name, value);
     };
-    if (declares(d, "effective_modes") && !needed_by(scene).has(Feature::profile_barrier)) with("effective_modes", "8");
     if (declares(d, profile_points_option.name) && needed_by(scene).has(Feature::profile_barrier))
         for (const char* points : {"8", "4"}) with(profile_points_option.name, points);
     return all;

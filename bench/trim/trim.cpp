@@ -29,7 +29,7 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
         fmt::format("what happens after {:g} s, and other starts than those named", judge.scene().duration),
         fmt::format("models that need more than {:g} s of computing, or {:g} times what serves already, for one judged run", longest,
                     judged_over_timed),
-        "options other than compliance=matched and with it effective_modes=8, profile_points=8 and 4"};
+        "options other than compliance=matched and with it profile_points=8 and 4"};
     if (r.scheme != "any") left.push_back("schemes other than " + r.scheme);
     else left.emplace_back("controls, which are known to be wrong somewhere: each by its name");
     if (!path.passed_over.empty())

@@ -104,6 +104,25 @@ double static_nut_force(const String& s, const Footprint& force) {
     return force.position / s.length;  // the balance of moments about the other end
 }
 
+double radiation_resistance(const String& s, const Footprint& at, int kept) {
+    constexpr int further = 8;  // times as many modes: what they add to C_cut - H falls as 1/i^3
+    const auto* table = measured(s);
+    const int all = table ? static_cast<int>(table->frequency_hz.size()) : further * kept;
+    const double none = std::sqrt(s.tension * s.linear_density);
+    if (all <= kept) return none;
+    const Modes modes = modes_of(s, all);
+    const auto g = footprint_weights(modes, at.position, at.width);
+    const double frequency = modes.omega0[kept - 1] / 3;
+    double yield = table ? 0 : static_deflection(s, at, at), slower = 0;  // C_cut, and C_cut - H
+    for (int i = 0; i < all; ++i) {
+        const double square = modes.omega0[i] * modes.omega0[i], own = g[i] * g[i] / (modes.mass * square);
+        if (i < kept) yield -= table ? 0 : own;
+        else if (table) yield += own;
+        if (i >= kept) slower += own * frequency * frequency / (square + frequency * frequency);
+    }
+    return yield > slower && slower > 0 ? slower / (yield * (yield - slower) * frequency) : none;
+}
+
 Sites sites_of(const Scene& scene, std::span<const Footprint> contacts) {
     const String& s = scene.strings.front();
     Sites all;
@@ -146,12 +165,13 @@ void refuse_soft(const std::string& who, double bb, double bc, double cc) {
     if (!(bb * cc >= bc * bc)) refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
 }
 
-MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, const OwnResponse& own) {
+MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, int kept, const OwnResponse& own) {
     MissingMatrix m;
     const int forces = static_cast<int>(sites.forces.size()), points = sites.points();
     m.contacts = sites.contacts;
     m.thread = sites.thread;
     m.wave_resistance = 2 * std::sqrt(s.tension * s.linear_density);
+    for (int p = 0; p < points; ++p) m.radiation.push_back(radiation_resistance(s, sites.forces[p], kept));
     m.taps.resize(taps);
     for (int r = 0; r < static_cast<int>(sites.readings.size()); ++r)
         for (int f = 0; f < forces; ++f) {
@@ -166,8 +186,9 @@ MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, 
 }
 }  // namespace
 
-MissingMatrix missing_matrix(const std::string& who, const String& s, const Sites& sites, std::size_t taps, const OwnResponse& own) {
-    MissingMatrix m = difference(s, sites, taps, own);
+MissingMatrix missing_matrix(const std::string& who, const String& s, const Sites& sites, std::size_t taps, int kept,
+                             const OwnResponse& own) {
+    MissingMatrix m = difference(s, sites, taps, kept, own);
     const int n = sites.points();
     if (n <= 1 + (m.thread ? 1 : 0)) {
         const MissingCompliance one(m);
@@ -206,6 +227,8 @@ MissingCompliance::MissingCompliance(const MissingMatrix& m) {
     wave_resistance = m.wave_resistance;
     const bool barrier = m.contacts > 0;
     const int points = m.contacts + (m.thread ? 1 : 0), c = m.contacts;
+    if (barrier) radiation_b = m.radiation[0];
+    if (m.thread) radiation_c = m.radiation[c];
     if (barrier) bb = m.C[0];
     if (m.thread) cc = m.C[c * points + c];
     if (barrier && m.thread) bc = m.C[1];
@@ -220,9 +243,9 @@ MissingCompliance::MissingCompliance(const MissingMatrix& m) {
     }
 }
 
-MissingCompliance missing_compliance(const std::string& who, const String& s, const Sites& sites, std::size_t taps,
+MissingCompliance missing_compliance(const std::string& who, const String& s, const Sites& sites, std::size_t taps, int kept,
                                      const OwnResponse& own) {
-    return MissingCompliance(missing_matrix(who, s, sites, taps, own));
+    return MissingCompliance(missing_matrix(who, s, sites, taps, kept, own));
 }
 
 String with_profile_points(String s, const Settings& settings) {

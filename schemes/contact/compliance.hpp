@@ -31,7 +31,13 @@ struct Footprint {        // where a force acts and a displacement is read
 };
 
 double static_deflection(const String&, const Footprint& at, const Footprint& force);  // C_true [m/N]
-double static_nut_force(const String&, const Footprint& force);                        // of 1 N [1]
+
+// What the modes beyond the first `kept` resist at a point, beside the spring C_cut that they are under a steady force [kg/s]: with their
+// admittance H(s) = sum of g_i^2/(m (s^2 + omega_i^2)), H(s) = C_cut/(1 + s R C_cut) at a third of the frequency of the last mode kept.
+// Where no mode is left out, half the wave resistance of the string, sqrt(T mu).
+double radiation_resistance(const String&, const Footprint&, int kept);
+
+double static_nut_force(const String&, const Footprint& force);  // of 1 N [1]
 
 struct Reading {
     Footprint at;
@@ -65,6 +71,7 @@ struct MissingMatrix {
     std::vector<std::vector<double>> taps;  // per tap of the scene, of each point and then the pluck; empty for what is no linear tap
     double excess = 0;                      // [m/N]
     double wave_resistance = 0;             // of the string, 2 sqrt(T mu) [kg/s]
+    std::vector<double> radiation;          // what the cut modes resist at each point [kg/s]
 
     double on_tap(std::size_t k, const double* force, double F_e) const {  // force: of each point
         if (taps[k].empty()) return 0;
@@ -74,11 +81,13 @@ struct MissingMatrix {
         return sum;
     }
 };
-MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps, const OwnResponse& own);
+// `kept`: how many of the string's modes the scheme has.
+MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps, int kept, const OwnResponse& own);
 
 struct MissingCompliance {                          // of one contact at most [m/N]; 0 where a part is absent
     double bb = 0, bc = 0, cc = 0, be = 0, ce = 0;  // barrier, thread, pluck
     double wave_resistance = 0;                     // of the string, 2 sqrt(T mu) [kg/s]
+    double radiation_b = 0, radiation_c = 0;        // what the cut modes resist at barrier and thread [kg/s]
     std::vector<std::array<double, 3>> taps;        // per tap of the scene, of 1 N at each; 0 for what is no linear tap of this string
     double on_tap(std::size_t k, double F_b, double F_c, double F_e) const {
         return taps[k][0] * F_b + taps[k][1] * F_c + taps[k][2] * F_e;
@@ -88,7 +97,8 @@ struct MissingCompliance {                          // of one contact at most [m
 };
 // Refuses a string that is too soft already, since what is missing can stand in series only where it is more than nothing; `who` opens the
 // sentence.
-MissingCompliance missing_compliance(const std::string& who, const String&, const Sites&, std::size_t taps, const OwnResponse& own);
+MissingCompliance missing_compliance(const std::string& who, const String&, const Sites&, std::size_t taps, int kept,
+                                     const OwnResponse& own);
 
 // Whether compliance=matched is asked for, of a scheme that leaves out contact loss and a moving body then: Refusal where the scene has
 // one.

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "schemes/contact/impact_share.hpp"
-#include "schemes/contact/series_step.hpp"
+#include "schemes/contact/series_points.hpp"
 
 namespace jvari {
 
@@ -15,18 +15,13 @@ struct MatchingLimit {
     const char* cause;
 };
 inline constexpr MatchingLimit matching_limits[] = {
-    {facts::thread_overdamping, 0.15, "the thread's damper is light, and matched makes it heavier"},
     {facts::impact_share, 0.25, "the string strikes its obstacle instead of wrapping around it"},
 };
 
-inline std::vector<Fact> matching_facts(const SeriesPoints& p, double overdamping, const ImpactShare& impacts) {
+inline std::vector<Fact> matching_facts(const SeriesPoints& p, const ImpactShare& impacts) {
     std::vector<Fact> f;
-    if (p.thread) f.push_back({facts::thread_overdamping, overdamping / p.wave_resistance});
     if (p.barrier) f.push_back({facts::impact_share, impacts.value()});
     return f;
-}
-inline std::vector<Fact> matching_facts(const SeriesStep& s, const ImpactShare& impacts) {
-    return matching_facts(s.points, s.overdamping, impacts);
 }
 
 }  // namespace jvari

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "schemes/contact/matching_facts.hpp"
-
 namespace jvari {
 
 ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
@@ -17,7 +15,6 @@ ObstacleStep::ObstacleStep(std::span<const ContactLaw> laws, std::span<const dou
       heights_(heights.begin(), heights.end()),
       span_(span),
       theta_(theta.begin(), theta.end()) {
-    if (contacts_ > 0) theta_bb_ = theta[0];
     for (auto* v : {&eta_, &b_, &r_}) v->assign(contacts_, 0.0);
 }
 
@@ -126,18 +123,8 @@ std::vector<Fact> ObstacleStep::facts() const {
             {facts::contact_residual, tally_.residual}};
 }
 
-std::vector<Fact> ObstacleStep::series_facts() const {
-    ImpactShare all;
-    for (const ImpactShare& contact : impacts_) all.join(contact);
-    if (series_) return matching_facts(*series_, all);
-    return several_ ? std::vector<Fact>{{facts::impact_share, all.value()}} : std::vector<Fact>{};
-}
-
 bool ObstacleStep::solve(const double* older, const double* free, double* force) noexcept {
-    if (!series_ && !several_) return solve_points(older, free, force);
-    const bool solved = several_ ? solve_several(older, free, force) : solve_in_series(older, free, force);
-    for (std::size_t a = 0; a < impacts_.size(); ++a) impacts_[a].take(force[a]);
-    return solved;
+    return series_ ? solve_in_series(older, free, force) : solve_points(older, free, force);
 }
 
 bool ObstacleStep::solve_points(const double* older, const double* free, double* force) noexcept {
@@ -176,114 +163,58 @@ bool ObstacleStep::solve_points(const double* older, const double* free, double*
 }
 
 double ObstacleStep::loss(double r_c) const {
-    if (several_) r_c = several_->thread_moved;
-    if (series_) return series_->damping * moved_ * moved_ / span_;
-    return thread_.lost(r_c) + (several_ ? several_->lost / span_ : 0) + (lossy_ ? lossy_->lost / span_ : 0);
+    return thread_.lost(series_ ? series_->thread_moved : r_c) + (series_ ? series_->lost / span_ : 0) +
+           (lossy_ ? lossy_->lost / span_ : 0);
 }
 
 double ObstacleStep::potential(const double* reading, int level) const {
-    if (series_) return series_->points.energy(contacts_ ? reading[0] : 0, thread_.law() ? reading[contacts_] : 0, Y_[level]);
-    double sum = several_ ? several_->stored(several_->P[level]) : 0;
-    const auto at = [&](int a) { return reading[a] + (several_ ? several_->yield(a, several_->P[level]) : 0); };
+    const double* P = series_ ? series_->P[level].data() : nullptr;
+    double sum = series_ ? series_->stored(P) : 0;
+    const auto at = [&](int a) { return reading[a] + (series_ ? series_->yield(a, P) : 0); };
     for (int a = 0; a < contacts_; ++a) sum += laws_[a].potential(heights_[a] - at(a));
     return thread_.law() ? sum + thread_.stored(at(contacts_)) : sum;
 }
 
-void ObstacleStep::put_in_series(const MissingMatrix& C, int levels) {
-    const int n = points();
-    levels_ = levels;
-    impacts_.assign(contacts_, ImpactShare(span_ / levels));
-    if (contacts_ <= 1) {
-        const Thread thread = thread_.law().value_or(Thread{});
-        const SeriesPoints points(contacts_ ? &laws_[0] : nullptr, contacts_ ? heights_[0] : 0, thread.stiffness, thread.damping,
-                                  thread.height, MissingCompliance(C));
-        series_ = SeriesStep(points, theta_bb_, contacts_ ? thread_.coupling(0) : 0, thread_.theta_cc(), span_);
-        return;
-    }
+void ObstacleStep::put_in_series(const MissingMatrix& missing, int levels) {
+    Series z{Residual(missing, span_), {}, {}, {}};
     std::vector<double> theta = theta_;
-    for (std::size_t i = 0; i < theta.size(); ++i) theta[i] += C.C[i];
+    for (std::size_t i = 0; i < theta.size(); ++i) theta[i] += z.K[i];
     *this = ObstacleStep(std::vector(laws_), std::vector(heights_), std::optional(thread_.law()), theta, span_);
     levels_ = levels;
-    impacts_.assign(contacts_, ImpactShare(span_ / levels));
-    several_ = Several{};
-    several_->C = C.C;
-    for (auto* v : {&several_->P[0], &several_->P[1], &several_->older, &several_->free}) v->assign(n, 0.0);
+    for (auto* v : {&z.P[0], &z.P[1], &z.older, &z.free}) v->assign(z.points, 0.0);
+    series_ = std::move(z);
 }
 
-void ObstacleStep::begin(const double* reading) {
-    if (series_ && thread_.law()) Y_[0] = Y_[1] = begun_ = series_->start(reading[contacts_]);
-    if (several_)
-        for (auto& P : several_->P) std::fill(P.begin(), P.end(), 0.0);
+void ObstacleStep::begin(const double*) {
+    if (series_)
+        for (auto& P : series_->P) std::fill(P.begin(), P.end(), 0.0);
 }
 
 void ObstacleStep::follow(const ObstacleStep& first) {
-    Y_[0] = first.begun_;
-    Y_[1] = first.Y_[0];
-    if (!several_) return;
-    std::fill(several_->P[0].begin(), several_->P[0].end(), 0.0);
-    several_->P[1] = first.several_->P[1];
+    if (!series_) return;
+    std::fill(series_->P[0].begin(), series_->P[0].end(), 0.0);
+    series_->P[1] = first.series_->P[0];
 }
 
-void ObstacleStep::forces(const double* reading, int level, double* force) const {
-    const int n = contacts_;
-    if (several_) {
-        std::copy(several_->P[level].begin(), several_->P[level].end(), force);
-    } else if (series_) {
-        const SeriesPoints::Forces now = series_->points.forces(n ? reading[0] : 0, thread_.law() ? reading[n] : 0, Y_[level]);
-        if (n) force[0] = now.b;
-        if (thread_.law()) force[n] = now.c;
-    }
-}
-
-bool ObstacleStep::solve_several(const double* older, const double* free, double* force) noexcept {
-    Several& z = *several_;
-    const int n = points();
-    for (int a = 0; a < n; ++a) {
-        const double yield = z.yield(a, z.P[0]);
-        z.older[a] = older[a] + yield;
-        z.free[a] = free[a] - yield;
-    }
-    const bool converged = solve_points(z.older.data(), z.free.data(), force);
-    if (thread_.law()) {
-        z.thread_moved = z.free[n - 1];
-        for (int a = 0; a < n; ++a) z.thread_moved += theta_[(n - 1) * n + a] * force[a];
-    }
-    for (int a = 0; a < n; ++a) z.free[a] = force[a] - z.P[0][a];
-    z.lost = z.stored(z.free);
-    if (levels_ == 2) z.P[0].swap(z.P[1]);
-    std::copy_n(force, n, z.P[1].begin());
-    if (levels_ == 1) std::copy_n(force, n, z.P[0].begin());
-    return converged;
+void ObstacleStep::forces(int level, double* force) const {
+    if (series_) std::copy(series_->P[level].begin(), series_->P[level].end(), force);
 }
 
 bool ObstacleStep::solve_in_series(const double* older, const double* free, double* force) noexcept {
-    const SeriesStep& s = *series_;
-    const int c = contacts_;
-    const double y_b = c ? older[0] : 0, u_b = c ? free[0] : 0, y_c = thread_.law() ? older[c] : 0, u_c = thread_.law() ? free[c] : 0,
-                 Y = Y_[0];
-    const double v = thread_.law() ? s.pull(s.points.stretch(y_c, Y), u_c, Y) : 0;
-    ContactSolution x;
-    if (c) {
-        const double zeta = s.points.approach(y_b, y_c, Y), b = s.approach(u_b, u_c, v, Y);
-        const SeriesLaw& law = s.points.law;
-        x = law.law.alpha == 1 ? solve_linear_contact(law.both, zeta, b, s.theta) : solve_series_contact(law, zeta, b, s.theta);
-        force[0] = x.force;
-        if (x.force > 0 || zeta > 0) {
-            tally_.force.note(x.force);
-            tally_.deepest = std::max(tally_.deepest, law.depth(zeta - x.r));
-            ++tally_.solves;
-            tally_.iterations += x.iterations;
-            tally_.most_iterations = std::max(tally_.most_iterations, x.iterations);
-            tally_.residual = std::max(tally_.residual, x.residual);
-        }
+    Series& z = *series_;
+    const std::size_t n = z.points;
+    std::vector<double>& P = z.P[0];
+    for (std::size_t a = 0; a < n; ++a) {
+        z.older[a] = older[a] + z.yield(a, P.data());
+        z.free[a] = free[a] - Residual::times(z.K, a, P.data(), n);
     }
-    if (thread_.law()) {
-        force[c] = v - s.beta * x.force;
-        moved_ = s.moved(force[c], Y);
-    }
-    Y_[0] = levels_ == 2 ? Y_[1] : Y + moved_;
-    Y_[1] = Y + moved_;
-    return x.converged;
+    const bool converged = solve_points(z.older.data(), z.free.data(), force);
+    if (thread_.law()) z.thread_moved = z.free[n - 1] + Residual::times(theta_, n - 1, force, n);
+    for (std::size_t a = 0; a < n; ++a) z.free[a] = force[a] - P[a];
+    z.lost = z.lost_in(z.free.data());
+    for (std::size_t a = 0; a < n; ++a) P[a] += Residual::times(z.W, a, z.free.data(), n);
+    if (levels_ == 2) z.P[0].swap(z.P[1]);
+    return converged;
 }
 
 }  // namespace jvari

@@ -12,10 +12,11 @@
 // known before the step, and never negative. Then r = (I + Theta D)^-1 (free + Theta F) is the same equation with other compliances, solved
 // so only while a lossy contact is closed. It takes sum D_a r_a^2.
 //
-// With a compliance C in series with several contacts the points are at Y = reading + C P, P the force of the last step. Of the next one
-//     r_Y = free - C P + (Theta + C) F,
-// so the same equation is solved, with Theta + C for Theta, and F >= 0. P' C P/2 is stored, (F - P)' C (F - P)/2 lost: C stands for modes
-// that are cut off, and keeps nothing of a blow shorter than a step. (The rule at midpoints would lose nothing, and alternate for ever.)
+// What the string lacks at its points stands in series with them (compliance.hpp): a compliance C, beside it dampers R. It moves by D, and
+// by the rule at midpoints F = P + (D+ - D)/2 C^-1 + R (D+ - D)/span with P = C^-1 D the force of the spring. So with
+// W = (R C/span + 1/2)^-1 and K = C W,
+//     D+ = D + K (F - P),   P+ = P + W (F - P),   points at reading + C P,   r = free - K P + (Theta + K) F,
+// the equation above with Theta + K for Theta. P' C P/2 is stored, and (D+ - D)' R (D+ - D)/span lost.
 #pragma once
 
 #include <array>
@@ -26,8 +27,7 @@
 #include "scenes/scene.hpp"
 #include "schemes/contact/contact_gram.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
-#include "schemes/contact/impact_share.hpp"
-#include "schemes/contact/series_step.hpp"
+#include "schemes/contact/residual.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -53,12 +53,10 @@ public:
     double loss(
         double r_c) const;  // of the last step [W]: of the thread, whose reading moved by r_c, of lossy contacts, of what is in series
 
-    // Puts a compliance in series: with one contact at most and the thread as in series_step.hpp, with several contacts as below. levels:
-    // how many of them a step spans.
-    void put_in_series(const MissingMatrix&, int levels);
-    void begin(const double* reading);                                   // at rest at t = 0
-    void follow(const ObstacleStep& first);                              // after `first` made the first step, of one level
-    void forces(const double* reading, int level, double* force) const;  // of each point at that level, of what is in series
+    void put_in_series(const MissingMatrix&, int levels);  // levels: how many of them a step spans
+    void begin(const double* reading);                     // at rest at t = 0
+    void follow(const ObstacleStep& first);                // after `first` made the first step, of one level
+    void forces(int level, double* force) const;           // of each point at that level, of what is in series
 
     struct Tally {  // over the solves since clear()
         ForceRange force;
@@ -68,12 +66,8 @@ public:
     };
     const Tally& tally() const { return tally_; }
     std::vector<Fact> facts() const;           // of the tally
-    std::vector<Fact> series_facts() const;    // what may make it do harm that something is in series
     static constexpr int dofs() { return 0; }  // it carries no state
-    void clear() {
-        tally_ = {};
-        for (ImpactShare& contact : impacts_) contact.clear();
-    }
+    void clear() { tally_ = {}; }
 
 private:
     int contacts_ = 0;
@@ -83,7 +77,6 @@ private:
     std::vector<double> heights_, eta_, b_, r_;
     double span_ = 1;
     Tally tally_;
-    std::vector<ImpactShare> impacts_;  // of each contact with something in series
 
     bool solve_points(const double* older, const double* free, double* force) noexcept;
     struct Lossy {
@@ -98,30 +91,15 @@ private:
     bool damp() noexcept;
     void settle(double* force) noexcept;
     bool solve_in_series(const double* older, const double* free, double* force) noexcept;
-    bool solve_several(const double* older, const double* free, double* force) noexcept;
-    std::optional<SeriesStep> series_;  // one contact at most, and the thread
-    int levels_ = 1;
-    double theta_bb_ = 0, moved_ = 0, begun_ = 0, Y_[2] = {};  // Y_: of the thread at the two levels, less its height [m]
 
-    struct Several {                           // contacts: what is in series with them
-        std::vector<double> C;                 // points x points [m/N]
+    struct Series : Residual {
         std::array<std::vector<double>, 2> P;  // at the two levels [N]
-        std::vector<double> older, free;       // of Y [m]
+        std::vector<double> older, free;       // of the points where they touch [m]
         double lost = 0;                       // in the last step [J]
         double thread_moved = 0;               // in it [m]
-
-        double yield(int a, const std::vector<double>& force) const {
-            double sum = 0;
-            for (std::size_t b = 0; b < force.size(); ++b) sum += C[a * force.size() + b] * force[b];
-            return sum;
-        }
-        double stored(const std::vector<double>& force) const {
-            double sum = 0;
-            for (std::size_t a = 0; a < force.size(); ++a) sum += 0.5 * force[a] * yield(static_cast<int>(a), force);
-            return sum;
-        }
     };
-    std::optional<Several> several_;
+    int levels_ = 1;
+    std::optional<Series> series_;
     std::vector<double> theta_;  // of all points [m/N]
 };
 

@@ -301,7 +301,8 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
         reader.push_back(static_cast<int>(reader.size()) < sites.points() ? footprint_stencil(g.grid, r.at.position, r.at.width)
                          : r.nut_force                                    ? nut_force_stencil(g.grid, s)
                                                                           : displacement_stencil(g.grid, r.at.position));
-    g.series = missing_matrix(d.name, s, sites, scene.taps.size(), [&](int r, int f) { return reader[r].read(shape[f].data()); });
+    g.series = missing_matrix(d.name, s, sites, scene.taps.size(), g.grid.intervals - 1,
+                              [&](int r, int f) { return reader[r].read(shape[f].data()); });
 }
 
 void put_on_body(GridString& g, const String& s) {  // schemes/body/body_step.hpp

@@ -36,7 +36,6 @@ std::vector<Fact> grid_facts(const GridString& g, const ObstacleStep& obstacle) 
         if (g.series) f.push_back({facts::series_compliance, g.series->C[0]});
         if (g.series) f.push_back({facts::compliance_excess, g.series->excess});
     }
-    for (const Fact& fact : obstacle.series_facts()) f.push_back(fact);
     return f;
 }
 

@@ -131,7 +131,7 @@ private:
         write_taps(out, row, g_.taps, y_, velocity, bridge, thread);
         if (g_.series) {
             g_.read(y_, step_ * dt_, older_.data());
-            obstacle_.forces(older_.data(), 0, now_.data());
+            obstacle_.forces(0, now_.data());
             add_series_taps(out, row, g_, now_.data(), g_.pluck_at(step_ * dt_));
         }
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);

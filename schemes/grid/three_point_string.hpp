@@ -300,7 +300,7 @@ public:
         write_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
         if (g_.series) {
             g_.read(level_[1], step_ * dt_, reading_.data());
-            obstacle_.forces(reading_.data(), 0, now_.data());
+            obstacle_.forces(0, now_.data());
             add_series_taps(out, row, g_, now_.data(), g_.pluck_at(step_ * dt_));
         }
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);

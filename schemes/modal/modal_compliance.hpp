@@ -4,11 +4,11 @@
 #include <span>
 
 #include "schemes/contact/compliance.hpp"
-#include "schemes/modal/effective_modes.hpp"
+#include "scenes/modes.hpp"
 
 namespace jvari {
 
 // own: what the scheme makes of 1 N of steady modal force on each mode [m/N].
-MissingCompliance modal_compliance(const Descriptor&, const Scene&, const ModeBasis&, std::span<const double> own);
+MissingCompliance modal_compliance(const Descriptor&, const Scene&, const Modes&, std::span<const double> own);
 
 }  // namespace jvari

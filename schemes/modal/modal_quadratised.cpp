@@ -8,10 +8,9 @@
 #include <functional>
 #include <optional>
 
-#include "schemes/contact/matching_facts.hpp"
 #include "schemes/contact/quadratised_contact.hpp"
 #include "schemes/contact/quadratised_points.hpp"
-#include "schemes/contact/series_step.hpp"
+#include "schemes/contact/residual.hpp"
 #include "schemes/modal/kernels/modal_energies.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_three_point.hpp"
@@ -80,16 +79,16 @@ public:
         theta_bc_ = modal_dot(m_.g_b, e_c_);
         theta_be_ = modal_dot(m_.g_b, e_e_);
         theta_ce_ = modal_dot(m_.g_c, e_e_);
-        thread_ = {m_.k_c, m_.k_c / 2 + m_.r_c / m_.dt, modal_dot(m_.g_b, e_b_), theta_bc_, theta_cc_};
         const bool barrier = !m_.g_b.empty(), thread = !m_.g_c.empty();
         if (missing) {
             std::vector<double> own;
             for (int i = 0; i < m_.count; ++i) own.push_back(0.5 * xi_ / A_[i]);  // (42) with s = 0
             C_ = missing(own);
-            const SeriesPoints points(barrier ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C_);
-            series_ = SeriesStep(points, modal_dot(m_.g_b, e_b_), theta_bc_, theta_cc_, m_.dt);
-            if (barrier) q_ = QuadratisedLaw::make(points.law, variant, 0.5);
+            series_ = ResidualPair(C_, m_.dt);
+            theta_bc_ += series_->K_bc;
+            theta_cc_ += series_->K_cc;
         }
+        thread_ = {m_.k_c, m_.k_c / 2 + m_.r_c / m_.dt, modal_dot(m_.g_b, e_b_) + (series_ ? series_->K_bb : 0), theta_bc_, theta_cc_};
         unplucked_ = two_point_pass(barrier, thread, false);
         plucked_ = two_point_pass(barrier, thread, true);
         pass_.size = m_.size;
@@ -113,11 +112,10 @@ public:
         y_c_ = modal_dot(m_.g_c, y_);
         u_c_ = modal_dot(m_.g_c, u_);
         step_ = 0;
-        Y_ = series_ ? series_->start(y_c_) : 0;
+        if (series_) series_->clear();
         psi_ = q_.psi(eta());
         status_ = {};
         seen_ = {};
-        impacts_ = ImpactShare(m_.dt);
         impulse_b_ = impulse_c_ = supplied_ = dissipated_ = 0;
     }
 
@@ -130,7 +128,7 @@ public:
                 solve();
                 if (out.energy) ledger();
                 step();
-                if (!m_.g_b.empty()) seen_.note(F_b_, psi_, series_ ? series_->points.law.depth(eta()) : eta(), q_.psi(eta()));
+                if (!m_.g_b.empty()) seen_.note(F_b_, psi_, eta(), q_.psi(eta()));
                 if (out.stopped(k, steps_between_questions)) return {};
             }
             if (!(std::abs(y_b_ + y_c_) < modal_overflow)) return status_ = {Outcome::diverged, step_ - 1};
@@ -144,10 +142,8 @@ public:
         double compliance = 0;
         for (int i = 0; i < m_.count; ++i) compliance += 0.5 * xi_ * m_.g_b[i] * m_.g_b[i] / A_[i];
         std::vector<Fact> f = seen_.list();
-        f.push_back(series_ ? Fact{facts::series_compliance, series_->points.law.S}
+        f.push_back(series_ ? Fact{facts::series_compliance, series_->C_bb}
                             : Fact{facts::static_compliance, compliance / m_.true_compliance});
-        if (series_)
-            for (const Fact& fact : matching_facts(*series_, impacts_)) f.push_back(fact);
         return f;
     }
     std::vector<FreeMode> free_modes() const override {
@@ -163,39 +159,30 @@ private:
         return e;
     }
 
-    // At the step in hand, with the pluck's part of what is in series.
-    double at_b() const { return y_b_ + C_.be * m_.pluck_at(step_); }
-    double at_c() const { return y_c_ + C_.ce * m_.pluck_at(step_); }
-    double eta() const { return series_ ? series_->points.approach(at_b(), at_c(), Y_) : m_.h_b - y_b_; }
+    // Of barrier and thread where they touch, at the step in hand: with what is in series, and the pluck's part of it.
+    double at_b() const { return y_b_ + (series_ ? C_.be * m_.pluck_at(step_) + series_->D_b : 0); }
+    double at_c() const { return y_c_ + (series_ ? C_.ce * m_.pluck_at(step_) + series_->D_c : 0); }
+    double eta() const { return m_.h_b - at_b(); }
 
-    void solve_in_series() {
-        const SeriesStep& z = *series_;
+    void solve() {
         F_e_ = 0.5 * (m_.pluck_at(step_) + m_.pluck_at(step_ + 1));
         change_ = m_.pluck_at(step_ + 1) - m_.pluck_at(step_);
-        const double u_b = u_b_ + theta_be_ * F_e_ + C_.be * change_, u_c = u_c_ + theta_ce_ * F_e_ + C_.ce * change_;
-        const double v = z.points.thread ? z.pull(z.points.stretch(at_c(), Y_), u_c, Y_) : 0;
-        const QuadratisedStep s = solve_quadratised(q_, eta(), psi_, -z.approach(u_b, u_c, v, Y_), z.theta);
-        F_b_ = s.force;
-        psi_ = s.psi;
-        F_c_ = v - z.beta * F_b_;
-        s_c_ = z.moved(F_c_, Y_);
-        Y_ += s_c_;
-        impulse_b_ += F_b_;
-        impulse_c_ += F_c_;
-        if (series_) impacts_.take(F_b_);
-    }
-    void solve() {
-        if (series_) return solve_in_series();
-        F_e_ = 0.5 * (m_.pluck_at(step_) + m_.pluck_at(step_ + 1));
-        const double u_b = u_b_ + theta_be_ * F_e_, u_c = u_c_ + theta_ce_ * F_e_;
-        const double v_c = thread_.alone(m_.h_c - y_c_, u_c);
-        const QuadratisedStep s = solve_quadratised(q_, m_.h_b - y_b_, psi_, u_b + theta_bc_ * v_c, thread_.theta);
+        double u_b = u_b_ + theta_be_ * F_e_, u_c = u_c_ + theta_ce_ * F_e_;
+        if (series_) {
+            u_b += C_.be * change_ - series_->H_b;
+            u_c += C_.ce * change_ - series_->H_c;
+        }
+        const double v_c = thread_.alone(m_.h_c - at_c(), u_c);
+        const QuadratisedStep s = solve_quadratised(q_, eta(), psi_, u_b + theta_bc_ * v_c, thread_.theta);
         F_b_ = s.force;
         psi_ = s.psi;
         F_c_ = v_c - thread_.beta * F_b_;
         s_c_ = u_c + theta_bc_ * F_b_ + theta_cc_ * F_c_;
         impulse_b_ += F_b_;
         impulse_c_ += F_c_;
+        if (!series_) return;
+        lost_ = series_->lost(F_b_, F_c_);
+        series_->take(F_b_, F_c_);
     }
 
     void push() {
@@ -216,20 +203,15 @@ private:
     void ledger() {  // (51), (52) over one step
         push();
         const auto [loss, work] = two_point_spending(pass_, B_.data(), F_e_ != 0 ? m_.g_e.data() : nullptr);
-        dissipated_ += loss / xi_ + (series_ ? series_->damping : m_.r_c / m_.dt) * s_c_ * s_c_;
+        dissipated_ += loss / xi_ + m_.r_c / m_.dt * s_c_ * s_c_ + lost_;
         supplied_ += F_e_ * work - (F_b_ * C_.be + F_c_ * C_.ce) * change_;
     }
     double momentum(int i) const { return 0.5 * J_[i] * u_[i] + A_[i] * y_[i]; }  // q of (31)
 
     double stored() const {  // (49) with psi
         const double sum = two_point_stored(pass_, J_.data(), A_.data());
-        if (series_) {
-            const SeriesPoints& p = series_->points;
-            const double D = p.thread ? p.stretch(at_c(), Y_) : 0;
-            return sum / xi_ + 0.5 * p.stiff_cc * D * D + 0.5 * p.k_c * Y_ * Y_ + 0.5 * psi_ * psi_;
-        }
-        const double e_c = m_.h_c - y_c_;
-        return sum / xi_ + 0.5 * m_.k_c * e_c * e_c + 0.5 * psi_ * psi_;
+        const double e_c = m_.h_c - at_c();
+        return sum / xi_ + 0.5 * m_.k_c * e_c * e_c + 0.5 * psi_ * psi_ + (series_ ? series_->stored() : 0);
     }
 
     void write(const Block& out, int row) const {
@@ -240,20 +222,17 @@ private:
             return sum * (2 / m_.dt);
         };
         write_taps(out, row, m_.taps, y_, velocity, impulse_b_ / per_row, impulse_c_ / per_row);
-        if (series_) {
-            const SeriesPoints::Forces now = series_->points.forces(at_b(), at_c(), Y_);
+        if (series_)
             for (int k = 0; k < out.taps; ++k)
-                out.tap[k * out.stride + row] += C_.taps[k][0] * now.b + C_.taps[k][1] * now.c + C_.taps[k][2] * m_.pluck_at(step_);
-        }
+                out.tap[k * out.stride + row] += C_.on_tap(k, series_->P_b(), series_->P_c(), m_.pluck_at(step_));
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
     }
 
     ModalString m_;
     QuadratisedLaw q_;
     MissingCompliance C_;
-    std::optional<SeriesStep> series_;
-    ImpactShare impacts_;        // with something in series
-    double Y_ = 0, change_ = 0;  // of the thread less its height [m]; of the pluck over the step [N]
+    std::optional<ResidualPair> series_;
+    double change_ = 0, lost_ = 0;  // of the pluck over the step [N]; of what is in series [J]
     ModalArray y_, u_, A_, B_, a_, c_, J_, e_b_, e_c_, e_e_;
     double xi_ = 0, theta_bc_ = 0, theta_cc_ = 0, theta_be_ = 0, theta_ce_ = 0;
     EliminatedThread thread_;
@@ -286,7 +265,7 @@ Made made(const Descriptor& descriptor, const Scene& scene, const Settings& sett
         QuadratisedTwoPoint::Missing missing;
         if (matched)
             missing = [&](std::span<const double> own) {
-                return modal_compliance(descriptor, scene, ModeBasis(scene.strings.front(), string.count, 0), own);
+                return modal_compliance(descriptor, scene, modes_of(scene.strings.front(), string.count), own);
             };
         return std::make_unique<QuadratisedTwoPoint>(string, variant, missing);
     }
@@ -294,7 +273,7 @@ Made made(const Descriptor& descriptor, const Scene& scene, const Settings& sett
     if (matched) {  // at low rates its string is too soft, which is refused with the figure
         std::vector<double> own;
         for (int i = 0; i < string.count; ++i) own.push_back(gain[i] / string.num[i]);  // under a steady force: d = 0
-        modal_compliance(descriptor, scene, ModeBasis(scene.strings.front(), string.count, 0), own);
+        modal_compliance(descriptor, scene, modes_of(scene.strings.front(), string.count), own);
         throw Refusal(
             std::string(descriptor.name) +
             ": compliance=matched with levels=3: a compliance could stand in series here, but psi at half steps has no step for it; "

@@ -50,7 +50,7 @@ public:
         : m_(std::move(string)), free_{Free(m_, outer * m_.dt), Free(m_, inner * m_.dt)}, q_(m_.size), v_(m_.size) {
         const String& s = scene.strings.front();
         pluck_ = s.pluck;
-        C_ = modal_compliance(descriptor, scene, ModeBasis(s, m_.count, 0), yielding());
+        C_ = modal_compliance(descriptor, scene, modes_of(s, m_.count), yielding());
         for (const bool back : {false, true}) {
             points_[back] = SeriesPoints(s.barriers.empty() ? nullptr : &m_.barrier, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C_);
             points_[back].set_time(0.5 * (back ? inner : outer) * m_.dt);
@@ -94,7 +94,7 @@ public:
                                {facts::largest_contact_force, most_},
                                {facts::deepest_penetration, most_ > 0 ? std::pow(most_ / m_.barrier.k, 1 / m_.barrier.alpha) : 0},
                                {facts::series_compliance, points_[0].law.S}};
-        for (const Fact& fact : matching_facts(points_[0], 0, impacts_)) f.push_back(fact);
+        for (const Fact& fact : matching_facts(points_[0], impacts_)) f.push_back(fact);
         return f;
     }
 

@@ -4,9 +4,7 @@
 // two-point discrete gradient of eq 30. Starts from rest with q = 0 as in the paper: with losses that is not quite the true rest, a freely
 // decaying mode begins with a small phase offset (fact `start_phase_offset`); without losses free motion is exact to rounding.
 // Option `compliance` = own (default, the paper's scheme) | matched: what truncation and step take from the string's compliance stands in
-// series with barrier and thread (contact/compliance.hpp), and its part is added to displacement and nut force. Option `effective_modes` =
-// n adds n modes for those cut off (effective_modes.hpp), stepped by the coefficients of eq 32: exact under a steady force, stable above
-// half the rate.
+// series with barrier and thread (contact/compliance.hpp), and its part is added to displacement and nut force.
 // `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
 // Profiles, several barriers, contact loss and a moving body: modal_two_point_points.cpp. Leaves out: polarisation.
 #include <algorithm>
@@ -18,8 +16,6 @@
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
-#include "schemes/contact/matching_facts.hpp"
-#include "schemes/modal/effective_modes.hpp"
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
@@ -38,10 +34,7 @@ Coefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i 
     return {0.25 * omega0 * omega0 * dt * dt, sigma * dt};
 }
 
-constexpr Option effective_option{
-    "effective_modes", "0",
-    "modes that stand for all those cut off as bridge and thread see them, with compliance=matched; 0: a spring alone"};
-constexpr Option two_point_options[] = {compliance_option, profile_points_option, effective_option};
+constexpr Option two_point_options[] = {compliance_option, profile_points_option};
 
 class ModalTwoPoint final : public Scheme {
 public:
@@ -50,21 +43,15 @@ public:
         const String& s = scene.strings.front();
         m_.steps_per_row = steps_per_row(settings);
         m_.dt = 1 / settings.sample_rate;
-        const Modes string_modes = modes_of(s, settings);
-        refuse_above_nyquist(descriptor, string_modes, settings.sample_rate);
-        const int kept = string_modes.count();
-        const double effective = number_option(settings, effective_option);
-        if (!(effective >= 0 && effective <= 200) || effective != std::floor(effective))
-            throw Refusal("option effective_modes: found " + std::to_string(effective) + ", expected a whole number from 0 to 200");
-        if (effective > 0 && !matched) throw Refusal("option effective_modes goes with compliance=matched");
-        const ModeBasis modes(s, kept, static_cast<int>(effective));
+        const Modes modes = modes_of(s, settings);
+        refuse_above_nyquist(descriptor, modes, settings.sample_rate);
         m_.modes = modes.count();
         m_.size = (m_.modes + two_point_padding - 1) / two_point_padding * two_point_padding;
 
         const double xi = m_.dt * m_.dt / (2 * modes.mass);
         std::vector<double> A, B, c, loss, all_J, inverse_J, scale;  // scale = sqrt(J/xi)
         for (int i = 0; i < m_.modes; ++i) {
-            const auto [Ai, Bi] = (i < kept ? law : trapezoidal)(modes.omega0[i], modes.sigma[i], m_.dt);
+            const auto [Ai, Bi] = law(modes.omega0[i], modes.sigma[i], m_.dt);
             const double J = 1 + Ai + Bi;
             A.push_back(Ai);
             B.push_back(Bi);
@@ -80,11 +67,10 @@ public:
         put(TwoPointColumn::loss, keep(loss));
         m_.J = keep(all_J);
 
-        std::vector<double> y0 = modes.initial(s), u0 = y0;
+        std::vector<double> y0 = initial_displacement(modes, s), u0 = y0;
         for (int i = 0; i < m_.modes; ++i) {
             y0[i] *= scale[i];
             u0[i] = -2 * A[i] / (1 + A[i] + B[i]) * y0[i];  // (42) with q = 0
-            if (i >= kept) continue;
             free_.push_back(two_point_mode(A[i], B[i], m_.dt));
             offset_ = std::max(offset_, start_phase_offset(modes.omega0[i], modes.sigma[i], A[i], B[i]));
         }
@@ -97,7 +83,7 @@ public:
         };
         if (!s.barriers.empty()) {
             const auto& b = std::get<LumpedBarrier>(s.barriers.front());
-            const auto g = modes.footprint(b.position, b.width);
+            const auto g = footprint_weights(modes, b.position, b.width);
             double own = 0, truth = 0;
             for (int i = 0; i < m_.modes; ++i) truth += g[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
             for (int i = 0; i < m_.modes; ++i) own += 0.5 * xi * g[i] * g[i] / A[i];  // (42) with s = 0
@@ -109,21 +95,16 @@ public:
             m_.theta = two_point_dot(g_b_, g_b_, m_.size);
         }
         if (s.thread) {
-            g_c_ = keep(unscaled(modes.footprint(s.thread->position, s.thread->width)));
+            g_c_ = keep(unscaled(footprint_weights(modes, s.thread->position, s.thread->width)));
             put(TwoPointColumn::g_c, g_c_);
             m_.k_c = s.thread->stiffness;
             m_.r_c = s.thread->damping;
             m_.h_c = s.thread->height;
             m_.theta_cc = two_point_dot(g_c_, g_c_, m_.size);
             if (g_b_) m_.theta_bc = two_point_dot(g_b_, g_c_, m_.size);
-            const EliminatedThread thread(m_.k_c, m_.k_c / 2 + m_.r_c / m_.dt, m_.theta, m_.theta_bc, m_.theta_cc);
-            m_.phi_c = thread.phi;
-            m_.inverse_c = thread.inverse;
-            m_.beta_c = thread.beta;
-            m_.theta = thread.theta;
         }
         if (s.pluck) {
-            m_.g_e = keep(unscaled(modes.footprint(s.pluck->position, s.pluck->width)));
+            m_.g_e = keep(unscaled(footprint_weights(modes, s.pluck->position, s.pluck->width)));
             if (g_b_) m_.theta_be = two_point_dot(g_b_, m_.g_e, m_.size);
             if (g_c_) m_.theta_ce = two_point_dot(g_c_, m_.g_e, m_.size);
             const PluckSteps steps = pluck_steps(*s.pluck, m_.dt);
@@ -136,10 +117,12 @@ public:
         for (const Tap& tap : scene.taps) {
             using From = TwoPointTap::From;
             switch (tap.quantity) {
-                case Quantity::displacement: taps_.push_back({From::modes, keep(unscaled(modes.displacement(tap.position)))}); break;
-                case Quantity::nut_force: taps_.push_back({From::modes, keep(unscaled(modes.nut_force(s)))}); break;
+                case Quantity::displacement:
+                    taps_.push_back({From::modes, keep(unscaled(displacement_weights(modes, tap.position)))});
+                    break;
+                case Quantity::nut_force: taps_.push_back({From::modes, keep(unscaled(nut_force_weights(modes, s)))}); break;
                 case Quantity::velocity: {  // p/m = 2q/dt, q = J u/2 + A y
-                    std::vector<double> on_y = unscaled(modes.displacement(tap.position)), on_u = on_y;
+                    std::vector<double> on_y = unscaled(displacement_weights(modes, tap.position)), on_u = on_y;
                     for (int i = 0; i < m_.modes; ++i) {
                         on_u[i] /= m_.dt * inverse_J[i];
                         on_y[i] *= 2 * A[i] / m_.dt;
@@ -154,6 +137,13 @@ public:
         }
         m_.taps = taps_;
         if (matched) put_in_series(descriptor, scene, modes, A);
+        if (s.thread) {
+            const EliminatedThread thread(m_.k_c, m_.k_c / 2 + m_.r_c / m_.dt, m_.theta, m_.theta_bc, m_.theta_cc);
+            m_.phi_c = thread.phi;
+            m_.inverse_c = thread.inverse;
+            m_.beta_c = thread.beta;
+            m_.theta = thread.theta;
+        }
         const ContactKind kind = !g_b_ ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
         sociable_ = kind == ContactKind::linear && !matched;
         advance_ = two_point_kernel(kind, g_c_ != nullptr, matched ? Compliance::matched : Compliance::own);
@@ -164,8 +154,7 @@ public:
         put(TwoPointColumn::y, y0_);
         put(TwoPointColumn::u, u0_);
         m_.step = 0;
-        m_.series.Y_c = Y_c0_;
-        m_.series.impacts.clear();
+        m_.series.points.clear();
         m_.y_b = g_b_ ? two_point_dot(g_b_, y0_, m_.size) : 0;
         m_.u_b = g_b_ ? two_point_dot(g_b_, u0_, m_.size) : 0;
         m_.y_c = g_c_ ? two_point_dot(g_c_, y0_, m_.size) : 0;
@@ -201,16 +190,13 @@ public:
         if (g_b_) {
             f.push_back({facts::smallest_contact_force, m_.least_force});
             f.push_back({facts::largest_contact_force, m_.most_force});
-            const SeriesLaw& law = m_.series.step.points.law;
-            f.push_back({facts::deepest_penetration, law.S > 0 ? law.depth(m_.depth) : m_.depth});
-            f.push_back(law.S > 0 ? Fact{facts::series_compliance, law.S} : Fact{facts::static_compliance, compliance_});
+            f.push_back({facts::deepest_penetration, m_.depth});
+            f.push_back(matched_ ? Fact{facts::series_compliance, m_.series.points.C_bb} : Fact{facts::static_compliance, compliance_});
         }
         if (g_b_ && m_.barrier.alpha != 1) {
             f.push_back({facts::contact_iterations_mean, m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0});
             f.push_back({facts::contact_iterations_most, m_.iterations_most});
         }
-        if (matched_)
-            for (const Fact& fact : matching_facts(m_.series.step, m_.series.impacts)) f.push_back(fact);
         return f;
     }
 
@@ -236,35 +222,26 @@ private:
     }
 
     // docs/compliance-matching.md: the constants of the points' step, from C over barrier, thread and pluck.
-    void put_in_series(const Descriptor& descriptor, const Scene& scene, const ModeBasis& modes, const std::vector<double>& A) {
+    void put_in_series(const Descriptor& descriptor, const Scene& scene, const Modes& modes, const std::vector<double>& A) {
         std::vector<double> own;
         own.reserve(A.size());
         for (const double Ai : A) own.push_back(m_.dt * m_.dt / (4 * modes.mass * Ai));  // (42) with s = 0
         const MissingCompliance C = modal_compliance(descriptor, scene, modes, own);
         for (std::size_t k = 0; k < taps_.size(); ++k) taps_[k].on_force = C.taps[k];
-        const SeriesPoints points(g_b_ ? &m_.barrier : nullptr, m_.h_b, m_.k_c, m_.r_c, m_.h_c, C);
         matched_ = true;
-        TwoPointSeries& z = m_.series;
-        z.impacts = ImpactShare(m_.dt);
-        z.step = SeriesStep(points, g_b_ ? two_point_dot(g_b_, g_b_, m_.size) : 0, m_.theta_bc, m_.theta_cc, m_.dt);
-        z.C_be = C.be;
-        z.C_ce = C.ce;
-        m_.r_c = z.step.damping * m_.dt;
-        if (g_c_) Y_c0_ = z.step.start(two_point_dot(g_c_, y0_, m_.size));
-        if (g_b_) {
-            m_.theta = z.step.theta;
-            if (m_.barrier.alpha == 1) m_.barrier = linear_in_series(m_.barrier.k, points.law.S);
-        }
+        ResidualPair& z = m_.series.points = ResidualPair(C, m_.dt);
+        m_.theta += z.K_bb;
+        m_.theta_bc += z.K_bc;
+        m_.theta_cc += z.K_cc;
         if (m_.g_e) {
             const Pluck& pluck = *scene.strings.front().pluck;
             for (long n = m_.pluck_first; n <= m_.pluck_first + m_.pluck_steps; ++n) pluck_now_.push_back(force(pluck, n * m_.dt));
-            z.pluck = pluck_now_.data();
+            m_.series.pluck = pluck_now_.data();
         }
     }
 
     TwoPoint m_;
     bool matched_ = false;
-    double Y_c0_ = 0;  // of the thread at t = 0 less h_c [m], where C is in series
     std::vector<double> pluck_now_;
     TwoPointAdvance advance_ = nullptr;
     bool sociable_ = false;                                    // may go in company
@@ -285,9 +262,6 @@ template <Law law>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     if (!needed_by(scene).has(Feature::moving_body) && touches_once_without_loss(scene.strings.front()))
         return std::make_unique<ModalTwoPoint>(descriptor, scene, settings, law);
-    if (number_option(settings, effective_option) != 0)
-        throw Refusal(std::string(descriptor.name) +
-                      ": option effective_modes goes with one lumped barrier without contact loss, on no moving body");
     return modal_two_point_points(descriptor, scene, settings, law);
 }
 

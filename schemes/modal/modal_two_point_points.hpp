@@ -7,7 +7,7 @@
 // energy is eq 49 with a potential per point. A contact that loses energy (Hunt-Crossley) pulls by beta V'(eta^n) r/dt more, which takes
 // beta V'(eta^n) r^2/dt. Those of quadratised_points.hpp have psi^2/2 for their potential. On a body that moves (schemes/body) the points
 // of all strings are solved for together, and its acceleration is one more force.
-// Leaves out: effective modes; contact loss with compliance=matched; a moving body with compliance=matched.
+// Leaves out: contact loss with compliance=matched; a moving body with compliance=matched.
 #pragma once
 
 #include <algorithm>
@@ -182,8 +182,6 @@ public:
             f.push_back({facts::series_compliance, p_.series->C[0]});
             f.push_back({facts::compliance_excess, p_.series->excess});
         }
-        if constexpr (TakesSeries<Obstacle>)
-            for (const Fact& fact : p_.obstacle.series_facts()) f.push_back(fact);
         return f;
     }
 
@@ -242,7 +240,7 @@ private:
         for (const Footprint& f : sites.forces) g.push_back(footprint_weights(modes, f.position, f.width));
         for (const Reading& r : sites.readings)
             w.push_back(r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at.position, r.at.width));
-        p_.series = missing_matrix(descriptor.name, s, sites, scene.taps.size(), [&](int r, int f) {
+        p_.series = missing_matrix(descriptor.name, s, sites, scene.taps.size(), count_, [&](int r, int f) {
             double sum = 0;
             for (int i = 0; i < count_; ++i) sum += w[r][i] * g[f][i] * dt_ * dt_ / (4 * modes.mass * A_[i]);  // (42) with s = 0
             return sum;
@@ -343,7 +341,7 @@ public:
         if constexpr (TakesSeries<Obstacle>)
             if (p_.series) {
                 read(step_);
-                p_.obstacle.forces(older_.data(), 0, now_.data());
+                p_.obstacle.forces(0, now_.data());
                 for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += p_.series->on_tap(k, now_.data(), pluck_at(step_));
             }
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);

@@ -17,7 +17,7 @@ SeriesForce series_force(const Descriptor& descriptor, const Scene& scene, const
         if (!string.g_b.empty()) yielding += string.g_b[i] * string.g_b[i] * gain[i] / string.den[i];
     }
     SeriesForce force;
-    force.C = modal_compliance(descriptor, scene, ModeBasis(s, string.count, 0), own);
+    force.C = modal_compliance(descriptor, scene, modes_of(s, string.count), own);
     force.points = SeriesPoints(s.barriers.empty() ? nullptr : &string.barrier, string.h_b, string.k_c, string.r_c, string.h_c, force.C);
     force.points.set_time(0.5 * string.dt);
     force.now.impacts = ImpactShare(string.dt);

@@ -67,7 +67,7 @@ struct SeriesForce {
             {facts::deepest_penetration, now.most_force > 0 ? std::pow(now.most_force / points.law.law.k, 1 / points.law.law.alpha) : 0},
             {facts::series_compliance, points.law.S},
             {facts::stable_stiffness_limit, limit}};
-        for (const Fact& fact : matching_facts(points, 0, now.impacts)) f.push_back(fact);
+        for (const Fact& fact : matching_facts(points, now.impacts)) f.push_back(fact);
         return f;
     }
 };

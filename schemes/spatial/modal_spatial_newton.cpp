@@ -344,7 +344,7 @@ MissingMatrix missing_of(const Descriptor& descriptor, const Problem& p) {
     std::vector<std::vector<double>> w;
     for (const Reading& r : sites.readings)
         w.push_back(r.nut_force ? nut_force_weights(p.modes, s) : footprint_weights(p.modes, r.at.position, r.at.width));
-    return missing_matrix(descriptor.name, s, sites, p.scene.taps.size(), [&](int r, int f) {
+    return missing_matrix(descriptor.name, s, sites, p.scene.taps.size(), p.modes.count(), [&](int r, int f) {
         double sum = 0;
         for (int j = 0; j < p.modes.count(); ++j) sum += w[r][j] * p.update.ports[f].weights[j] / p.update.kappa[j];
         return p.update.gain * sum;

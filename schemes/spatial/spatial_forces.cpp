@@ -125,7 +125,7 @@ double SpatialForces::supplied() const {
 double SpatialForces::on_tap(std::size_t k) const {
     if (!series_) return 0;
     for (std::size_t z = 0; z < now.size(); ++z) series_->a[z] = now[z] + pluck_on(z, n_);
-    series_->step.forces(series_->a.data(), 0, series_->now.data());
+    series_->step.forces(0, series_->now.data());
     return series_->missing.on_tap(k, series_->now.data(), pluck_at(n_));
 }
 
@@ -285,7 +285,6 @@ void SpatialForces::add_facts(std::vector<Fact>& facts) const {
         facts.push_back({facts::contact_residual, t.residual});
         facts.push_back({facts::series_compliance, contacts_.empty() ? 0 : series_->missing.C[0]});
         facts.push_back({facts::compliance_excess, series_->missing.excess});
-        for (const Fact& fact : series_->step.series_facts()) facts.push_back(fact);
         return;
     }
     facts.push_back({facts::smallest_contact_force, effort_.force.least});

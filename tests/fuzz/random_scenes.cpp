@@ -4,7 +4,7 @@
 //   random_scenes COUNT FILE      the first COUNT seeds that a file lists, one a line
 //   random_scenes scene COUNT SEED|FILE    the same scenes: does a certificate claim too much about the scene?
 //   random_scenes matched COUNT SEED|FILE  scenes of its own: does a fact say where compliance=matched does harm?
-//   random_scenes show SEED       the scene of a seed, as TOML
+//   random_scenes show [matched] SEED      the scene of a seed, as TOML
 //
 // Each scene has a process of its own: a signal, a run without end or a memory that overflows is a finding with its seed, and the next
 // scene goes on. Prints a line per finding and a summary; ends with 1 where there was a finding.
@@ -141,15 +141,17 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
 
 int main(int argc, char** argv) {
     using namespace jvari::test;
-    if (argc == 3 && std::string(argv[1]) == "show") {
-        std::printf("%s", jvari::write_scene(random_case(std::strtoull(argv[2], nullptr, 10)).scene).c_str());
+    if ((argc == 3 || argc == 4) && std::string(argv[1]) == "show") {
+        const std::uint64_t seed = std::strtoull(argv[argc - 1], nullptr, 10);
+        std::printf("%s", jvari::write_scene((argc == 4 ? matching_case(seed) : random_case(seed)).scene).c_str());
         return 0;
     }
     const std::string mode = argc == 4 ? argv[1] : "";
     const Asked asked = mode == "scene" ? Asked::about_scene : mode == "matched" ? Asked::matching : Asked::promises;
     if (asked != Asked::promises) --argc, ++argv;
     if (argc != 3)
-        return std::fprintf(stderr, "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched COUNT SEED|FILE | show SEED\n"), 2;
+        return std::fprintf(stderr, "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched COUNT SEED|FILE | show [matched] SEED\n"),
+               2;
     const std::size_t count = std::strtoull(argv[1], nullptr, 10);
     std::vector<std::uint64_t> seeds;
     if (std::ifstream file(argv[2]); file) {

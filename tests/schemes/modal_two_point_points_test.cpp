@@ -149,9 +149,6 @@ TEST(SeveralPoints, MatchedComplianceKeepsItsLedgerAndRefusesLoss) {
     EXPECT_LE(largest_residual(r), 1e-12);
     EXPECT_GE(fact(r, "smallest_contact_force"), 0);
     EXPECT_THROW(make_scheme(named("modal_two_point"), with_loss(s, 1), matched), Refusal);
-    Settings effective = matched;
-    effective.options.emplace_back("effective_modes", "4");
-    EXPECT_THROW(make_scheme(named("modal_two_point"), s, effective), Refusal);
 }
 
 // ---- Quadratised contacts, each with a psi of its own.

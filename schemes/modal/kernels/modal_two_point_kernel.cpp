@@ -32,29 +32,29 @@ HWY_INLINE void ledger(TwoPoint& m, double F_b, double F_c, double F_e, double s
     if constexpr (pluck) m.supplied += F_e * hn::GetLane(hn::SumOfLanes(d, given));
 }
 
-// What the points are between two steps with C in series: zeta and D = Y_c - y_c, the pluck's own C in y_b and y_c.
-template <bool barrier, bool thread>
-struct SeriesState {
-    double D = 0, zeta = 0;
-    SeriesState(const TwoPoint& m, double F_e) {
-        if constexpr (thread) D = m.series.Y_c + m.h_c - m.y_c - m.series.C_ce * F_e;
-        if constexpr (barrier) zeta = m.h_b - m.y_b - m.series.C_be * F_e;
-        if constexpr (barrier && thread) zeta -= m.series.step.points.e * D;
-    }
-};
-
-template <ContactKind kind, bool thread, bool pluck, bool probe>
-HWY_INLINE void step_own(TwoPoint& m) {
-    constexpr bool barrier = kind != ContactKind::none;
-    double F_b = 0, F_c = 0, F_e = 0, u_b = m.u_b, u_c = m.u_c, v_c = 0;
+template <ContactKind kind, bool thread, bool pluck, bool probe, Compliance compliance>
+HWY_INLINE void step(TwoPoint& m) {
+    constexpr bool barrier = kind != ContactKind::none, matched = compliance == Compliance::matched;
+    ResidualPair& z = m.series.points;
+    double F_b = 0, F_c = 0, F_e = 0, y_b = m.y_b, y_c = m.y_c, u_b = m.u_b, u_c = m.u_c, v_c = 0, change = 0;
     if constexpr (pluck) {
-        F_e = m.pluck[m.step - m.pluck_first];
+        const long n = m.step - m.pluck_first;
+        F_e = m.pluck[n];
         if constexpr (barrier) u_b += m.theta_be * F_e;
         if constexpr (thread) u_c += m.theta_ce * F_e;
+        if constexpr (matched) {
+            change = m.series.pluck[n + 1] - m.series.pluck[n];
+            y_b += z.C_be * m.series.pluck[n];
+            y_c += z.C_ce * m.series.pluck[n];
+            u_b += z.C_be * change;
+            u_c += z.C_ce * change;
+        }
     }
-    if constexpr (thread) v_c = (m.k_c * (m.h_c - m.y_c) - m.phi_c * u_c) * m.inverse_c;  // (47)
+    if constexpr (matched && barrier) y_b += z.D_b, u_b -= z.H_b;
+    if constexpr (matched && thread) y_c += z.D_c, u_c -= z.H_c;
+    if constexpr (thread) v_c = (m.k_c * (m.h_c - y_c) - m.phi_c * u_c) * m.inverse_c;  // (47)
     if constexpr (barrier) {
-        const double eta = m.h_b - m.y_b, b = thread ? -u_b - m.theta_bc * v_c : -u_b;  // (48)
+        const double eta = m.h_b - y_b, b = thread ? -u_b - m.theta_bc * v_c : -u_b;  // (48)
         ContactSolution x;
         if constexpr (kind == ContactKind::linear) x = solve_linear_contact(m.barrier.k, eta, b, m.theta);
         else x = solve_power_contact(m.barrier, eta, b, m.theta);
@@ -65,65 +65,27 @@ HWY_INLINE void step_own(TwoPoint& m) {
         F_c = barrier ? v_c - m.beta_c * F_b : v_c;  // (46)
         m.impulse_c += F_c;
     }
-    if constexpr (probe) ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, u_c + m.theta_bc * F_b + m.theta_cc * F_c);  // s_c by (44)
-    take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e));
-    ++m.step;
-}
-
-template <ContactKind kind, bool thread, bool pluck, bool probe>
-HWY_INLINE void step_matched(TwoPoint& m) {
-    constexpr bool barrier = kind != ContactKind::none;
-    const TwoPointSeries& s = m.series;
-    double F_b = 0, F_c = 0, F_e = 0, u_b = m.u_b, u_c = m.u_c, v = 0, F_now = 0, change = 0;
-    if constexpr (pluck) {
-        const long n = m.step - m.pluck_first;
-        F_e = m.pluck[n];
-        F_now = s.pluck[n];
-        change = s.pluck[n + 1] - F_now;
-        if constexpr (barrier) u_b += m.theta_be * F_e + s.C_be * change;
-        if constexpr (thread) u_c += m.theta_ce * F_e + s.C_ce * change;
-    }
-    const SeriesState<barrier, thread> now(m, F_now);
-    if constexpr (thread) v = s.step.pull(now.D, u_c, s.Y_c);
-    if constexpr (barrier) {
-        const double b = thread ? s.step.approach(u_b, u_c, v, s.Y_c) : -u_b;
-        ContactSolution x;
-        if constexpr (kind == ContactKind::linear) x = solve_linear_contact(m.barrier.k, now.zeta, b, m.theta);
-        else x = solve_series_contact(s.step.points.law, now.zeta, b, m.theta);
-        F_b = x.force;
-        note<kind>(m, x, now.zeta);
-        m.series.impacts.take(F_b);
-    }
-    double moved = 0;  // Y_c^{n+1} - Y_c^n
-    if constexpr (thread) {
-        F_c = barrier ? v - s.step.beta * F_b : v;
-        m.impulse_c += F_c;
-        moved = s.step.moved(F_c, s.Y_c);
-        m.series.Y_c += moved;
-    }
     if constexpr (probe) {
-        ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, moved);
-        if constexpr (pluck) m.supplied -= (F_b * s.C_be + F_c * s.C_ce) * change;
+        ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, u_c + m.theta_bc * F_b + m.theta_cc * F_c);  // s_c by (44)
+        if constexpr (matched) m.dissipated += z.lost(F_b, F_c);
+        if constexpr (matched && pluck) m.supplied -= (F_b * z.C_be + F_c * z.C_ce) * change;
     }
+    if constexpr (matched) z.take<barrier, thread>(F_b, F_c);
     take(m, pass<barrier, thread, pluck>(m, F_b, F_c, F_e));
     ++m.step;
 }
 
 template <ContactKind kind, bool thread, bool probe, Compliance compliance>
 HWY_INLINE void steps(TwoPoint& m, long count) {
-    const auto step = [&m]<bool pluck>() {
-        if constexpr (compliance == Compliance::own) step_own<kind, thread, pluck, probe>(m);
-        else step_matched<kind, thread, pluck, probe>(m);
-    };
     while (count > 0) {
         const long into = m.step - m.pluck_first;  // the pluck acts for pluck_steps from pluck_first
         const bool plucking = into >= 0 && into < m.pluck_steps;
         const long until_change = plucking ? m.pluck_steps - into : into < 0 && m.pluck_steps > 0 ? -into : count;
         const long n = until_change < count ? until_change : count;
         if (plucking)
-            for (long i = 0; i < n; ++i) step.template operator()<true>();
+            for (long i = 0; i < n; ++i) step<kind, thread, true, probe, compliance>(m);
         else
-            for (long i = 0; i < n; ++i) step.template operator()<false>();
+            for (long i = 0; i < n; ++i) step<kind, thread, false, probe, compliance>(m);
         count -= n;
     }
 }
@@ -160,27 +122,16 @@ double stored(const TwoPoint& m) {
         by_y = hn::MulAdd(stiff, y, by_y);
     }
     double H = hn::GetLane(hn::SumOfLanes(d, hn::Add(by_q, by_y)));
-    if constexpr (compliance == Compliance::own) {
-        if constexpr (kind != ContactKind::none) H += m.barrier.potential(m.h_b - m.y_b);
-        if constexpr (thread) H += 0.5 * m.k_c * (m.h_c - m.y_c) * (m.h_c - m.y_c);
-    } else {
-        const SeriesState<kind != ContactKind::none, thread> now(m, pluck_now(m));
-        if constexpr (kind == ContactKind::linear) H += m.barrier.potential(now.zeta);
-        if constexpr (kind == ContactKind::power) H += m.series.step.points.law.potential(now.zeta);
-        if constexpr (thread)
-            H += 0.5 * now.D * now.D * m.series.step.points.stiff_cc + 0.5 * m.series.step.points.k_c * m.series.Y_c * m.series.Y_c;
+    double y_b = m.y_b, y_c = m.y_c;
+    if constexpr (compliance == Compliance::matched) {
+        const ResidualPair& z = m.series.points;
+        y_b += z.D_b + z.C_be * pluck_now(m);
+        y_c += z.D_c + z.C_ce * pluck_now(m);
+        H += z.stored();
     }
+    if constexpr (kind != ContactKind::none) H += m.barrier.potential(m.h_b - y_b);
+    if constexpr (thread) H += 0.5 * m.k_c * (m.h_c - y_c) * (m.h_c - y_c);
     return H;
-}
-
-// Of the instant [N]: what C adds to a linear tap is by these.
-template <ContactKind kind, bool thread>
-HWY_INLINE void forces_now(const TwoPoint& m, double (&force)[3]) {
-    force[2] = pluck_now(m);
-    const SeriesState<kind != ContactKind::none, thread> now(m, force[2]);
-    if constexpr (kind == ContactKind::linear) force[0] = m.barrier.force(now.zeta);
-    if constexpr (kind == ContactKind::power) force[0] = m.series.step.points.law.force(now.zeta);
-    if constexpr (thread) force[1] = now.D * m.series.step.points.stiff_cc - m.series.step.points.e * force[0];
 }
 
 HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
@@ -197,12 +148,18 @@ HWY_INLINE double value(const TwoPoint& m, const TwoPointTap& tap) {
 
 template <ContactKind kind, bool thread, Compliance compliance>
 HWY_INLINE void write(TwoPoint& m, const Block& out, int row) {
-    for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(m, m.taps[k]);
+    double P_b = 0, P_c = 0, F_e = 0;
     if constexpr (compliance == Compliance::matched) {
-        double force[3] = {};
-        forces_now<kind, thread>(m, force);
-        for (int k = 0; k < out.taps; ++k)
-            for (int z = 0; z < 3; ++z) out.tap[k * out.stride + row] += m.taps[k].on_force[z] * force[z];
+        P_b = m.series.points.P_b();
+        P_c = m.series.points.P_c();
+        if (m.series.pluck) F_e = pluck_now(m);
+    }
+    for (int k = 0; k < out.taps; ++k) {
+        const TwoPointTap& tap = m.taps[k];
+        double x = value(m, tap);
+        if constexpr (compliance == Compliance::matched)
+            if (tap.from == TwoPointTap::From::modes) x += tap.on_force[0] * P_b + tap.on_force[1] * P_c + tap.on_force[2] * F_e;
+        out.tap[k * out.stride + row] = x;
     }
     m.impulse_b = m.impulse_c = 0;
     if (!out.energy) return;

@@ -6,16 +6,15 @@
 // (eqs 40-42 with q eliminated), which also gathers the dots g_z.y and g_z.u that the next step's contact forces need. The small numbers
 // c = 1 - 2 R Omega + R^2 and loss = 1 - R^2 carry frequency and decay to full relative precision at any rate.
 //
-// With a compliance C in series (contact/compliance.hpp) the pass is the same; the points' scalar step is that of
-// docs/compliance-matching.md.
+// With what the string lacks in series (contact/residual.hpp) the pass is the same, and so is the points' step: theta counts its K in.
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "schemes/contact/impact_share.hpp"
-#include "schemes/contact/series_step.hpp"
+#include "schemes/contact/contact.hpp"
+#include "schemes/contact/residual.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -27,13 +26,10 @@ struct TwoPointTap {
     std::array<double, 3> on_force{};  // of barrier, thread and pluck at the instant: what is missing of a linear tap (series only)
 };
 
-// The string's points with the compliance C in series, and the pluck's part of C.
+// What stands in series with the string's points, and the pluck that acts on it.
 struct TwoPointSeries {
-    SeriesStep step;                // exponent 1: TwoPoint::barrier is the law in series already
-    double C_be = 0, C_ce = 0;      // [m/N]
+    ResidualPair points;
     const double* pluck = nullptr;  // force at the instant pluck_first + n, n <= pluck_steps [N]
-    double Y_c = 0;                 // of the thread, less h_c [m]; changes from step to step, as do
-    ImpactShare impacts;
 };
 
 // The pass goes once through memory: a line of eight modes of each column, then the next eight. Lines of absent parts are never touched.
