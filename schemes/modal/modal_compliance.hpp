@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "schemes/contact/compliance.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/contact/compliance.hpp"
 
 namespace jvari {
 

@@ -2,7 +2,7 @@
 // (eqs 38-52, the pass below) and on the three-point form of Issanchou et al. 2016 (modal_three_point.hpp). The thread is eliminated as in
 // eqs 45-47 of the first. Energy columns hold the scheme's own energy, with psi^2/2 for the contact; the facts tell how far that is from
 // the true one. Option `compliance` = own (default) | matched of the two-point form: what cut and step take from the string's compliance
-// stands in series with barrier and thread (contact/series_step.hpp), and psi = sqrt(2 Phi). Several barriers, profiles and contact loss:
+// stands in series with barrier and thread (contact/residual.hpp), and psi = sqrt(2 Phi). Several barriers, profiles and contact loss:
 // the two-point form with compliance=own, by contact/quadratised_points.hpp. Leaves out: polarisation.
 #include <cmath>
 #include <functional>

@@ -129,8 +129,8 @@ TEST(TraceFile, Hdf5SaysEverySettingOfTheRun) {
               0);
     const Outcome o = shell(scratch, "h5dump -A x.h5");
     ASSERT_EQ(o.code, 0) << o.err;
-    for (const char* name : {"duration", "modes", "sample_rate", "tap_rate", "option.compliance", 
-                             "set.string.0.tension", "status", "fact.series_compliance", "fact.smallest_contact_force"})
+    for (const char* name : {"duration", "modes", "sample_rate", "tap_rate", "option.compliance", "set.string.0.tension", "status",
+                             "fact.series_compliance", "fact.smallest_contact_force"})
         EXPECT_NE(o.out.find("ATTRIBUTE \"" + std::string(name) + "\""), std::string::npos) << name;
 }
 
