@@ -1,5 +1,6 @@
 #include "bench/study/record.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -156,6 +157,19 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
         }
         return r;
     } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
+        return std::nullopt;
+    }
+}
+
+std::optional<Levels> read_levels(const std::filesystem::path& path, const std::string& name) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+    try {
+        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
+        const Json measured = Json::parse(j.at("job").at("measured").get<std::string>());
+        if (std::find(measured.begin(), measured.end(), name) == measured.end()) return std::nullopt;
+        return levels_in(j.at("levels"));
+    } catch (const std::exception&) {
         return std::nullopt;
     }
 }

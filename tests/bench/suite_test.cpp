@@ -248,6 +248,10 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
     EXPECT_EQ(second.ran + second.timed, 0);
     EXPECT_EQ(csv(table_of(plan, second.records)), csv(table_of(plan, first.records)));  // clock columns too
     EXPECT_EQ(second.records[0].levels.level, first.records[0].levels.level);
+    const auto drawn = bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "spectrogram");  // as the page reads it
+    ASSERT_TRUE(drawn);
+    EXPECT_EQ(drawn->level, first.records[0].levels.level);
+    EXPECT_FALSE(bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "dispersion"));
     EXPECT_EQ(scratch.files(), 8 + 8);  // numbers and clocks
 
     const bench::store::Table t = bench::study::table_of(plan, first.records);

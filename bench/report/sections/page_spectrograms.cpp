@@ -12,6 +12,7 @@
 #include "bench/report/spectrogram_chart.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/sound.hpp"
+#include "bench/study/record.hpp"
 
 namespace jvari::bench::report {
 
@@ -19,25 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct Kept {
-    bool asked = false;
-    study::Levels levels;
-};
-
-Kept levels_in(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) return {};
-    try {
-        const Json j = Json::parse(store::read_whole(file));
-        const Json &l = j.at("levels"), &measure = j.at("cell").at("measure");
-        const bool asked = std::find(measure.begin(), measure.end(), "spectrogram") != measure.end();
-        Kept k{asked, {l.at("frames"), l.at("rows"), l.at("start"), l.at("hop"), l.at("row_hz"), l.at("tenths_of_db")}};
-        if (k.levels.level.size() != static_cast<std::size_t>(k.levels.frames) * k.levels.rows) return {};
-        return k;
-    } catch (const Json::exception&) {
-        return {};
-    }
-}
 // Of each problem whose reference was heard: the truth that the panels beside it are to be seen against.
 std::map<std::string, study::Levels> references_in(const Results& r) {
     std::map<std::string, study::Levels> references;
@@ -96,8 +78,8 @@ Section spectrogram_section(const Results& r) {
     bool without = false, differences = false;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         if (t.at(i, "cell").empty()) continue;
-        Kept k = levels_in(r.folder / "cells" / (t.at(i, "cell") + ".json"));
-        if (!k.asked) continue;
+        std::optional<study::Levels> kept = study::read_levels(r.folder / "cells" / (t.at(i, "cell") + ".json"), "spectrogram");
+        if (!kept) continue;
         const std::string &problem = t.at(i, "problem"),
                           rate = several_rates ? fmt::format(" at {:g} kHz", t.number(i, "rate") / 1000) : "";
         if (problems.insert(problem).second) {
@@ -106,12 +88,12 @@ Section spectrogram_section(const Results& r) {
             else without = true;
         }
         Panel& shown = on_page.emplace_back(
-            Panel{problem + " | " + t.at(i, "series") + (rate.empty() ? "" : " |" + rate), "", t.at(i, "status"), k.levels});
-        if (const auto truth = references.find(problem); truth != references.end() && on_one_grid(k.levels, truth->second)) {
+            Panel{problem + " | " + t.at(i, "series") + (rate.empty() ? "" : " |" + rate), "", t.at(i, "status"), *kept});
+        if (const auto truth = references.find(problem); truth != references.end() && on_one_grid(*kept, truth->second)) {
             shown.against = truth->second;
             differences = true;
         }
-        panels.push_back({problem, t.at(i, "series") + rate, t.at(i, "status"), std::move(k.levels)});
+        panels.push_back({problem, t.at(i, "series") + rate, t.at(i, "status"), std::move(*kept)});
     }
     if (panels.empty()) return s;
     std::vector<Menu> menus;
