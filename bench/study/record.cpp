@@ -87,7 +87,7 @@ store::Sound sound_in(const Json& j) {
     s.peak = store::number_of(j.at(1));
     const std::string samples = store::bytes_of_base64(j.at(2).get<std::string>());
     s.samples.resize(samples.size() / sizeof(std::int16_t));
-    std::memcpy(s.samples.data(), samples.data(), s.samples.size() * sizeof(std::int16_t));
+    if (!s.samples.empty()) std::memcpy(s.samples.data(), samples.data(), s.samples.size() * sizeof(std::int16_t));
     return s;
 }
 
