@@ -223,12 +223,12 @@ TEST(Tanpura, Figure11ThePrecursorFallsAfterEachPluckAndWithoutStiffnessNothingD
     const Descent all[] = {
         {"0", "44100", "compliance=own", -156, 62, 138, 259},     {"1", "44100", "compliance=own", -510, 255, 69, 361},
         {"2", "44100", "compliance=own", -637, 247, 66, 324},     {"3", "44100", "compliance=own", -72, 32, 17, 23},
-        {"0", "44100", "compliance=matched", -134, 54, -8, 35},   {"1", "44100", "compliance=matched", -381, 249, 8, 44},
-        {"2", "44100", "compliance=matched", -482, 234, 30, 52},  {"3", "44100", "compliance=matched", -61, 36, 1, 23},
+        {"0", "44100", "compliance=matched", -116, 48, -11, 37},  {"1", "44100", "compliance=matched", -252, 234, 5, 45},
+        {"2", "44100", "compliance=matched", -350, 236, 31, 56},  {"3", "44100", "compliance=matched", -61, 36, 0, 24},
         {"0", "176400", "compliance=own", -147, 63, -273, 186},   {"1", "176400", "compliance=own", -594, 239, -257, 161},
         {"2", "176400", "compliance=own", -727, 243, -231, 121},  {"3", "176400", "compliance=own", -65, 35, 4, 35},
-        {"0", "176400", "compliance=matched", -137, 55, -5, 29},  {"1", "176400", "compliance=matched", -402, 248, 9, 47},
-        {"2", "176400", "compliance=matched", -502, 230, 27, 49}, {"3", "176400", "compliance=matched", -61, 36, 1, 22},
+        {"0", "176400", "compliance=matched", -136, 54, -9, 35},  {"1", "176400", "compliance=matched", -384, 245, 5, 47},
+        {"2", "176400", "compliance=matched", -483, 229, 29, 57}, {"3", "176400", "compliance=matched", -61, 36, 1, 22},
     };
     for (const Descent& d : all) {
         const std::string what = std::string(d.string) + " " + d.rate + " " + d.options;
@@ -453,9 +453,9 @@ TEST(Verdicts, Above15kHzTheBridgeIsTooStrongByStepAndCutAndMatchedHardly) {
     EXPECT_NEAR(off("driving", two_point("compliance=own", "44100")), 15.5, 0.5);
     EXPECT_NEAR(off("driving", two_point("compliance=own", "352800")), 9.7, 0.5);
     EXPECT_NEAR(off("driving", {{"scheme", "exact_contact"}, {"modes", "133"}}), 3.5, 0.5);
-    EXPECT_NEAR(off("driving", two_point("compliance=matched", "352800")), 1.7, 0.5);
-    EXPECT_NEAR(off("driving", two_point("compliance=matched", "44100")), 1.5, 0.5);
-    EXPECT_NEAR(off("nut", two_point("compliance=matched", "44100")), -21.6, 0.5);
+    EXPECT_NEAR(off("driving", two_point("compliance=matched", "352800")), 1.3, 0.2);
+    EXPECT_NEAR(off("driving", two_point("compliance=matched", "44100")), 1.8, 0.2);
+    EXPECT_NEAR(off("nut", two_point("compliance=matched", "44100")), -20.3, 0.2);
 }
 
 TEST(Verdicts, AnElasticBridgeHardlyChangesTheDecayOfASitarsString) {
