@@ -146,7 +146,7 @@ std::vector<Axis> error_axes(const store::Table& cells, const std::vector<std::s
 }
 
 std::vector<Axis> cost_axes() {
-    return {{"cost_s_per_s", "computing time per second of sound [s/s]"},
+    return {{"cost_s_per_s", "computing time for one second of sound, one core"},
             {"ns_per_step", "time per step [ns]"},
             {"worst_block_of_deadline", "worst block of 64 samples, as a fraction of its deadline"},
             {"rate", "sample rate [kHz]"},

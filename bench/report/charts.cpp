@@ -3,7 +3,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/report/chart_data.hpp"
@@ -22,13 +24,11 @@ struct Encodings {
     std::size_t series;
 };
 
-// Decades are labelled; on an axis of less than three decades 2 and 5 as well.
-Json axis(const char* field) {
+// Decades are labelled; on an axis of less than three decades 2 and 5 as well. `number`: how a labelled value is written.
+Json axis(const char* field, const std::string& number) {
     constexpr const char* digit = "round(pow(10, log(datum.value)/LN10 - floor(log(datum.value)/LN10 + 1e-9)))";
     const std::string label = fmt::format(
-        "{1} == 1 || (domain('{0}')[1]/domain('{0}')[0] < 1000 && indexof([2, 5], {1}) >= 0) ? "
-        "(datum.value < 1e-3 || datum.value >= 1e6 ? format(datum.value, '~e') : format(datum.value, ',~r')) : ''",
-        field, digit);
+        "{1} == 1 || (domain('{0}')[1]/domain('{0}')[0] < 1000 && indexof([2, 5], {1}) >= 0) ? ({2}) : ''", field, digit, number);
     return {{"field", field},
             {"type", "quantitative"},
             {"scale", {{"type", "log"}, {"nice", false}, {"padding", 36}}},
@@ -43,8 +43,10 @@ Json column(const char* field, const char* title, const char* format = nullptr) 
 
 Encodings encodings_of(const WorkPrecision& w) {
     const auto series = drawn_series(w.cells);
-    return {axis("x"),
-            axis("y"),
+    const std::string plain = "datum.value < 1e-3 || datum.value >= 1e6 ? format(datum.value, '~e') : format(datum.value, ',~r')";
+    const std::string time = "datum.value < 1 ? format(1000*datum.value, ',~r') + ' ms' : format(datum.value, ',~r') + ' s'";
+    return {axis("x", fmt::format("cost_field == 'cost_s_per_s' ? ({}) : ({})", time, plain)),
+            axis("y", fmt::format("substring(error_field, 0, 9) == 'error_l2_' ? format(100*datum.value, ',~r') + ' %' : ({})", plain)),
             Json::parse(colour_of_series(series)),
             Json::parse(shape_of_series(series)),
             Json::parse(dash_of_series(series)),
@@ -59,7 +61,7 @@ Encodings encodings_of(const WorkPrecision& w) {
 
 Json chosen(const char* condition) {  // x and y of the columns that are chosen, then the rows that satisfy the condition
     return Json::array(
-        {{{"filter", "datum.problem == problem_field"}},
+        {{{"filter", "datum.problem == problem_field && (every_series || indexof(main_series, datum.series) >= 0)"}},
          {{"calculate", "datum[cost_field] * (cost_field == 'rate' ? 1e-3 : 1)"}, {"as", "x"}},
          {{"calculate", "cost_field == 'cost_s_per_s' || cost_field == 'ns_per_step'"}, {"as", "timed"}},
          {{"calculate", "datum.timed ? datum.x * datum.quartile_lower : null"}, {"as", "from"}},
@@ -74,7 +76,7 @@ Json chosen(const char* condition) {  // x and y of the columns that are chosen,
 constexpr const char* sound = "isValid(datum.x) && isValid(datum.y) && datum.x > 0 && datum.y > 0 && datum.status == 'ok'";
 
 Json once(Json mark) {  // a mark without rows
-    return {{"data", {{"values", Json::array({Json::object()})}}}, {"mark", std::move(mark)}};
+    return {{"data", {{"values", Json::array({Json::object()})}}}, {"mark", std::move(mark)}, {"encoding", Json::object()}};
 }
 
 // From the level of what limits the chosen error down to the lower edge.
@@ -141,10 +143,18 @@ void add_schemes(Json& layers, const Encodings& e) {
                       {"tooltip", e.of_point}}}};
     };
     Json trusted = points("datum.flags == ''", {{"filled", true}});
+    if (Json& legend = trusted["encoding"]["color"]["legend"]; legend.is_object())
+        legend.update(
+            {{"values", {{"expr", "every_series ? drawn[problem_field] : main_series"}}},
+             {"labelExpr", "replace(replace(datum.label, ' compliance=matched', ', matched'), ' compliance=own', ', as published')"}});
     trusted["params"] = Json::array(
         {{{"name", "pick"}, {"select", {{"type", "point"}, {"fields", Json::array({"series"})}, {"toggle", "true"}}}, {"bind", "legend"}}});
     layers.push_back(std::move(trusted));
     layers.push_back(points("datum.flags != ''", {{"filled", false}, {"strokeWidth", 1.6}}));  // hollow: not to be trusted
+}
+
+// For papers: rates along the front, and the name of each scheme at its dearest point there.
+void add_front_labels(Json& layers, const Encodings& e) {
     Json labelled = chosen(sound);
     labelled.push_back(
         {{"calculate", "problem_field + '|' + error_field + '|' + cost_field + '|' + datum.series + '|' + datum.rate + '|' + datum.modes"},
@@ -157,6 +167,16 @@ void add_schemes(Json& layers, const Encodings& e) {
     layers.push_back({{"transform", labelled},
                       {"mark", {{"type", "text"}, {"align", "left"}, {"dx", 8}, {"dy", -7}, {"fontSize", 10}}},
                       {"encoding", {{"x", e.x}, {"y", e.y}, {"text", {{"field", "text"}}}, {"opacity", e.faint}}}});
+}
+
+// Names at the ends of lines, where the page has found room for them.
+void add_line_labels(Json& layers) {
+    const auto pixels = [](const char* field) {
+        return Json{{"field", field}, {"type", "quantitative"}, {"scale", nullptr}, {"axis", nullptr}};
+    };
+    layers.push_back({{"data", {{"name", "labels"}}},
+                      {"mark", {{"type", "text"}, {"align", "left"}, {"fontSize", 11}}},
+                      {"encoding", {{"x", pixels("x")}, {"y", pixels("y")}, {"text", {{"field", "text"}, {"type", "nominal"}}}}}});
 }
 
 void add_failures(Json& layers, const Encodings& e) {  // at the upper edge over their cost; what ended well is none, whatever it lacks
@@ -202,7 +222,7 @@ void add_span_and_silence(Json& layers, const Encodings& e) {
     say(without, "datum.with == 0", "'These runs ended well and have no such error: choose another measure.'", 0);
 }
 
-void add_goals(Json& layers, const Encodings& e) {  // of computing time, which they are the cheapest by
+void add_goals(Json& layers, const Encodings& e, Medium medium) {  // of computing time, which they are the cheapest by
     const Json goals{{"data", {{"name", "goals"}}},
                      {"transform", Json::array({{{"filter",
                                                   "datum.problem == problem_field && datum.error == error_field && "
@@ -219,7 +239,25 @@ void add_goals(Json& layers, const Encodings& e) {  // of computing time, which 
                     {"opacity", {{"expr", "width < 500 ? 0 : 1"}}}};
     text["encoding"]["text"] = {{"field", "text"}};
     layers.push_back(std::move(rule));
-    layers.push_back(std::move(text));
+    if (medium == Medium::print) layers.push_back(std::move(text));  // the page has its answers beside the chart
+}
+
+void add_real_time(Json& layers) {  // where a scheme takes a second for a second
+    const std::string at = "scale('x', 1)", there = fmt::format("cost_field == 'cost_s_per_s' && {0} > 0 && {0} < width", at);
+    layers.push_back(once({{"type", "rect"},
+                           {"x", {{"expr", fmt::format("{} ? {} : 0", there, at)}}},
+                           {"x2", {{"expr", fmt::format("{} ? {} + 1 : 0", there, at)}}},
+                           {"y", 0},
+                           {"y2", {{"expr", "height"}}},
+                           {"color", "#888"},
+                           {"tooltip", nullptr}}));
+    layers.push_back(once({{"type", "text"},
+                           {"x", {{"expr", fmt::format("{} ? {} : 0", there, at)}}},
+                           {"y", {{"expr", "height - 6"}}},
+                           {"dx", -5},
+                           {"align", "right"},
+                           {"fontSize", 10},
+                           {"text", {{"expr", there + " ? 'real time' : ''"}}}}));
 }
 
 void add_axis_names(Json& layers) {  // upright, above and below the frame, following the choice
@@ -236,13 +274,24 @@ void add_axis_names(Json& layers) {  // upright, above and below the frame, foll
                            {"align", "right"},
                            {"fontSize", 12},
                            {"fontWeight", "bold"},
-                           {"text", {{"expr", "cost_titles[cost_field]"}}}}));
+                           {"text", {{"expr", "width < 400 ? split(cost_titles[cost_field], ',')[0] : cost_titles[cost_field]"}}}}));
 }
 
 Json titles_json(const std::vector<Axis>& axes) {
     Json titles = Json::object();
     for (const Axis& a : axes) titles[a.column] = a.title;
     return titles;
+}
+
+Json drawn_json(const store::Table& cells) {  // of each problem its series, as the legend has them
+    std::map<std::string, std::vector<std::string>> drawn;
+    for (std::size_t i = 0; i < cells.rows.size(); ++i)
+        if (auto& names = drawn[problem_of(cells, i)];
+            cells.at(i, "status") != "refused" && std::ranges::find(names, series_of(cells, i)) == names.end())
+            names.push_back(series_of(cells, i));
+    Json ordered = Json::object();
+    for (auto& [problem, names] : drawn) ordered[problem] = in_order(std::move(names));
+    return ordered;
 }
 
 Json parameter(const char* name, Json value) {
@@ -260,9 +309,12 @@ std::string work_precision_spec(const WorkPrecision& w) {
     }
     add_band(layers, ".certificate", "the reference is certain to here", "#56b4e9", 0.16);
     add_band(layers, ".floor", "noise floor", "#888", 0.18);
-    add_goals(layers, e);
+    add_real_time(layers);
+    add_goals(layers, e, w.medium);
     add_front(layers, e);
     add_schemes(layers, e);
+    if (w.medium == Medium::print) add_front_labels(layers, e);
+    else add_line_labels(layers);
     add_failures(layers, e);
     add_span_and_silence(layers, e);
     add_axis_names(layers);
@@ -279,9 +331,15 @@ std::string work_precision_spec(const WorkPrecision& w) {
                       parameter("cost_field", w.costs.empty() ? "" : w.costs.front().column),
                       parameter("bands", bands),
                       parameter("problem_field", shown),
+                      parameter("drawn", drawn_json(w.cells)),
+                      parameter("every_series", true),
+                      parameter("main_series", Json::array()),
                       parameter("error_titles", titles_json(w.errors)),
                       parameter("cost_titles", titles_json(w.costs))};
-    spec["datasets"] = {{"cells", Json::parse(chart_cells(w))}, {"fronts", Json::parse(chart_fronts(w))}, {"goals", Json::array()}};
+    spec["datasets"] = {{"cells", Json::parse(chart_cells(w))},
+                        {"fronts", Json::parse(chart_fronts(w))},
+                        {"goals", Json::array()},
+                        {"labels", Json::array()}};
     for (const Goal& g : w.goals)
         spec["datasets"]["goals"].push_back({{"problem", g.problem}, {"error", g.error}, {"y", g.most}, {"text", g.text}});
     spec["data"] = {{"name", "cells"}};

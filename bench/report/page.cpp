@@ -75,7 +75,7 @@ Json json_of(const Section& s, bool drawn) {
     for (const Picture& p : s.pictures)
         pictures.push_back({{"name", p.name}, {"data", "data:image/svg+xml;base64," + store::base64(p.svg)}});
     for (const Heard& h : s.sounds)
-        sounds.push_back({{"scheme", h.scheme}, {"detail", h.detail}, {"data", "data:audio/wav;base64," + store::base64(h.wav)}});
+        sounds.push_back({{"scheme", h.scheme}, {"detail", h.detail}, {"problem", h.problem}, {"wav", store::base64(h.wav)}});
     const Json table = table_json(s);
     return {{"id", s.id},
             {"heading", s.heading},
@@ -95,20 +95,26 @@ std::string page_of(const Page& page) {
         if ((drawn && !s.charts.empty()) || !s.pictures.empty() || !s.sounds.empty() || !s.left_out.empty() || !s.table.rows.empty())
             sections.push_back(json_of(s, drawn));
     Json verdicts = Json::array(), dark = Json::object();
-    for (const Verdict& v : page.verdicts)
-        verdicts.push_back({{"scene", v.scene}, {"columns", v.table.columns}, {"rows", v.table.rows}, {"sentences", v.sentences}});
+    for (const Verdict& v : page.verdicts) {
+        Json answers = Json::array();
+        for (const Answer& a : v.answers)
+            answers.push_back({{"within", a.within},
+                               {"scheme", a.scheme},
+                               {"modes", a.modes},
+                               {"rate", a.rate},
+                               {"error", a.error},
+                               {"cost", a.cost},
+                               {"certain", a.certain},
+                               {"colour", a.colour}});
+        verdicts.push_back({{"scene", v.scene}, {"finding", v.finding}, {"answers", answers}, {"sentences", v.sentences}});
+    }
     for (const Family& f : families()) dark[f.light] = f.dark;
     for (const Neutral& n : {ink, front_edge, front_track}) dark[n.light] = n.dark;
-    const Json data{{"title", page.title},
-                    {"about", page.about},
-                    {"command", page.command},
-                    {"verdicts", verdicts},
-                    {"dark", dark},
-                    {"missing", page.missing},
-                    {"sections", sections},
-                    {"manifest", Json::parse(page.manifest, nullptr, false)}};
+    const Json data{{"title", page.title},     {"finding", page.finding}, {"about", page.about},
+                    {"command", page.command}, {"verdicts", verdicts},    {"dark", dark},
+                    {"missing", page.missing}, {"sections", sections},    {"manifest", Json::parse(page.manifest, nullptr, false)}};
     std::string program;
-    for (const char* file : {"table.js", "view.js", "chart.js", "page.js"}) program += page_text(file);
+    for (const char* file : {"table.js", "view.js", "chart.js", "player.js", "page.js"}) program += page_text(file);
     const std::pair<const char*, std::string> parts[] = {{"@TITLE@", escaped(page.title)},
                                                          {"@STYLE@", page_text("page.css")},
                                                          {"@SCRIPTS@", page.scripts},

@@ -1,5 +1,5 @@
-// The report's page: one file, no network. The verdict on the scene that is chosen, then sections of charts with menus, pictures, sounds
-// and tables; what it was measured with at the foot.
+// The report's page: one file, no network. What was found as its title, the first chart with the answers beside it, the player; then
+// sections that are opened by a click: charts with menus, pictures, tables; what it was measured with at the foot.
 //
 // A section is made by one page_*.cpp of the files that lie in a folder; the page is put together here and shown by bench/report/page/*.js.
 #pragma once
@@ -36,8 +36,9 @@ struct Picture {  // an SVG that others made
 };
 
 struct Heard {
-    std::string scheme, detail;  // "modal_two_point", "44100 Hz"
+    std::string scheme, detail;  // "modal_two_point", "44.1 kHz"
     std::string wav;             // of the file
+    std::string problem{};       // whose string it is
 };
 
 struct Shown {  // what stands in a field of a table in place of its number
@@ -57,14 +58,23 @@ struct Section {
     std::vector<Shown> shown{};
 };
 
+struct Answer {          // who is the cheapest within one tolerance
+    std::string within;  // "waveform within 10 %, first 50 ms"
+    std::string scheme;  // "none" and "cannot be decided" too
+    std::string modes, rate, error, cost, certain;
+    std::string colour{};  // of the scheme in the charts; "": there is none
+};
+
 struct Verdict {  // on one scene
     std::string scene;
-    store::Table table;
+    std::string finding;  // in a sentence without its full stop: the page's title while the scene is shown
+    std::vector<Answer> answers;
     std::vector<std::string> sentences;
 };
 
 struct Page {
     std::string title, about, command;  // command: that made it, "" where it is not known
+    std::string finding;                // where there is no verdict
     std::vector<Verdict> verdicts;      // the first is shown first
     std::string scripts;                // the chart libraries as <script> elements; "": no chart
     std::string missing;                // why there is no chart

@@ -105,9 +105,10 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     page.manifest = results.manifest;
     page.command = results.command;
     page.verdicts = verdicts_of(results);
-    page.sections = {path_section(results),        needs_section(results),       work_precision_section(results), sweep_section(results),
-                     dispersion_section(results),  convergence_section(results), cost_section(results),           map_section(results),
-                     spectrogram_section(results), waveform_section(results)};
+    page.finding = results.maps.rows.empty() ? finding_of_trim(results) : finding_of_maps(results);
+    page.sections = {path_section(results),       needs_section(results),       work_precision_section(results), sweep_section(results),
+                     dispersion_section(results), convergence_section(results), cost_section(results),           overview_section(results),
+                     map_section(results),        spectrogram_section(results), waveform_section(results)};
 
     std::vector<std::string> written, own;
     const Vega vega = find_vega();

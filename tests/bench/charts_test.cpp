@@ -224,7 +224,7 @@ TEST(Identity, NoChartHasAHueOfItsOwn) {  // outcomes of a map are no schemes
                 << name << ": #" << hex;
         }
     }
-    EXPECT_EQ(charts, 7);
+    EXPECT_EQ(charts, 8);
 }
 
 TEST(Identity, ASchemeLooksTheSameInAnyCompanyAndLikeNoOther) {

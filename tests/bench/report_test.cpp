@@ -56,7 +56,8 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
     const Json data = data_of(content(folder / "report.html"));
     std::vector<std::string> headings;
     for (const Json& s : data.at("sections")) headings.push_back(s.at("heading"));
-    EXPECT_EQ(headings, (std::vector<std::string>{"Convergence", "Cost", "Where methods fail", "Figures", "Cells"}));
+    EXPECT_EQ(headings, (std::vector<std::string>{"Convergence", "Cost", "How often each scheme stays sound", "Where methods fail",
+                                                  "Figures", "Cells"}));
     EXPECT_NE(data.at("missing").get<std::string>().find("npm ci"), std::string::npos);
     EXPECT_EQ(data.at("manifest").at("suite"), "made up");
     for (const auto& entry : fs::directory_iterator(folder.path))
@@ -67,7 +68,9 @@ TEST(Report, SectionsWithoutDataDoNotAppear) {
     const MadeUp folder({"manifest.json", "maps.csv"});
     const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
     ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_TRUE(data_of(content(folder / "report.html")).at("sections").empty());  // no boundaries: a chart alone, and nothing draws
+    const Json sections = data_of(content(folder / "report.html")).at("sections");
+    ASSERT_EQ(sections.size(), 1u);  // no boundaries: maps are charts alone, and nothing draws them
+    EXPECT_EQ(sections[0].at("id"), "overview");
     const bench::report::Results r = bench::report::read_results(folder.path);
     EXPECT_EQ(map_section(r).charts.size(), 2u);
     for (const bench::report::Section& s :
@@ -75,6 +78,17 @@ TEST(Report, SectionsWithoutDataDoNotAppear) {
           bench::report::cost_section(r), bench::report::spectrogram_section(r), bench::report::waveform_section(r),
           bench::report::cell_section(r)})
         EXPECT_TRUE(s.charts.empty() && s.table.rows.empty() && s.sounds.empty()) << s.id;
+}
+
+TEST(Report, AnOverviewCountsSoundRunsAmongThoseThatWereNotRefused) {
+    const MadeUp folder({"manifest.json", "maps.csv"});
+    const bench::report::Results r = bench::report::read_results(folder.path);
+    const bench::report::Section s = bench::report::overview_section(r);
+    EXPECT_EQ(s.table.rows,
+              (std::vector<std::vector<std::string>>{{"one", "stiffness x rate", "13", "32"},
+                                                     {"one", "exponent x modes", "9", "12"},
+                                                     {"two", "stiffness x rate", "15", "29"}}));  // three of two's were refused
+    EXPECT_EQ(bench::report::finding_of_maps(r), "2 of 2 schemes fail somewhere; one stays sound on 0 of its 2 maps");
 }
 
 TEST(Report, AFolderWithoutResultsIsRefused) {
@@ -204,14 +218,17 @@ TEST(Report, TheVerdictNamesSchemeRateErrorCostAndCertaintyOfEachScene) {
     const auto verdicts = verdicts_of(bench::report::read_results(folder.path));
     ASSERT_EQ(verdicts.size(), 4u);
     EXPECT_EQ(verdicts[0].scene, "a, string.0.tension = 30");
-    const std::vector<std::string> first = verdicts[0].table.rows.at(0);  // e = 2.5e-2 and c = 4e-3 at 88.2 kHz
-    EXPECT_EQ(first[0], "waveform within 10 %, first 50 ms");
-    EXPECT_EQ(std::vector<std::string>(first.begin() + 1, first.begin() + 6),
+    const bench::report::Answer first = verdicts[0].answers.at(0);  // e = 2.5e-2 and c = 4e-3 at 88.2 kHz
+    EXPECT_EQ(first.within, "waveform within 10 %, first 50 ms");
+    EXPECT_EQ((std::vector<std::string>{first.scheme, first.modes, first.rate, first.error, first.cost}),
               (std::vector<std::string>{"one", "40", "88.2 kHz", "\u2264 2.9\u00a0%", "20 ms"}));
-    EXPECT_EQ(first[6].substr(0, 11), "upper bound");
-    const std::vector<std::string> unknown = verdicts[2].table.rows.at(1);  // no certificate there
-    EXPECT_EQ(unknown[1], "cannot be decided");
-    EXPECT_EQ(unknown[6].substr(0, 44), "the uncertainty of the reference is unknown;");
+    EXPECT_EQ(first.certain.substr(0, 11), "upper bound");
+    EXPECT_EQ(verdicts[0].finding.substr(0, 20), "one errs by at most ");  // of the cheapest within 1 %
+    EXPECT_NE(verdicts[0].finding.find(" at 352.8 kHz, "), std::string::npos) << verdicts[0].finding;
+    const bench::report::Answer unknown = verdicts[2].answers.at(1);  // no certificate there
+    EXPECT_EQ(unknown.scheme, "cannot be decided");
+    EXPECT_EQ(unknown.certain.substr(0, 44), "the uncertainty of the reference is unknown;");
+    EXPECT_EQ(verdicts[2].finding.find("errs by"), std::string::npos) << verdicts[2].finding;
     EXPECT_NE(verdicts[0].sentences.at(0).find("Truth: truth"), std::string::npos) << verdicts[0].sentences.at(0);
 }
 
@@ -220,10 +237,10 @@ TEST(Report, AControlIsInTheVerdictOnlyWhereTheManifestSaysThatControlsCompete) 
     std::string cells = content(folder / "cells.csv");
     for (auto at = cells.find(",one,"); at != std::string::npos; at = cells.find(",one,")) cells.replace(at, 5, ",modal_explicit_penalty,");
     std::ofstream(folder / "cells.csv", std::ios::binary) << cells;
-    const auto verdict = [&folder] { return verdicts_of(bench::report::read_results(folder.path)).at(0).table.rows.at(0); };
-    EXPECT_EQ(verdict()[1], "three <b>");
+    const auto verdict = [&folder] { return verdicts_of(bench::report::read_results(folder.path)).at(0).answers.at(0).scheme; };
+    EXPECT_EQ(verdict(), "three <b>");
     std::ofstream(folder / "manifest.json") << R"({"suite": "made up", "controls": true})";
-    EXPECT_EQ(verdict()[1], "modal_explicit_penalty");
+    EXPECT_EQ(verdict(), "modal_explicit_penalty");
 }
 
 // What a record keeps of a suite: errors and costs, each in a file of its own.
@@ -247,7 +264,7 @@ TEST(Report, IsMadeOfARecordsErrorsAndCostsAsOfItsCells) {
     const MadeUp whole({"manifest.json", "cells.csv"});
     const auto drawn = [](const fs::path& folder) {
         const bench::report::Results r = bench::report::read_results(folder);
-        return work_precision_section(r).charts.at(0).spec + verdicts_of(r).at(0).table.rows.at(0).at(2);
+        return work_precision_section(r).charts.at(0).spec + verdicts_of(r).at(0).answers.at(0).modes;
     };
     EXPECT_EQ(drawn(record.path), drawn(whole.path));
     std::string cost = content(record / "cost.csv");

@@ -75,7 +75,7 @@ const in_page = {
     menus: `(async () => {${helpers}
         const dead = [];
         for (const select of document.querySelectorAll(".menus select")) {
-            const chart = select.closest(".menus").nextElementSibling, before = picture(chart);
+            const chart = document.getElementById(select.closest(".menus").dataset.chart), before = picture(chart);
             select.selectedIndex = [...select.options].findLastIndex(option => !option.disabled);
             await select.onchange();
             if (picture(chart) === before || !marks(chart)) dead.push(select.closest("label").textContent.slice(0, 30) + " of " + chart.getAttribute("aria-label"));
@@ -85,15 +85,24 @@ const in_page = {
         }
         return {menus: document.querySelectorAll(".menus select").length, dead};
     })()`,
+    // The player: it sounds, another key is heard in the middle of the sound and at once, nothing but the scene's own sounds is offered.
     sound: `(async () => {
-        const all = [...document.querySelectorAll("audio")], silent = [];
-        for (const audio of [all[0], all.at(-1)]) {
-            await audio.play();
-            const until = performance.now() + 5000;
-            while (audio.currentTime === 0 && !audio.ended && performance.now() < until) await new Promise(resolve => setTimeout(resolve, 20));
-            if (!(audio.currentTime > 0 && audio.readyState >= 2 && Math.abs(audio.duration - 0.06) < 0.001)) silent.push(audio.getAttribute("aria-label"));
-        }
-        return {count: all.length, silent, named: all.every(a => a.getAttribute("aria-label"))};
+        const press = key => document.body.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true})), wait = ms => new Promise(resolve => setTimeout(resolve, ms));
+        const heard = () => player.playing?.filter(p => p.gain.gain.value === 1).map(p => player.shown.indexOf(p.sound)) ?? [];
+        press(" ");
+        for (let k = 0; k < 200 && !(player.playing && player.context.currentTime > player.started + 0.005); ++k) await wait(2);
+        const first = heard(), from = performance.now();
+        press("2");
+        const took = performance.now() - from, second = heard(), goes_on = player.playing !== null;
+        for (let k = 0; k < 100 && player.playing; ++k) await wait(20);
+        const blind = document.querySelector("#player input");
+        blind.checked = true;
+        blind.onchange();
+        const hidden = player.buttons.every(b => !/modal|finite|reference/.test(b.textContent));
+        blind.checked = false;
+        blind.onchange();
+        return {first, second, took, goes_on, ended: player.playing === null, hidden, listen: document.querySelectorAll(".listen").length,
+                found: page.verdicts.find(v => v.scene === scene_shown()).answers.filter(a => player.sounds.some(s => s.scheme === a.scheme && s.detail === a.rate && s.problem === scene_shown())).length, shown: player.shown.length, length: player.shown.map(s => s.buffer?.duration)};
     })()`,
     table: `(async () => {
         const table = [...document.querySelectorAll("#cells table")].at(-1), heading = name => [...table.querySelectorAll("th")].find(th => th.textContent.startsWith(name));
@@ -103,7 +112,8 @@ const in_page = {
     width: "document.documentElement.scrollWidth",
     // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that failed, and whether the error is one that the scene has.
     scenes: `(async () => {${helpers}
-        const select = document.getElementById("scene"), told = [];
+        const select = document.getElementById("scene"), told = [], every = document.querySelector("#work-precision .every");
+        if (every) { every.checked = true; await every.onchange(); }
         for (const name of select ? [...select.options].map(o => o.value) : [null]) {
             if (name !== null) {
                 select.value = name;
@@ -125,12 +135,29 @@ const in_page = {
                        failed: rows.filter(row => row.status !== "ok" && row.cost_s_per_s > 0).length,
                        points: chart.querySelectorAll(".mark-symbol.role-mark path[opacity='1']").length,
                        drawable: rows.filter(row => row.status === "ok" && row[error] > 0 && row.cost_s_per_s > 0).length,
-                       verdict: document.querySelectorAll("#verdict tbody tr").length});
+                       title: document.querySelector("h1").textContent, verdict: document.querySelectorAll("#verdict .card").length,
+                       heard: typeof player === "undefined" || player.shown.every(s => name === null || s.problem === name || !player.sounds.some(o => o.problem === name))});
         }
+        if (every) every.checked = false;
         if (select) { select.selectedIndex = 0; await select.onchange(); }
+        else await every?.onchange();
         return told;
     })()`,
-    fold: `(() => { scrollTo(0, 0); const v = document.getElementById("verdict"), t = v.querySelector("table"); return {top: v.getBoundingClientRect().top, bottom: t.hidden ? v.querySelector("p").getBoundingClientRect().bottom : t.getBoundingClientRect().bottom, first: (v.querySelector("tbody tr") ?? v).getBoundingClientRect().top}; })()`,
+    // The first chart as it is first seen: its names, in the legend and beside the lines.
+    names: `(() => {
+        const chart = document.querySelector("#work-precision .chart"), box = e => e.getBoundingClientRect();
+        const legend = [...chart.querySelectorAll(".role-legend-label text")].map(t => t.textContent);
+        const labels = [...chart.querySelectorAll(".mark-text.role-mark text")].filter(t => legend.includes(t.textContent));
+        const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+        const scene = document.getElementById("scene")?.value, rows = page.sections[0].charts[0].spec.datasets.cells.filter(r => !scene || r.problem === scene);
+        const drawn = new Set(rows.map(r => spoken(r.series)));
+        return {legend, labels: labels.length, idle: legend.filter(name => !drawn.has(name)), overlaps: labels.flatMap((a, k) => labels.slice(k + 1).filter(b => overlap(box(a), box(b))).map(b => a.textContent + " and " + b.textContent))};
+    })()`,
+    fold: `(() => {
+        scrollTo(0, 0);
+        const bottom = e => e.getBoundingClientRect().bottom, plot = document.querySelector("#work-precision .chart .mark-group.role-frame .background") ?? document.querySelector("#work-precision .chart svg");
+        return {title: bottom(document.querySelector("h1")), chart: bottom(plot), answers: bottom([...document.querySelectorAll("#verdict .card")].at(-1)), screens: document.documentElement.scrollHeight / innerHeight};
+    })()`,
     // Rows of a table that look like one before them are left out: half of all processor time went into their contrasts.
     axe: `(() => {
         for (const table of document.querySelectorAll("table")) {
@@ -148,7 +175,7 @@ const in_page = {
         const numbers = colour => colour.match(/[\\d.]+/g).map(Number), linear = c => (c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
         const light = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
         const paper = numbers(getComputedStyle(document.body).backgroundColor).slice(0, 3), faint = [];
-        const contrast_of = colour => { const [a, b] = [light(colour), light(paper)]; return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05); };
+        const contrast_of = (colour, ground = paper) => { const [a, b] = [light(colour), light(ground)]; return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05); };
         const edges = [...document.querySelectorAll("#work-precision .chart .mark-line.role-mark path[stroke-width='10']")];
         const front = edges.map(e => { const s = getComputedStyle(e), a = s.opacity * s.strokeOpacity; return contrast_of(numbers(s.stroke).map((c, k) => a * c + (1 - a) * paper[k])); });
         for (const text of document.querySelectorAll(".chart svg.marks text")) {
@@ -156,7 +183,9 @@ const in_page = {
             let opacity = a * style.fillOpacity;
             for (let e = text; e.tagName !== "svg"; e = e.parentElement) opacity *= getComputedStyle(e).opacity;
             if (opacity === 0 || text.textContent.trim() === "" || text.textContent === "\u2715") continue;
-            const contrast = contrast_of([r, g, b].map((c, k) => opacity * c + (1 - opacity) * paper[k]));
+            const tiles = [...text.closest(".chart").querySelectorAll(".mark-rect.role-mark path")], on = text.closest("#overview") && text.closest(".mark-text.role-mark");
+            const ground = on ? numbers(tiles[[...on.querySelectorAll("text")].indexOf(text)].getAttribute("fill")) : paper;
+            const contrast = contrast_of([r, g, b].map((c, k) => opacity * c + (1 - opacity) * ground[k]), ground);
             if (contrast < 4.5) faint.push(text.textContent + " at " + contrast.toFixed(2));
         }
         return {texts: document.querySelectorAll(".chart svg.marks text").length, faint, front: front.length ? Math.min(...front) : 0};
@@ -164,6 +193,7 @@ const in_page = {
     // The table of cells: what the filter leaves, and what the button saves.
     filter: `(async () => {
         const section = document.getElementById("cells"), table = page.sections.find(s => s.id === "cells").table, search = section.querySelector("input[type=search]");
+        [...section.querySelectorAll("button")].find(b => b.textContent === "all rows" && !b.hidden)?.click();
         const rows = () => section.querySelectorAll("tbody tr").length, all = rows(), schemes = table.rows.map(row => row[table.columns.indexOf("scheme")]);
         const one = schemes.at(-1);
         search.value = one;
@@ -179,7 +209,7 @@ const in_page = {
         URL.createObjectURL = make;
         HTMLAnchorElement.prototype.click = click;
         const text = saved ? await saved.text() : "";
-        return {left, right, expected: Math.min(25, schemes.filter(name => name.includes(one)).length), all, again: rows(),
+        return {left, right, expected: schemes.filter(name => name.includes(one)).length, all, again: rows(),
                 header: text.split("\\n")[0] === table.columns.join(","), saved: text.trim().split("\\n").length - 1, rows: table.rows.length};
     })()`,
     // On a phone: the first row of the cells, each number with its name before it.
@@ -277,7 +307,7 @@ function one_look(looks) {  // of each scheme: the same marker and colour wherev
 
 async function ready(browser) {
     for (let k = 0; k < 600; ++k) {
-        if (await browser.evaluate("document.documentElement?.dataset.ready === 'true' && ![...document.querySelectorAll('.chart')].some(c => c.dataset.drawn !== 'true')")) return;
+        if (await browser.evaluate("document.documentElement?.dataset.ready === 'true' && ![...document.querySelectorAll('.chart')].some(c => c.dataset.drawn === 'false')")) return;
         await pause(50);
     }
     expect(false, "the page comes to rest within half a minute");
@@ -295,10 +325,15 @@ async function view(browser, name) {
     await browser.evaluate("new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve)))");  // the page has been told
     if (await browser.evaluate("!!document.querySelector('main')")) await ready(browser);
 }
+let seen_closed;  // how much of the page is there before a section is opened
 async function go(browser, address) {
     await browser.page("Page.navigate", {url: "about:blank"});
     await view(browser, "light, 1400 px");
     await browser.page("Page.navigate", {url: address});
+    await ready(browser);
+    seen_closed = await browser.evaluate("({later: document.querySelectorAll('.chart[data-drawn=later]').length, screens: document.documentElement.scrollHeight / innerHeight})");
+    await browser.evaluate("document.querySelectorAll('details').forEach(d => { d.open = true; })");
+    for (let k = 0; k < 600 && await browser.evaluate("!!document.querySelector('.chart[data-drawn=later]')"); ++k) await pause(50);
     await ready(browser);
 }
 const in_folder = (file, table) => readFileSync(join(dirname(file), table), "utf8").trim().split("\n").slice(1).map(line => line.split(","));
@@ -310,7 +345,8 @@ async function read_in(browser, name) {  // what must hold however the page is l
         expect(told.empty.length === 0, `${name}, ${told.name}: every chart is drawn: ${told.empty.join("; ")}`);
         expect(told.crosses === told.failed, `${name}, ${told.name}: ${told.crosses} crosses, ${told.failed} runs failed`);
         expect(told.points >= told.drawable && told.drawable > 0, `${name}, ${told.name}: ${told.points} points for ${told.drawable} runs that have the error`);
-        expect(told.verdict > 0, `${name}, ${told.name}: there is a verdict`);
+        expect(told.verdict > 0 && told.title !== "", `${name}, ${told.name}: there is an answer, and a title`);
+        expect(told.heard, `${name}, ${told.name}: the player has the scene's sounds alone`);
     }
     const {texts, faint, front} = await browser.evaluate(in_page.faint);
     expect(texts > 20 && faint.length === 0, `${name}: the ${texts} texts of charts can be read: ${faint.slice(0, 5).join("; ")}`);
@@ -318,7 +354,7 @@ async function read_in(browser, name) {  // what must hold however the page is l
     const serious = await browser.evaluate(in_page.axe);
     expect(serious.length === 0, `${name}: axe finds nothing serious: ${serious.join("\n    ")}`);
     const fold = await browser.evaluate(in_page.fold), [width] = views[name];
-    expect(width === 390 ? fold.first < 844 : fold.bottom <= 900, `${name}: the verdict stands above the fold: ${JSON.stringify(fold)}`);
+    expect(fold.title < fold.chart && fold.chart <= (width === 390 ? 844 : 800) && (width === 390 || fold.answers <= 800), `${name}: title, chart and answers stand above the fold: ${JSON.stringify(fold)}`);
     const wide = await browser.evaluate(in_page.width);
     expect(wide <= width, `${name}: nothing overflows: ${wide}`);
 }
@@ -340,11 +376,15 @@ async function check(browser, name, file, charts) {
     await go(browser, pathToFileURL(file).href);
     const drawn = await browser.evaluate(in_page.drawn);
     expect(drawn.length === charts, `${charts} charts stand there: ${drawn.length}`);
+    expect(seen_closed.later === charts - 1 && seen_closed.screens < 4, `one chart is drawn at first, the others when they are asked for: ${JSON.stringify(seen_closed)}`);
     for (const chart of drawn) expect(chart.marks > 0, `${chart.name} is drawn`);
     const pictures = readdirSync(dirname(file)).filter(f => f.endsWith(".svg")).map(f => [f, readFileSync(join(dirname(file), f), "utf8")]);
     const {schemes, other} = one_look(await browser.evaluate(in_page.looks(pictures)));
     expect(other.length === 0 && (name === "made-up" || schemes >= 2), `each of ${schemes} schemes looks the same everywhere: ${other.join("; ")}`);
     await browser.evaluate(axe + ";axe.configure({noHtml: true});0");
+    const names = await browser.evaluate(in_page.names);
+    expect(names.legend.length >= (name === "made-up" ? 1 : 2) && names.legend.length <= 8 && names.idle.length === 0, `the legend has at most 8 names, all drawn: ${JSON.stringify(names)}`);
+    expect(names.labels > 0 && names.overlaps.length === 0, `names beside the lines do not overlap: ${JSON.stringify(names)}`);
     await read_in(browser, "light, 1400 px");
     const lengths = await browser.evaluate(in_page.menu_lengths);
     for (const label of ["error", "cost"]) expect(lengths.some(([text, length]) => text === label && length <= 12), `a menu of its own, and short, for ${label}: ${lengths.join("; ")}`);
@@ -369,7 +409,9 @@ async function check(browser, name, file, charts) {
     expect(await browser.evaluate("[...document.querySelectorAll('select, input')].every(e => e.closest('label'))"), "each menu has a label");
     if (name !== "made-up") {
         const sound = await browser.evaluate(in_page.sound);
-        expect(sound.count >= 5 && sound.silent.length === 0 && sound.named, `${sound.count} sounds play and are named; silent: ${sound.silent.join("; ")}`);
+        expect(String(sound.first) === "0" && String(sound.second) === "1" && sound.goes_on && sound.took < 50 && sound.ended, `another scheme is heard within 50 ms in the middle of the sound: ${JSON.stringify(sound)}`);
+        expect(sound.listen === sound.found && (name !== "demo" || sound.found >= 3), `each answer that was heard can be listened to: ${JSON.stringify(sound)}`);
+        expect(sound.shown >= 3 && sound.length.every(s => Math.abs(s - 0.06) < 0.001) && sound.hidden, `${sound.shown} sounds are whole, and without names where names are hidden: ${JSON.stringify(sound)}`);
     }
     await browser.evaluate("[...document.querySelectorAll('#cells th button')].find(b => b.textContent.startsWith('rate')).focus()");
     const before = await browser.evaluate(in_page.table);
@@ -405,7 +447,7 @@ try {
     });
     await check(browser, "comparison", join(folders.comparison, "report.html"), 3);
     await check(browser, "suite", join(folders.suite, "report.html"), 5);  // the fifth: time per step against the rate
-    await check(browser, "made-up", join(folders["made-up"], "report.html"), 8);
+    await check(browser, "made-up", join(folders["made-up"], "report.html"), 9);
     if (demo) await check(browser, "demo", join(demo, "report.html"), 5);
 } catch (error) {
     expect(false, error.stack);

@@ -6,29 +6,42 @@ function pictures_of(pictures) {
   return pictures.map(p => element("figure", {}, element("img", {src: p.data, alt: p.name, loading: "lazy"}), element("figcaption", {}, p.name)));
 }
 
-function sounds_of(sounds) {
-  if (!sounds.length) return [];
-  const list = element("ul", {className: "sounds"});
-  for (const s of sounds) {
-    const audio = element("audio", {controls: true, preload: "none", src: s.data});
-    audio.setAttribute("aria-label", `${s.scheme}, ${s.detail}`);
-    audio.onplay = () => document.querySelectorAll("audio").forEach(other => { if (other !== audio) other.pause(); });
-    list.append(element("li", {}, element("strong", {}, s.scheme), element("span", {className: "soft"}, " " + s.detail), audio));
+// What stands in a section below its heading.
+function parts_of(s) {
+  const parts = [], notes = s.notes.map(text => element("p", {className: "soft"}, text));
+  const first = s.id === page.sections[0]?.id;
+  if (!first || !s.charts.length) parts.push(...notes);
+  for (const chart of s.charts) {
+    const {parts: drawn, draw} = chart_of(chart, s.id, first);
+    parts.push(...drawn);
+    drawings.push({id: s.id, draw});
   }
-  return [list];
+  if (first && s.charts.length && notes.length) parts.push(folded("How to read this chart", notes));
+  parts.push(...pictures_of(s.pictures), ...s.left_out.map(text => element("p", {className: "soft"}, text)));
+  if (s.table) parts.push(...table_of(s.table, s.heading));
+  return parts;
 }
 
+function folded(title, parts) {
+  return element("details", {className: "note"}, element("summary", {}, title), ...parts);
+}
+
+// A section that a click opens. Its charts are drawn when it is first seen: a page of twenty charts opens as fast as one of one.
 function section_of(s) {
-  const section = element("section", {id: s.id}, element("h2", {}, s.heading));
-  section.append(...s.notes.map(text => element("p", {className: "soft"}, text)));
-  for (const chart of s.charts) {
-    const {parts, draw} = chart_of(chart, s.id);
-    section.append(...parts);
-    drawings.push(draw);
-  }
-  section.append(...pictures_of(s.pictures), ...sounds_of(s.sounds), ...s.left_out.map(text => element("p", {className: "soft"}, text)));
-  if (s.table) section.append(...table_of(s.table, s.heading));
+  const section = element("details", {id: s.id, className: "part"}, element("summary", {}, element("h2", {}, s.heading)), ...parts_of(s));
+  section.addEventListener("toggle", () => { if (section.open) draw_in(s.id); });
   return section;
+}
+async function draw_in(id) {
+  for (const drawing of drawings.filter(d => d.id === id && !d.drawn)) {
+    drawing.drawn = true;
+    await drawing.draw();
+  }
+}
+function show(id) {
+  const part = document.getElementById(id);
+  if (part instanceof HTMLDetailsElement) part.open = true;
+  part?.scrollIntoView();
 }
 
 const words = [
@@ -55,7 +68,7 @@ function how_to_read() {
     whole.setAttribute("aria-label", "the scene " + name);
     return element("details", {className: "scene"}, element("summary", {}, `the scene ${name}`), whole);
   });
-  return element("section", {id: "reading"}, element("h2", {}, "How to read it"), list, ...texts);
+  return element("details", {id: "reading", className: "part"}, element("summary", {}, element("h2", {}, "How to read it")), list, ...texts);
 }
 
 // Nested names are written with dots.
@@ -67,27 +80,31 @@ function entries_of(value, name = "") {
   return Object.entries(value).filter(([key]) => !scene_text(key)).flatMap(([key, x]) => entries_of(x, name ? `${name}.${key}` : key));
 }
 
-document.querySelector("h1").textContent = page.title;
-document.getElementById("about").textContent = page.about;
 const main = document.querySelector("main"), nav = document.querySelector("nav");
 const scenes = [...new Set([...page.verdicts.map(v => v.scene), ...page.sections.flatMap(s => s.charts).flatMap(c => c.menus)
   .filter(menu => menu.signal === "problem_field").flatMap(menu => menu.choices.map(([name]) => name))])];
-if (scenes.length > 1) nav.before(element("div", {className: "scenes"}, scene_menu(scenes)));
+if (scenes.length > 1) nav.after(scene_menu(scenes));
+document.getElementById("about").textContent = [page.title, page.about].filter(Boolean).join(" \u00b7 ");
+document.querySelector("h1").textContent = page.finding || page.title;
 if (page.missing) main.append(element("p", {className: "soft"}, page.missing));
-if (page.verdicts.length) main.append(verdict_of(page.verdicts, page.command));
-main.append(...page.sections.map(section_of), how_to_read());
-for (const [id, heading] of [...page.sections.map(s => [s.id, s.heading]), ["reading", "How to read it"], ["provenance", "Measured with"]]) {
+const [first, ...rest] = page.sections;
+const beginning = element("div", {className: "first"}), sounds = player_of(page.sections.flatMap(s => s.sounds));
+if (first) beginning.append(element("section", {id: first.id, ariaLabel: first.heading}, ...parts_of(first)));
+if (page.verdicts.length) beginning.append(verdict_of(page.verdicts, page.command));
+main.append(beginning, ...sounds, ...rest.map(section_of), how_to_read());
+for (const [id, heading] of [...rest.map(s => [s.id, s.heading]), ["reading", "How to read it"], ["provenance", "Measured with"]]) {
   const link = element("a", {href: "#" + id}, heading);
   link.onclick = event => {
     event.preventDefault();
-    document.getElementById(id).scrollIntoView();
+    show(id);
     choose("at", id);
   };
   nav.append(link);
 }
 for (const [name, text] of entries_of(page.manifest)) document.querySelector("footer dl").append(element("dt", {}, name.replaceAll("_", " ")), element("dd", {}, text));
 (async () => {
-  if (page.sections.some(s => s.charts.length)) for (const draw of drawings) await draw();
-  document.getElementById(view.get("at") ?? location.hash.slice(1))?.scrollIntoView();
+  if (first) await draw_in(first.id);
+  const at = view.get("at") ?? location.hash.slice(1);
+  if (at) show(at);
   document.documentElement.dataset.ready = "true";
 })();

@@ -14,7 +14,7 @@ function table_of(table, caption) {
   const head = element("thead"), body = element("tbody");
   const filter = element("input", {type: "search", size: 24, placeholder: "words of a row"}), save = element("button", {type: "button"}, "CSV");
   const count = element("span"), more = element("button", {type: "button"}, "all rows");
-  const at_first = 25;
+  const at_first = 5;
   let sorted = null, downward = false, whole = false;
 
   const place = new Map(table.rows.map((row, k) => [row, k]));

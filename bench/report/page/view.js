@@ -18,22 +18,37 @@ function scene_menu(scenes) {
     for (const follow of on_scene) await follow(select.value);
     document.documentElement.dataset.ready = "true";
   };
-  return element("label", {}, "scene ", select);
+  return element("label", {className: "scenes"}, "scene ", select);
+}
+
+// How a scheme is called in a sentence; tables have its options as they are given.
+const spoken = name => name.replace(" compliance=matched", ", matched").replace(" compliance=own", ", as published");
+
+function card_of(answer) {
+  const title = answer.within.replace(/^waveform /, ""), found = answer.rate !== "" || answer.modes !== "";
+  const sound = found ? sound_like(answer.scheme, answer.rate) : null;
+  const head = element("p", {className: "card-scheme"}, element("strong", {}, spoken(answer.scheme)));
+  if (sound) head.append(listen_to(sound));
+  const facts = [answer.rate, answer.error, answer.cost && answer.cost + " per second"].filter(Boolean).join(" \u00b7 ");
+  const card = element("article", {className: "card"}, element("p", {className: "soft"}, title), head);
+  if (facts) card.append(element("p", {}, facts));
+  card.append(element("p", {className: "soft small"}, [answer.modes && answer.modes + " modes", answer.certain].filter(Boolean).join("; ")));
+  if (answer.colour) card.style.borderLeftColor = (dark.matches && page.dark[answer.colour]) || answer.colour;
+  return card;
 }
 
 function verdict_of(verdicts, command) {
-  const table = element("table"), sentences = element("div", {className: "soft"});
+  const cards = element("div", {className: "answers"}), sentences = element("div");
   const show = scene => {
     const v = verdicts.find(one => one.scene === scene) ?? verdicts[0];
-    const head = element("tr", {}, ...v.columns.map(name => Object.assign(element("th", {className: "text"}, name), {scope: "col"})));
-    table.replaceChildren(element("thead", {}, head), element("tbody", {}, ...v.rows.map(row =>
-      element("tr", {}, ...row.map((text, k) => element("td", {className: "text"}, text)).map((td, k) => { td.dataset.name = v.columns[k]; return td; })))));
-    table.hidden = v.rows.length === 0;
-    sentences.replaceChildren(...v.sentences.map(text => element("p", {}, text)));
+    document.querySelector("h1").textContent = v.finding;
+    cards.replaceChildren(...v.answers.map(card_of));
+    sentences.replaceChildren(...v.sentences.map(text => element("p", {className: "soft"}, text)));
   };
   on_scene.push(show);
+  dark.addEventListener("change", () => show(document.getElementById("scene")?.value ?? verdicts[0].scene));
   show(document.getElementById("scene")?.value ?? verdicts[0].scene);
-  const section = element("section", {id: "verdict"}, element("h2", {}, "Verdict"), element("div", {className: "cards"}, table), sentences);
-  if (command) section.append(element("p", {className: "soft"}, "Made by ", element("code", {}, command)));
-  return section;
+  const ground = folded("What the answers rest on", [sentences]);
+  if (command) ground.append(element("p", {className: "soft"}, "Made by ", element("code", {}, command)));
+  return element("section", {id: "verdict", ariaLabel: "the cheapest scheme for each accuracy"}, cards, ground);
 }

@@ -1,7 +1,10 @@
 // What becomes of each scheme over a plane of two keys (maps.csv): a tile per run, from half-way to its neighbour on the left to half-way
 // to that on the right; with the refined boundaries and theory's (boundaries.csv).
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
@@ -143,6 +146,54 @@ Chart map_chart(const std::string& name, const std::vector<std::string>& names, 
     return c;
 }
 }  // namespace
+
+namespace {
+struct Share {  // of the runs that were not refused
+    int sound = 0, runs = 0;
+    void count(const store::Table& maps, std::size_t i) {
+        runs += maps.at(i, "outcome") != "refused";
+        sound += maps.at(i, "outcome") == "sound";
+    }
+    double part() const { return static_cast<double>(sound) / runs; }
+};
+}  // namespace
+
+Section overview_section(const Results& r) {
+    Section s{"overview", "How often each scheme stays sound"};
+    if (r.maps.rows.empty()) return s;
+    std::map<std::string, std::map<std::string, Share>> shares;
+    for (std::size_t i = 0; i < r.maps.rows.size(); ++i) shares[r.maps.at(i, "series")][r.maps.at(i, "map")].count(r.maps, i);
+    s.table.columns = {"scheme", "map", "sound", "runs"};
+    Json rows = Json::array();
+    for (const std::string& series : in_order(distinct(r.maps, "series")))
+        for (const std::string& name : distinct(r.maps, "map")) {
+            const Share share = shares[series][name];
+            if (share.runs == 0) continue;
+            rows.push_back({{"series", series}, {"map", name}, {"share", 100 * share.part()}, {"runs", share.runs}});
+            s.table.rows.push_back({series, name, std::to_string(share.sound), std::to_string(share.runs)});
+        }
+    const auto filling = [&](const char* title) { return Filling{title, r.name, {}, {}, {{"rows", rows.dump()}}, {}}; };
+    Chart c{"the share of sound runs of each scheme on each map", chart_of("overview.json", filling(""), Medium::page)};
+    c.twins.push_back({"overview.svg", chart_of("overview.json", filling("Sound runs, per cent"), Medium::print)});
+    s.charts.push_back(std::move(c));
+    s.notes = {
+        "Per cent of the runs of a map that end sound. Refused runs do not count; where nothing stands the scheme was not run on the map."};
+    return s;
+}
+
+std::string finding_of_maps(const Results& r) {
+    std::map<std::string, std::map<std::string, Share>> shares;
+    for (std::size_t i = 0; i < r.maps.rows.size(); ++i)
+        if (r.maps.at(i, "outcome") != "refused") shares[r.maps.at(i, "series")][r.maps.at(i, "map")].count(r.maps, i);
+    if (shares.empty()) return "";
+    const auto sound_maps = [](const auto& of) {
+        return std::ranges::count_if(of.second, [](const auto& m) { return m.second.sound == m.second.runs; });
+    };
+    const auto best = std::ranges::max_element(shares, {}, sound_maps);
+    const auto failing = std::ranges::count_if(shares, [&](const auto& of) { return sound_maps(of) < std::ssize(of.second); });
+    return fmt::format("{} of {} schemes fail somewhere; {} stays sound on {} of its {} maps", failing, shares.size(), best->first,
+                       sound_maps(*best), best->second.size());
+}
 
 Section map_section(const Results& r) {
     Section s{"maps", "Where methods fail"};

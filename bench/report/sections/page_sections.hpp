@@ -11,6 +11,9 @@ namespace jvari::bench::report {
 // What the folder says of each of its scenes: the cheapest scheme for each accuracy and how certain that is, what the truth is, how the
 // machine was.
 std::vector<Verdict> verdicts_of(const Results&);
+// What maps and a trimmed scene come to, in a sentence without its full stop; "" where there is neither.
+std::string finding_of_maps(const Results&);
+std::string finding_of_trim(const Results&);
 
 Section work_precision_section(const Results&);
 Section sweep_section(const Results&);
@@ -19,6 +22,7 @@ Section needs_section(const Results&);
 Section dispersion_section(const Results&);
 Section convergence_section(const Results&);
 Section cost_section(const Results&);
+Section overview_section(const Results&);  // schemes by maps: the share of runs that are sound
 Section map_section(const Results&);
 Section spectrogram_section(const Results&);
 Section waveform_section(const Results&);

@@ -38,6 +38,18 @@ Section path_section(const Results& r) {
     return s;
 }
 
+std::string finding_of_trim(const Results& r) {
+    if (r.path.rows.empty()) return "";
+    const std::size_t last = r.path.rows.size() - 1;
+    const bool in_decibels = r.path.at(last, "measure").find("error") == std::string::npos;  // "relative L2 error, 0-50 ms"
+    const double target = r.path.number(last, "target");
+    const std::string scene = r.name.starts_with("trim ") ? r.name.substr(5) : r.name;
+    const std::string tolerance = in_decibels ? fmt::format("{:g} dB", target) : fmt::format("{:g} %", 100 * target);
+    if (r.path.at(last, "within") != "yes") return fmt::format("No model of {} within {} was found", scene, tolerance);
+    return fmt::format("{} within {}: the trimmed model costs {:.2g} times less than the whole scene as published", scene, tolerance,
+                       r.path.number(0, "cost_s_per_s") / r.path.number(last, "cost_s_per_s"));
+}
+
 Section needs_section(const Results& r) {
     Section s{"needs", "What each part is needed for"};
     s.notes = {"Error and saving of the whole scene without the part alone. A part is needed where that error is beyond the tolerance."};

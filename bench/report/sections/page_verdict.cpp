@@ -28,9 +28,22 @@ std::string wanted(const store::Table& cheapest, std::size_t i) {
                                          : ", whole run");
 }
 
+std::string two_digits(double x) {  // "1.4", "230"
+    return fmt::format("{:g}", store::number_of(fmt::format("{:.1e}", x)));
+}
+
 std::string error_text(double error, const std::string& measure) {
     return measure == "third_octave_db" ? fmt::format("{:.2g}\u00a0dB", error) : fmt::format("{:.2g}\u00a0%", 100 * error);
 }
+
+// A row of cheapest_of: its error as it is quoted, with the uncertainty of the reference where that is more than a tenth of it.
+struct Found {
+    Found(const store::Table& cheapest, std::size_t i)
+        : bounded(cheapest.number(i, "bound") - cheapest.number(i, "error") > 0.1 * cheapest.number(i, "error")),
+          error(cheapest.number(i, bounded ? "bound" : "error")) {}
+    bool bounded;
+    double error;
+};
 
 // The trusted cell that comes nearest, where none is near enough.
 std::string nearest_text(const store::Table& cells, const std::string& measure, compare::Controls controls) {
@@ -45,32 +58,48 @@ std::string nearest_text(const store::Table& cells, const std::string& measure, 
     return fmt::format("closest: {}, {}", store::run_name(cells, best), error_text(least, measure));
 }
 
-store::Table table_of(const store::Table& own, const std::string& name, compare::Controls controls) {
-    const store::Table cheapest = compare::cheapest_of(without_names(own), name, controls);
-    store::Table t{{"wanted", "cheapest scheme", "modes", "rate", "error", "computing per second of sound", "how certain"}, {}};
+std::vector<Answer> answers_of(const store::Table& own, const store::Table& cheapest, compare::Controls controls) {
+    std::vector<Answer> answers;
     for (std::size_t i = 0; i < cheapest.rows.size(); ++i) {
         const std::string &measure = cheapest.at(i, "measure"), &status = cheapest.at(i, "status"), &options = cheapest.at(i, "options");
         if (status != "found") {
             const bool open = status == "not_known";
             const std::string &why = cheapest.at(i, "why"), &perhaps = cheapest.at(i, "perhaps");
-            t.rows.push_back({wanted(cheapest, i), open ? "cannot be decided" : "none", "", "", "", "",
-                              open ? why + (perhaps.empty() ? "" : "; candidates: " + perhaps) : nearest_text(own, measure, controls)});
+            answers.push_back({wanted(cheapest, i), open ? "cannot be decided" : "none", "", "", "", "",
+                               open ? why + (perhaps.empty() ? "" : "; candidates: " + perhaps) : nearest_text(own, measure, controls)});
             continue;
         }
-        const double error = cheapest.number(i, "error"), bound = cheapest.number(i, "bound");
-        const bool bounded = bound - error > 0.1 * error;
+        const Found found(cheapest, i);
         const std::string &ties = cheapest.at(i, "ties"), &perhaps = cheapest.at(i, "perhaps");
-        std::string certain = bounded ? "upper bound: includes the uncertainty of the reference" : "measured";
+        std::string certain = found.bounded ? "upper bound: includes the uncertainty of the reference" : "measured";
         if (const std::string& why = cheapest.at(i, "why"); !why.empty()) certain = why;
         if (!ties.empty()) certain += "; a tie with " + ties;
         if (!perhaps.empty()) certain += "; perhaps for less " + perhaps;
         if (const std::string& published = cheapest.at(i, "as_published"); !published.empty())
             certain += "; without matched compliance: " + published;
-        t.rows.push_back({wanted(cheapest, i), store::variant_name(cheapest.at(i, "scheme"), options), cheapest.at(i, "modes"),
-                          rate_text(cheapest.number(i, "rate")), (bounded ? "\u2264 " : "") + error_text(bounded ? bound : error, measure),
-                          fmt::format("{:.2g} ms", 1e3 * cheapest.number(i, "cost_s_per_s")), certain});
+        const std::string name = store::variant_name(cheapest.at(i, "scheme"), options);
+        answers.push_back({wanted(cheapest, i), name, cheapest.at(i, "modes"), rate_text(cheapest.number(i, "rate")),
+                           (found.bounded ? "\u2264 " : "") + error_text(found.error, measure),
+                           fmt::format("{:.2g} ms", 1e3 * cheapest.number(i, "cost_s_per_s")), certain,
+                           identities_of({name}).front().colour});
     }
-    return t;
+    return answers;
+}
+
+// The cheapest within 1 % of the waveform, else the first that is found: what it does, and how fast.
+std::string finding_of(const std::string& scene, const store::Table& cheapest) {
+    std::size_t best = cheapest.rows.size();
+    for (std::size_t i = cheapest.rows.size(); i-- > 0;)
+        if (cheapest.at(i, "status") == "found" && (best == cheapest.rows.size() || cheapest.number(best, "target") != 0.01)) best = i;
+    if (best == cheapest.rows.size()) return "No scheme is known to be near enough on " + scene;
+    const Found found(cheapest, best);
+    const std::string &measure = cheapest.at(best, "measure"), &options = cheapest.at(best, "options");
+    const bool matched = options.find("compliance=matched") != std::string::npos;
+    const std::string rate = rate_text(cheapest.number(best, "rate"));
+    const double cost = cheapest.number(best, "cost_s_per_s");
+    return fmt::format("{}{} errs by {}{}{}, {} times {} than real time", cheapest.at(best, "scheme"),
+                       matched ? " with matched compliance" : "", found.bounded ? "at most " : "", error_text(found.error, measure),
+                       rate.empty() ? "" : " at " + rate, two_digits(cost < 1 ? 1 / cost : cost), cost < 1 ? "faster" : "slower");
 }
 
 std::string truth_text(const Results& r, const store::Table& own) {
@@ -127,7 +156,8 @@ std::vector<Verdict> verdicts_of(const Results& r) {
     std::vector<Verdict> verdicts;
     for (const std::string& problem : distinct(r.cells, "problem")) {
         const store::Table own = rows_where(r.cells, "problem", problem);
-        Verdict v{problem, table_of(own, r.name, r.controls), {}};
+        const store::Table cheapest = compare::cheapest_of(without_names(own), r.name, r.controls);
+        Verdict v{problem, finding_of(problem, cheapest), answers_of(own, cheapest, r.controls), {}};
         std::size_t ok = 0, flagged = 0, refused = 0, left_out = 0;
         for (std::size_t i = 0; i < own.rows.size(); ++i) {
             ok += own.at(i, "status") == "ok";
@@ -135,7 +165,7 @@ std::vector<Verdict> verdicts_of(const Results& r) {
             left_out += own.at(i, "status") == "not_needed";
             flagged += own.at(i, "status") == "ok" && !compare::trusted(own, i);
         }
-        if (v.table.rows.empty())
+        if (v.answers.empty())
             v.sentences.push_back("No scheme of this scene can be the cheapest: none has a cost, an error and our trust.");
         for (const std::string& text : {truth_text(r, own), modes_text(own)})
             if (!text.empty()) v.sentences.push_back(text);

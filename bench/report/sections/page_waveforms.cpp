@@ -56,13 +56,13 @@ std::string reference_name(const Results& r, const std::string& problem) {
     return "";
 }
 
-std::vector<Track> tracks_of(const Results& r, bool several_problems) {
+std::vector<Track> tracks_of(const Results& r) {
     const store::Table& t = r.sounds;
     std::vector<Track> tracks;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        std::string detail = rate_text(t.number(i, "rate")), name = t.at(i, "series");
+        const std::string detail = rate_text(t.number(i, "rate"));
+        std::string name = t.at(i, "series");
         if (is_reference(t, i)) name = "reference " + reference_name(r, t.at(i, "problem"));
-        if (several_problems) detail += (detail.empty() ? "" : ", ") + t.at(i, "problem");
         const std::string& file = t.at(i, "file");
         if (const std::filesystem::path path = file; path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
             throw store::UsageError(
@@ -175,7 +175,7 @@ void add_sounds(Section& s, const std::vector<Track>& tracks) {
         }
         size += wav.size() * 4 / 3;
         shortened = shortened || static_cast<double>(t.sound.samples.size()) > longest_heard * t.sound.rate;
-        heard.emplace_back(t.row, Heard{t.name, t.detail, std::move(wav)});
+        heard.emplace_back(t.row, Heard{t.name, t.detail, std::move(wav), t.problem});
     }
     std::sort(heard.begin(), heard.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (auto& [row, sound] : heard) s.sounds.push_back(std::move(sound));
@@ -186,7 +186,7 @@ void add_sounds(Section& s, const std::vector<Track>& tracks) {
 
 Section waveform_section(const Results& r) {
     Section s{"sounds", "Traces, to look at and to listen to"};
-    const auto tracks = tracks_of(r, distinct(r.sounds, "problem").size() > 1);
+    const auto tracks = tracks_of(r);
     if (tracks.empty()) return s;
     const std::string &tap = r.sounds.at(0, "tap"), &quantity = r.sounds.at(0, "quantity");
     s.notes = {

@@ -1,0 +1,93 @@
+// One player for all sounds of a scene. They run side by side from one clock and one of them is heard, so that another takes over in the middle
+// of the sound. Space plays and stops; keys 1 to 9 choose. A blind comparison hides the names and deals the keys anew until it is asked for them.
+const player = {sounds: [], shown: [], heard: null, context: null, playing: null, started: 0, length: 0, buttons: [], play: null, blind: null};
+
+const sound_like = (scheme, rate) => player.sounds.find(s => s.scheme === scheme && s.detail === rate && s.problem === scene_shown());
+const scene_shown = () => document.getElementById("scene")?.value ?? page.verdicts[0]?.scene ?? "";
+function listen_to(sound) {
+  const button = element("button", {type: "button", className: "listen", onclick: () => hear(sound, true)}, "\u25b6 listen");
+  button.setAttribute("aria-label", `listen to ${sound.scheme}, ${sound.detail}`);
+  return button;
+}
+
+async function decoded(sound) {
+  const bytes = Uint8Array.from(atob(sound.wav), c => c.charCodeAt(0));
+  sound.buffer ??= await player.context.decodeAudioData(bytes.buffer);
+  return sound.buffer;
+}
+
+function stop() {
+  player.playing?.forEach(({source}) => { source.onended = null; source.stop(); });
+  player.playing = null;
+  mark();
+}
+
+async function play() {
+  player.context ??= new AudioContext();
+  await player.context.resume();
+  const buffers = await Promise.all(player.shown.map(decoded));
+  stop();
+  player.started = player.context.currentTime + 0.02;
+  player.length = Math.max(...buffers.map(b => b.duration));
+  player.playing = buffers.map((buffer, k) => {
+    const source = new AudioBufferSourceNode(player.context, {buffer}), gain = new GainNode(player.context, {gain: player.shown[k] === player.heard ? 1 : 0});
+    source.connect(gain).connect(player.context.destination);
+    source.start(player.started);
+    return {source, gain, sound: player.shown[k]};
+  });
+  const longest = buffers.findIndex(b => b.duration === player.length);
+  player.playing[longest].source.onended = stop;
+  mark();
+}
+
+async function hear(sound, from_start = false) {
+  player.heard = sound;
+  player.playing?.forEach(({gain, sound: of}) => { gain.gain.value = of === sound ? 1 : 0; });
+  mark();
+  if (from_start) await play();
+}
+
+function mark() {
+  player.buttons.forEach((button, k) => button.setAttribute("aria-pressed", String(player.shown[k] === player.heard)));
+  if (player.play) player.play.textContent = player.playing ? "\u25a0 stop" : "\u25b6 play";
+}
+
+function player_of(sounds) {
+  if (!sounds.length) return [];
+  player.sounds = sounds;
+  const choices = element("div", {className: "choices"});
+  choices.setAttribute("role", "group");
+  choices.setAttribute("aria-label", "what is heard");
+  player.play = element("button", {type: "button", className: "play", onclick: () => player.playing ? stop() : play()});
+  player.blind = element("input", {type: "checkbox"});
+  const fill = () => {
+    stop();
+    const own = sounds.filter(s => s.problem === scene_shown()), answers = page.verdicts.find(v => v.scene === scene_shown())?.answers ?? [];
+    const place = s => s.scheme.startsWith("reference") ? 0 : answers.some(a => a.scheme === s.scheme && a.rate === s.detail) ? 1 : 2;
+    player.shown = (own.length ? own : [...sounds]).sort((a, b) => place(a) - place(b));
+    if (player.blind.checked)
+      player.shown = player.shown.slice(0, 9).map(s => [Math.random(), s]).sort(([a], [b]) => a - b).map(([, s]) => s);
+    player.heard = player.shown[0];
+    player.buttons = player.shown.map((sound, k) => {
+      const name = player.blind.checked ? "sound" : spoken(sound.scheme), detail = player.blind.checked ? "" : sound.detail;
+      return element("button", {type: "button", onclick: () => hear(sound)}, ...(k < 9 ? [element("kbd", {}, String(k + 1)), " "] : []), name, element("span", {className: "soft"}, " " + detail));
+    });
+    choices.replaceChildren(...player.buttons);
+    mark();
+  };
+  player.blind.onchange = fill;
+  on_scene.push(fill);
+  fill();
+  document.addEventListener("keydown", event => {
+    if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest?.("input, select, textarea")) return;
+    const k = Number(event.key) - 1;
+    if (event.key === " " && !event.target.closest?.("button, a, summary, [tabindex]")) player.playing ? stop() : play();
+    else if (Number.isInteger(k) && k >= 0 && k < Math.min(9, player.shown.length)) hear(player.shown[k]);
+    else return;
+    event.preventDefault();
+  });
+  return [element("section", {id: "player", ariaLabel: "sounds"},
+    element("div", {className: "menus"}, player.play, element("label", {}, player.blind, " blind: hide the names"),
+            element("span", {className: "soft"}, "Space plays and stops. Keys 1 to 9 change what is heard while the sound goes on, at equal loudness.")),
+    choices)];
+}
