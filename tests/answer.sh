@@ -26,7 +26,6 @@ file == 2 && FNR > 1 && $at["status"] == "ok" && $at["flags"] == "" && !($at["sc
     shown[$1, "dB"] = $at["third_octave_db"]
     error[$1, "dB"] = $at["third_octave_db"]
 }
-file == 3 && /^!\[/ { exit }
 file == 3 && /^\|.* ms \|$/ {
     wanted = trim($2)
     if (match(wanted, /within [0-9.]+ (%|dB)/)) split(substr(wanted, RSTART, RLENGTH), goal, " ")

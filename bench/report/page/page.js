@@ -45,15 +45,15 @@ function show(id) {
 }
 
 const words = [
-  ["relative L2 error", "root of the summed squared difference from the truth over that of the truth: 1 % is close, 100 % is unrelated"],
-  ["horizon", "first instant at which the running error passes 10 %; later the waveform means little, and third octaves are what can be judged"],
+  ["relative L2 error", "root of the summed squared difference from the reference, divided by that of the reference: 1 % is close, 100 % is unrelated"],
+  ["horizon", "first instant at which the running error passes 10 %. After it judge by third octaves"],
   ["third octaves", "root mean square over the bands of the difference in level"],
-  ["noise floor", "what a change of 1e-12 at the start makes by itself: smaller errors are ties"],
-  ["certain to", "how far the truth itself is known, its certificate; \u2264 counts it in where it matters"],
-  ["not to be trusted", "the run's own figures speak against it: the contact pulls (adhesion), its stored energy is open (psi_gap), its ledger does not close (energy)"],
-  ["control", "a scheme known to be wrong somewhere, run to show that the comparison finds it"],
+  ["noise floor", "the error that a change of the start by 1e-12 makes. Smaller errors cannot be told apart"],
+  ["uncertainty", "how wrong the reference itself may be (its certificate). After \u2264 it is added to the error"],
+  ["not to be trusted", "the run itself shows a fault: the contact pulls the string (adhesion), stored energy remains in an open contact (psi_gap), or the energy balance does not close (energy)"],
+  ["control", "a scheme with a known fault, run to show that the comparison finds it"],
   ["cost", "computing time of one core per second of sound, the median of several runs; quartiles beside it"],
-  ["front", "runs that no other surely beats in both cost and error"]
+  ["front", "runs that no other run certainly beats in both cost and error"]
 ];
 function how_to_read() {
   const list = element("dl");

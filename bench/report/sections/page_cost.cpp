@@ -92,9 +92,9 @@ Section cost_section(const Results& r) {
     if (const auto whats = scaled_in(scaling); !whats.empty()) s.charts.push_back(scaling_chart(scaling, whats));
     if (!elements.rows.empty()) s.charts.push_back(element_chart(elements));
     s.notes = {
-        "Numbers of the clock, on the machine named at the foot of the page. Bars with ends are quartiles: two that touch are a tie. No "
-        "bar "
-        "to be seen: the clock did not scatter."};
+        "Measured times on the machine named below. Bars are quartiles: where two bars touch, neither is faster. No bar means that the "
+        "times "
+        "did not vary visibly."};
     if (!elements.rows.empty())
         s.notes.emplace_back(
             "The axis of extra time is linear within the grey band of \u00b110 ns, and logarithmic beyond it, each way. So what saves "

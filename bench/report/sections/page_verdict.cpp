@@ -114,11 +114,12 @@ std::string truth_text(const Results& r, const store::Table& own) {
     const double horizon = own.column("reference_horizon_s") >= 0 ? own.number(0, "reference_horizon_s") : std::nan("");
     const std::string headline = compare::headline_error(own, store::all_rows(own));
     const double certain = compare::bound_of(own, 0, headline).certificate;
-    std::string text = "Truth: " + name;
+    std::string text = "Reference: " + name;
     if (!std::isnan(count)) text += fmt::format(" with {:g} modes", count);
-    text += std::isnan(certain) ? ", whose own uncertainty is unknown"
-                                : fmt::format(", certain to {} in the headline measure", error_text(certain, headline));
-    if (!std::isnan(horizon)) text += fmt::format("; started 1e-12 apart it stays within 10 % of itself for {:.3g} s", horizon);
+    text += std::isnan(certain) ? ". Its uncertainty is unknown"
+                                : fmt::format(". Its uncertainty is {} in the first error of the table", error_text(certain, headline));
+    if (!std::isnan(horizon))
+        text += fmt::format(". Two reference runs whose starting points differ by 1e-12 agree within 10 % for {:.3g} s", horizon);
     return text + ".";
 }
 
@@ -147,8 +148,8 @@ std::string modes_text(const store::Table& own) {
     if (others.empty() || std::isnan(of_reference)) return "";
     std::string names;
     for (const std::string& name : others) names += (names.empty() ? "" : ", ") + name;
-    return fmt::format("Another number of modes than the truth's {:g} is carried by {}: that difference is in their errors.", of_reference,
-                       names);
+    return fmt::format("The reference has {:g} modes. These schemes have fewer or more, and that difference is part of their error: {}.",
+                       of_reference, names);
 }
 }  // namespace
 
@@ -165,12 +166,12 @@ std::vector<Verdict> verdicts_of(const Results& r) {
             left_out += own.at(i, "status") == "not_needed";
             flagged += own.at(i, "status") == "ok" && !compare::trusted(own, i);
         }
-        if (v.answers.empty())
-            v.sentences.push_back("No scheme of this scene can be the cheapest: none has a cost, an error and our trust.");
+        if (v.answers.empty()) v.sentences.push_back("No scheme can be called the cheapest here: none has a cost, an error and no flag.");
         for (const std::string& text : {truth_text(r, own), modes_text(own)})
             if (!text.empty()) v.sentences.push_back(text);
         v.sentences.push_back(fmt::format(
-            "{} runs: {} ended well{}{}{}{}.", own.rows.size(), ok, flagged ? fmt::format(", {} of them not to be trusted", flagged) : "",
+            "{} runs succeeded{}{}{}{}.", ok == own.rows.size() ? fmt::format("All {}", ok) : fmt::format("{} of {}", ok, own.rows.size()),
+            flagged ? fmt::format(", {} of them with a flag against them", flagged) : "",
             own.rows.size() > ok + refused + left_out ? fmt::format(", {} failed", own.rows.size() - ok - refused - left_out) : "",
             left_out ? fmt::format(", {} left out, because a cheaper one does as well", left_out) : "",
             refused ? fmt::format(", {} were refused", refused) : ""));

@@ -165,9 +165,10 @@ Section work_precision_section(const Results& r) {
         s.notes.push_back("Each machine has a front of its own: " + several);
     if (!w.bands.empty())
         s.notes.emplace_back(
-            "What lies in a grey band is a tie (the reference's own sensitivity), in a blue one below what the reference is certain to. "
-            "Where "
-            "that is more than a tenth of an error the point stands at both together: no more is known than that it is not above.");
+            "Points in the grey band cannot be told apart, because the problem is too sensitive. Points in the blue band are below the "
+            "accuracy of the reference. If the uncertainty of the reference is more than a tenth of an error, it is added to it: the point "
+            "is "
+            "an upper bound.");
     return s;
 }
 
