@@ -41,6 +41,10 @@ int main(int argc, char** argv) {
     bool json = false;
     for (int k = 1; k < argc; ++k) json = json || std::strcmp(argv[k], "--json") == 0;
     try {
+        if (argc < 2) {
+            bench::command::Console(false, false).print(bench::command::welcome());
+            return bench::command::exit_code::bad_usage;
+        }
         const auto request = bench::command::read_arguments(argc, argv);
         return request ? std::visit(Verb{}, *request) : bench::command::exit_code::done;
     } catch (const bench::store::UsageError& e) {

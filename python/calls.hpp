@@ -17,7 +17,7 @@
 #include "bench/compare/compare.hpp"
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/pareto.hpp"
-#include "bench/compare/silence.hpp"
+#include "bench/compare/scene_notes.hpp"
 #include "bench/map/map_tables.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
@@ -84,7 +84,7 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
                                          const py::dict& options) {
     Scene scene = NamedScene::of(of).scene;
     if (duration) scene.duration = *duration;
-    compare::note_silent_strings(scene, Ear());
+    compare::note_scene(scene, Ear());
     const Job job = job_of(scheme, rate, tap_rate, modes, options);
     return unlocked([&] {
         RunOptions o;

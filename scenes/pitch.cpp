@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace jvari {
 
@@ -30,6 +31,26 @@ std::optional<double> frequency_of_note(std::string_view note) {
 double tension_for(const String& s, double hertz) {
     const double beta = std::numbers::pi / s.length, omega = 2 * std::numbers::pi * hertz;
     return s.linear_density * (omega / beta) * (omega / beta) - s.bending_stiffness * beta * beta;
+}
+
+double pitch_of(const String& s) {
+    const double beta = std::numbers::pi / s.length;
+    return beta / (2 * std::numbers::pi) * std::sqrt((s.tension + s.bending_stiffness * beta * beta) / s.linear_density);
+}
+
+double inharmonicity(const String& s) {
+    const double beta = std::numbers::pi / s.length;
+    return s.bending_stiffness * beta * beta / s.tension;
+}
+
+std::string note_of(double hertz) {
+    constexpr const char* names[] = {"C", "C#", "D", "D#", "E", "F", "F#", "G", "G#", "A", "A#", "B"};
+    const double above_c_minus_1 = 69 + 12 * std::log2(hertz / 440);  // [semitones]
+    if (!(above_c_minus_1 > -0.5 && above_c_minus_1 < 131.5)) return "";
+    const int nearest = static_cast<int>(std::lround(above_c_minus_1)),
+              cents = static_cast<int>(std::lround(100 * (above_c_minus_1 - nearest)));
+    return names[nearest % 12] + std::to_string(nearest / 12 - 1) +
+           (cents == 0 ? "" : (cents > 0 ? " +" : " ") + std::to_string(cents) + " cents");
 }
 
 double slack_pitch(const String& s) {

@@ -12,6 +12,7 @@
 #include "bench/command/console.hpp"
 #include "bench/store/keys.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::command {
@@ -36,6 +37,16 @@ constexpr const char* examples =
     "its result could not be written (what was written stays valid).\n"
     "Ctrl-C leaves whole files only; compare and suite say how many cells are kept.";
 
+constexpr const char* welcome_text =
+    "jvari compares numerical schemes for a string that vibrates against an obstacle.\n"
+    "\n"
+    "  jvari new guitar my_guitar            write a commented scene, my_guitar.toml; also tanpura, sitar, bass, piano\n"
+    "  jvari run my_guitar.toml --scheme modal_two_point --out my_guitar.wav        hear it\n"
+    "  jvari compare my_guitar.toml --out report      which scheme, at which rate, and how wrong is it?\n"
+    "  jvari list                            the schemes, references and scenes that there are\n"
+    "\n"
+    "`jvari --help` lists every verb, `jvari help compare` teaches one.";
+
 std::string a_number(const std::string& text, bool whole) {
     double x = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -46,6 +57,21 @@ std::string a_number(const std::string& text, bool whole) {
                        whole ? fmt::format("whole number from 1 to {}", store::most_counted) : "number > 0");
 }
 const CLI::Validator positive([](const std::string& text) { return a_number(text, false); }, "", "positive");
+// A quantity may have its unit behind it, "44.1k" or "10ms": the text becomes the number in SI units.
+CLI::Validator in_units(std::vector<std::pair<std::string, double>> units) {
+    return CLI::Validator(
+        [units = std::move(units)](std::string& text) {
+            for (const auto& [unit, scale] : units) {
+                if (!text.ends_with(unit)) continue;
+                const std::string number = text.substr(0, text.size() - unit.size());
+                if (a_number(number, false).empty()) text = fmt::format("{:.15g}", scale * store::number_of(number));
+                break;
+            }
+            return a_number(text, false);
+        },
+        "", "quantity");
+}
+const CLI::Validator hertz = in_units({{"kHz", 1e3}, {"Hz", 1}, {"k", 1e3}}), seconds = in_units({{"ms", 1e-3}, {"us", 1e-6}, {"s", 1}});
 const CLI::Validator counting([](const std::string& text) { return a_number(text, true); }, "", "counting");
 
 void add_common(CLI::App& verb, Common& c) {
@@ -129,6 +155,10 @@ void must_be_assignments(const std::vector<std::string>& set) {
 }
 }  // namespace
 
+const char* welcome() {
+    return welcome_text;
+}
+
 std::optional<Request> read_arguments(int argc, const char* const* argv) {
     CLI::App app(about, "jvari");
     app.footer(examples);
@@ -166,11 +196,11 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     add_modes(*run_verb, run.modes);
     add_options(*run_verb, run_options);
     run_verb->add_option("--scheme", run.scheme, "a scheme or a reference")->required()->type_name("NAME");
-    run_verb->add_option("--rate", run.rate, "sample rate; 44100 where absent")->type_name("HZ")->check(positive);
-    run_verb->add_option("--duration", run.duration, "in place of the scene's")->type_name("S")->check(positive);
+    run_verb->add_option("--rate", run.rate, "sample rate; 44100 where absent")->type_name("HZ")->transform(hertz);
+    run_verb->add_option("--duration", run.duration, "in place of the scene's")->type_name("S")->transform(seconds);
     run_verb->add_option("--tap-rate", run.tap_rate, "rows per second; 44100 where absent, or the rate where that is no multiple of it")
         ->type_name("HZ")
-        ->check(positive);
+        ->transform(hertz);
     run_verb->add_flag("--energy", run.energy, "probe the energy: three more columns, and the residuals of the balance");
     run_verb->add_option("--out", run.out, "writes the trace: .csv or .h5; .wav or .flac: what is heard of it")->type_name("FILE");
     run_verb
@@ -205,7 +235,7 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     compare_verb->add_option("--rates", compare.rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")
         ->delimiter(',')
         ->type_name("HZ,...")
-        ->check(positive);
+        ->transform(hertz);
     compare_verb
         ->add_option("--reference", compare.reference, "a reference or a scheme; absent: the highest reference that represents the scene")
         ->type_name("NAME");
@@ -215,12 +245,12 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
             "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
             "of the schemes")
         ->type_name("N|cell");
-    compare_verb->add_option("--duration", compare.duration, "in place of the scene's")->type_name("S")->check(positive);
+    compare_verb->add_option("--duration", compare.duration, "in place of the scene's")->type_name("S")->transform(seconds);
     compare_verb
         ->add_option("--tap-rate", compare.tap_rate,
                      "rows per second that are compared; 44100 where all rates are multiples of it, else the lowest rate")
         ->type_name("HZ")
-        ->check(positive);
+        ->transform(hertz);
     compare_verb->add_option("--repeats", compare.repeats, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent")
         ->type_name("N")
         ->check(counting);
@@ -271,13 +301,13 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         ->allow_extra_args(false);
     trim_verb->add_option("--duration", trim.duration, "how much of the scene is run and judged; 0.05 where absent")
         ->type_name("S")
-        ->check(positive)
+        ->transform(seconds)
         ->option_text("S");
     trim_verb
         ->add_option("--tap-rate", trim.tap_rate,
                      "rows per second that are compared, and the lowest rate that is tried; 44100 where absent")
         ->type_name("HZ")
-        ->check(positive)
+        ->transform(hertz)
         ->option_text("HZ");
     trim_verb->add_option("--reference", trim.reference, "a reference or a scheme; absent: the highest reference that represents the scene")
         ->type_name("NAME");
@@ -301,10 +331,10 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
     add_modes(*certify_verb, certify.modes);
     certify_verb->add_option("--duration", certify.duration, "in place of the scene's; compare uses a certificate as far as it reaches")
         ->type_name("S")
-        ->check(positive);
+        ->transform(seconds);
     certify_verb->add_option("--tap-rate", certify.tap_rate, "rows per second that are compared; 44100 where absent")
         ->type_name("HZ")
-        ->check(positive);
+        ->transform(hertz);
     certify_verb
         ->add_option("--oversampled-rate", certify.oversampled_rate,
                      "also the best scheme at a quarter, half and all of this rate, with its own estimate; absent: only where no reference "
@@ -365,6 +395,14 @@ std::optional<Request> read_arguments(int argc, const char* const* argv) {
         "Exit code 4 where a promise is broken.");
     add_common(*check_verb, check);
 
+    std::vector<const char*> words(argv, argv + argc);
+    if (argc > 1 && std::string(argv[1]) == "help") {  // `jvari help run` asks what `jvari run --help` asks
+        words.erase(words.begin() + 1);
+        words.resize(std::min<std::size_t>(words.size(), 2));
+        words.push_back("--help");
+        argc = static_cast<int>(words.size());
+        argv = words.data();
+    }
     if (argc > 1 && argv[1][0] != '-') {
         std::vector<std::string> verbs;
         for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());

@@ -78,6 +78,7 @@ using Request = std::variant<NewRequest, ListRequest, RunRequest, CompareCall, S
                              DiffRequest, CheckRequest>;
 
 // Throws UsageError. No value: help or the version was asked for and printed.
+const char* welcome();  // what there is to do, in ten lines: for those who call it without a verb
 std::optional<Request> read_arguments(int argc, const char* const* argv);
 
 }  // namespace jvari::bench::command

@@ -18,6 +18,7 @@
 #include "bench/compare/record/convergence_table.hpp"
 #include "bench/compare/record/matching_note.hpp"
 #include "bench/compare/record/spread.hpp"
+#include "bench/compare/scene_notes.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
@@ -107,6 +108,7 @@ int compare_command(const CompareCall& r) {
     }
 
     const double rate = c.reference_summary.rate;
+    for (const String& string : c.scene().strings) console.print("string: " + compare::tuning_text(string));
     console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene().name,
                               c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene().duration,
                               c.reference.settings.tap_rate, c.scene().taps.at(c.headline.nut).name,

@@ -9,7 +9,7 @@
 #include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/silence.hpp"
+#include "bench/compare/scene_notes.hpp"
 #include "bench/report/run_chart.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/sound/audio_file.hpp"
@@ -54,9 +54,10 @@ std::string dearest(const std::vector<Fact>& facts) {
         coupled);
 }
 
-std::string text_for(const study::Summary& s) {
+std::string text_for(const study::Summary& s, const Scene& scene) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
     const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<27} {}", name, value); };
+    for (const String& string : scene.strings) line("string", compare::tuning_text(string));
     if (s.status.outcome == Outcome::ok) line("status", "ok");
     else line("status", fmt::format("{} at step {}", name_of(s.status.outcome), s.status.step));
     line("rate", std::isnan(s.rate) ? "continuous time" : fmt::format("{} Hz", s.rate));
@@ -173,7 +174,7 @@ int run_command(const RunRequest& r) {
     compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
     const Scene own = compare::load_scene(r.scene, r.set, r.duration), scene = sound::is_audio(r.out) ? sound::audible(own) : own;
-    compare::note_silent_strings(scene, console);
+    compare::note_scene(scene, console);
     const Settings settings = settings_for(r, d);
     store::TraceFile file = file_for(r, d, scene, settings);
     const std::optional<report::Vega> vega = vega_for(r);
@@ -195,7 +196,7 @@ int run_command(const RunRequest& r) {
     }
     const study::Summary summary = study::summary_of(d, scene, settings, result);
     Json json = json_of(summary);
-    std::string text = text_for(summary);
+    std::string text = text_for(summary, scene);
     if (!r.out.empty()) {
         add_attributes(file, summary);
         std::string said;

@@ -7,7 +7,7 @@
 
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/needed_cells.hpp"
-#include "bench/compare/silence.hpp"
+#include "bench/compare/scene_notes.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "reference/agreement.hpp"
 #include "schemes/registry.hpp"
@@ -122,7 +122,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     Comparison c;
     study::Point& point = c.plan.points.emplace_back();
     point.scene = load_scene(request.scene, request.set, request.duration);
-    note_silent_strings(point.scene, listener);
+    note_scene(point.scene, listener);
     c.headline = study::headline_of(point.scene);
     const Plan plan = plan_of(request, catalogue, point.scene);
     for (const std::string& note : plan.notes) listener.note(note);

@@ -119,6 +119,8 @@ void read_manifest(Results& r) {
         r.about = fmt::format("against {}, {} s; nut tap {}, bridge tap {}; {}", m.at("reference").at("name").get<std::string>(),
                               scene.at("duration").get<double>(), headline.at("nut").get<std::string>(),
                               headline.at("bridge").get<std::string>(), r.about);
+        if (scene.contains("strings") && !scene.at("strings").empty())
+            r.about = scene.at("strings").at(0).get<std::string>() + "; " + r.about;
         for (const Json& tap : scene.at("taps")) r.taps.push_back(tap.at("name"));
         for (const auto& [name, value] : m.at("noise_floor").items())
             if (value.is_number()) r.floors.emplace_back(name, value.get<double>());

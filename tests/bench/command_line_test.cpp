@@ -20,7 +20,6 @@ const std::string plugin = std::string(" --plugin ") + JVARI_STUMBLING_PLUGIN;
 TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
     const Scratch scratch;
     const std::pair<const char*, const char*> cases[] = {
-        {"", "subcommand"},
         {"rum", "did you mean \"run\""},
         {"run", "scene"},
         {"run free_string", "--scheme"},
@@ -485,6 +484,39 @@ TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {
         EXPECT_EQ(shell(scratch, std::string("$J new guitar ") + name).code, 2) << name;
     EXPECT_NE(shell(scratch, "$J new gitar a").err.find("did you mean \"guitar\""), std::string::npos);
     EXPECT_EQ(scratch.files(), 1);
+}
+
+TEST(Help, NoVerbIsWelcomedAndHelpOfAVerbIsItsOwn) {
+    const Scratch scratch;
+    const Outcome welcome = jvari(scratch, "");
+    EXPECT_EQ(welcome.code, 2);
+    EXPECT_LE(std::count(welcome.out.begin(), welcome.out.end(), '\n'), 10);
+    EXPECT_NE(welcome.out.find("jvari new guitar"), std::string::npos);
+    EXPECT_EQ(jvari(scratch, "help run").out, jvari(scratch, "run --help").out);
+    EXPECT_EQ(jvari(scratch, "help").out, jvari(scratch, "--help").out);
+    EXPECT_EQ(jvari(scratch, "help nothing").code, 2);
+}
+
+TEST(Units, ARateAndADurationMayHaveTheirUnitBehindThem) {
+    const Scratch scratch;
+    const auto of = [&](const std::string& words, const char* key) {
+        return nlohmann::json::parse(jvari(scratch, "run free_string --scheme modal_two_point --json " + words).out).at(key).get<double>();
+    };
+    EXPECT_EQ(of("--rate 44.1k --duration 10ms", "rate"), 44100);
+    EXPECT_EQ(of("--rate 44.1kHz --duration 10ms", "duration"), of("--rate 44100 --duration 0.01", "duration"));
+    for (const char* wrong : {"--rate 44.1x", "--rate k", "--rate -1k", "--duration 10min", "--duration ms"})
+        EXPECT_EQ(jvari(scratch, std::string("run free_string --scheme modal_two_point ") + wrong).code, 2) << wrong;
+}
+
+TEST(Units, ValuesThatLookLikeAnotherUnitAreNamed) {
+    const Scratch scratch;
+    const auto said = [&](const std::string& set) {
+        return jvari(scratch, "run guitar_over_fret --scheme modal_two_point --modes 20 --duration 0.001 " + set).err;
+    };
+    EXPECT_NE(said("--set string.0.length=62").find("length = 62 m"), std::string::npos) << said("--set string.0.length=62");
+    EXPECT_NE(said("--set string.0.tension=1e9").find("the pitch that"), std::string::npos);
+    EXPECT_NE(said("--set string.0.initial.amplitude=1.9").find("initial.amplitude = 1.9 m"), std::string::npos);
+    EXPECT_EQ(said("").find("warning"), std::string::npos);
 }
 
 TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {

@@ -1,4 +1,5 @@
 #include "bench/compare/record/compare_record.hpp"
+#include "bench/compare/scene_notes.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -70,12 +71,15 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                    {"horizon_of_1e-12_s", study::horizon_of(c.against.floor, c.headline)},
                    {"certificate", certificate_json(c)},
                    {"facts", facts}};
+    Json tunings = Json::array();
+    for (const String& string : c.scene().strings) tunings.push_back(tuning_text(string));
     const Json scene{{"name", c.scene().name},
                      {"asked_as", r.scene},
                      {"set", r.set},
                      {"source", c.scene().source},
                      {"hash", scene_hash(c.scene())},
                      {"duration", c.scene().duration},
+                     {"strings", tunings},
                      {"taps", taps},
                      {"text", write_scene(c.scene())}};
     Json manifest = Json::parse(store::made_by());

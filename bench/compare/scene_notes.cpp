@@ -1,0 +1,61 @@
+#include "bench/compare/scene_notes.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "scenes/pitch.hpp"
+
+namespace jvari::bench::compare {
+
+namespace {
+constexpr double least_length = 0.03, most_length = 4;  // of an instrument's string, from a piano's highest to its lowest [m]
+constexpr double least_pitch = 10, most_pitch = 1e4;    // [Hz]
+constexpr double most_start = 0.1;                      // of the length: beyond, the equations of small motion do not hold
+
+bool plucked(const String& s) {
+    return s.pluck && s.pluck->amplitude != 0;
+}
+bool set_in_motion(const String& s, double before) {
+    const bool shaped = s.initial && std::visit([](const auto& shape) { return shape.amplitude != 0; }, *s.initial);
+    return shaped || (plucked(s) && s.pluck->start < before);
+}
+}  // namespace
+
+std::string tuning_text(const String& s) {
+    const double f1 = pitch_of(s);
+    const std::string note = note_of(f1);
+    return fmt::format("f1 = {:.4g} Hz{}, tension {:.3g} N, inharmonicity {:.2g}", f1, note.empty() ? "" : " (" + note + ")", s.tension,
+                       inharmonicity(s));
+}
+
+void note_scene(const Scene& scene, const store::Listener& listener) {
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
+        const String& s = scene.strings[i];
+        const auto doubt = [&](bool doubtful, const char* key, double value, const char* unit, const char* usual) {
+            if (doubtful)
+                listener.note(fmt::format("warning: string {}: {} = {:g} {}; expected {}. Is the unit right?", i, key, value, unit, usual));
+        };
+        doubt(s.length < least_length || s.length > most_length, "length", s.length, "m", "0.03 to 4 m");
+        doubt(pitch_of(s) < least_pitch || pitch_of(s) > most_pitch, "the pitch that length, tension and linear_density give", pitch_of(s),
+              "Hz", "10 to 10000 Hz");
+        const double start = s.initial ? std::visit([](const auto& shape) { return std::abs(shape.amplitude); }, *s.initial) : 0;
+        doubt(start > most_start * s.length, "initial.amplitude", start, "m", "less than a tenth of the length");
+        doubt(plucked(s) && std::abs(s.pluck->amplitude) > s.tension, "pluck.amplitude", plucked(s) ? s.pluck->amplitude : 0, "N",
+              "less than the tension");
+    }
+    const auto moves = [&](const String& s) { return set_in_motion(s, scene.duration); };
+    if (scene.body && !scene.body->modes.empty() && std::ranges::any_of(scene.strings, moves)) return;  // one shakes the others
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
+        const String& s = scene.strings[i];
+        if (moves(s)) continue;
+        const std::string why = plucked(s)
+                                    ? fmt::format("its pluck begins at {:g} s, and the run ends at {:g} s", s.pluck->start, scene.duration)
+                                    : "nothing sets it in motion; give it [string.initial] or [string.pluck]";
+        listener.note(fmt::format("warning: string {} of {} stays silent: {}", i, scene.name, why));
+    }
+}
+
+}  // namespace jvari::bench::compare
