@@ -83,7 +83,6 @@ void matched(benchmark::State& state, const std::string& name, int modes, Words 
 BENCHMARK(step<fused>)->Name("two_point/fused");
 BENCHMARK_CAPTURE(matched, two_point, "modal_two_point", 133, Words{{"compliance", "matched"}});
 BENCHMARK_CAPTURE(matched, strang_40_modes, "modal_strang", 40, Words{});
-BENCHMARK_CAPTURE(matched, strang_of_order_4_40_modes, "modal_strang", 40, Words{{"order", "4"}});
 BENCHMARK(step<plain<double>>)->Name("two_point/plain_eigen");
 
 // Strings as runs of one and as one scene: four of different pitch, four times those, and an ensemble of sixteen that differ in how they

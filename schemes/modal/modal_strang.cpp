@@ -7,11 +7,7 @@
 // (contact/compliance.hpp). In lasting contact it is stable below the stiffness of fact stable_stiffness_limit, 1/sum g^2 e/den, to be held
 // against 1/series_compliance, which the contact cannot pass. Beyond it the run may diverge, and then says so.
 // No energy balance is promised; the stored energy is the true one, with what is in series.
-// Option `order` = 4 takes five such steps for one (modal_suzuki.hpp).
 // Leaves out: contact loss, several barriers, profiles, polarisation, the body.
-#include <limits>
-
-#include "schemes/modal/modal_suzuki.hpp"
 #include "schemes/modal/series_force.hpp"
 
 namespace jvari {
@@ -19,18 +15,13 @@ namespace jvari {
 extern const Descriptor modal_strang;
 
 namespace {
-constexpr Option order_option{
-    "order", "2", "2: one Strang step; 4: five in its place, the middle one backwards (Suzuki 1990), five times the work", {"2", "4"}};
-
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     ModalString string = modal_string(descriptor, scene, settings);
-    if (choice_option(settings, order_option) == "4") return modal_suzuki(descriptor, scene, std::move(string));
     const ModalArray gain = impulse_gain(string);
     return explicit_in_series(descriptor, scene, std::move(string), gain);
 }
 
 double margin(const Scene& scene, const Settings& settings) {
-    if (choice_option(settings, order_option) == "4") return std::numeric_limits<double>::quiet_NaN();
     return series_margin(modal_strang, scene, settings, impulse_gain);
 }
 }  // namespace
@@ -42,7 +33,6 @@ extern const Descriptor modal_strang = {
     .balance = Balance::none,
     .clock = Clock::stepped,
     .make = made,
-    .options = {&order_option, 1},
     .note =
         "One lumped barrier without contact loss: several contacts behind one compliance have their forces "
         "only by iteration, and a loss needs a velocity. An explicit kick has neither.",
