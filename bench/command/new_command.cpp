@@ -71,10 +71,14 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-// The library's text under another name.
+// The library's text under another name, without its source: a paper on the library's string says nothing of this one.
 std::string renamed(std::string text, const std::string& name) {
-    const auto key = text.find("\nname = ");
-    return text.replace(key + 1, text.find('\n', key + 1) - key - 1, fmt::format("name = \"{}\"", name));
+    const auto replace_line = [&text](const char* begin, const std::string& by) {
+        if (const auto at = text.find(begin); at != std::string::npos) text.replace(at, text.find('\n', at + 1) - at, by);
+    };
+    replace_line("\nname = ", fmt::format("\nname = \"{}\"", name));
+    replace_line("\nsource = ", "");
+    return text;
 }
 void must_be_free(const fs::path& file) {
     std::error_code error;

@@ -25,12 +25,6 @@ std::string scene_text(const Reproducer& r) {
                        r.expected.detail, r.file, how, write_scene(t.scene));
 }
 
-Verdict verdict_called(const std::string& name) {
-    for (const Verdict v : verdicts())
-        if (name == name_of(v)) return v;
-    throw std::runtime_error("unknown outcome " + name);
-}
-
 bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Reproducer& into) {
     std::error_code error;
     if (!fs::is_regular_file(folder / "index.csv", error)) return false;  // it is written last
@@ -105,7 +99,7 @@ std::vector<Reproducer> read_failures(const fs::path& folder, const compare::Cat
         s.modes = static_cast<int>(index.number(i, "modes"));
         std::istringstream options(index.at(i, "options"));
         for (std::string word; options >> word;) s.options.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
-        r.expected = {verdict_called(index.at(i, "outcome")), index.at(i, "detail"), static_cast<long>(index.number(i, "step"))};
+        r.expected = {verdict_named(index.at(i, "outcome")), index.at(i, "detail"), static_cast<long>(index.number(i, "step"))};
         all.push_back(std::move(r));
     }
     return all;

@@ -13,6 +13,7 @@
 #include "bench/map/map_theory.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/kept.hpp"
 #include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/side_by_side.hpp"
@@ -24,50 +25,30 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-Json number(double x) {  // JSON has no NaN and no infinity
-    return store::text_of(x);
+std::string text_of(const Tried& t, const std::string& identity) {
+    return store::kept_text(identity, {{"outcome", name_of(t.judgement.verdict)},
+                                       {"detail", t.judgement.detail},
+                                       {"step", t.judgement.step},
+                                       {"status", name_of(t.figures.status.outcome)},
+                                       {"displacement", store::text_of(t.figures.displacement)},
+                                       {"energy_gain", store::text_of(t.figures.energy_gain)},
+                                       {"pull", store::text_of(t.figures.pull)},
+                                       {"error", store::text_of(t.figures.error)},
+                                       {"reference", t.reference},
+                                       {"steps", t.steps}});
 }
 
-std::string json_of(const Tried& t, const std::string& identity) {
-    return store::sealed(Json{
-        {"point", Json::parse(identity)},
-        {"outcome", name_of(t.judgement.verdict)},
-        {"detail", t.judgement.detail},
-        {"step", t.judgement.step},
-        {"status", name_of(t.figures.status.outcome)},
-        {"displacement", number(t.figures.displacement)},
-        {"energy_gain", number(t.figures.energy_gain)},
-        {"pull", number(t.figures.pull)},
-        {"error", number(t.figures.error)},
-        {"reference", t.reference},
-        {"steps", t.steps}}.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-Verdict verdict_named(const std::string& name) {
-    for (const Verdict v : verdicts())
-        if (name == name_of(v)) return v;
-    throw std::runtime_error("unknown outcome " + name);
-}
-
-std::optional<Tried> read_back(const fs::path& path, const std::string& identity) {
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) return std::nullopt;
-    try {
-        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
-        if (j.at("point") != Json::parse(identity)) return std::nullopt;
-        Tried t;
-        t.judgement = {verdict_named(j.at("outcome")), j.at("detail"), store::whole<long>(j.at("step"))};
-        t.figures.status = {store::outcome_named(j.at("status")), store::whole<long>(j.at("step"))};
-        t.figures.displacement = store::number_of(j.at("displacement"));
-        t.figures.energy_gain = store::number_of(j.at("energy_gain"));
-        t.figures.pull = store::number_of(j.at("pull"));
-        t.figures.error = store::number_of(j.at("error"));
-        t.reference = j.at("reference");
-        t.steps = store::whole<long>(j.at("steps"));
-        return t;
-    } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
-        return std::nullopt;
-    }
+Tried tried_in(const Json& j) {
+    Tried t;
+    t.judgement = {verdict_named(j.at("outcome")), j.at("detail"), store::whole<long>(j.at("step"))};
+    t.figures.status = {store::outcome_named(j.at("status")), store::whole<long>(j.at("step"))};
+    t.figures.displacement = store::number_of(j.at("displacement"));
+    t.figures.energy_gain = store::number_of(j.at("energy_gain"));
+    t.figures.pull = store::number_of(j.at("pull"));
+    t.figures.error = store::number_of(j.at("error"));
+    t.reference = j.at("reference");
+    t.steps = store::whole<long>(j.at("steps"));
+    return t;
 }
 
 class Laboratory {  // tries points, and keeps what came of them
@@ -78,14 +59,14 @@ public:
         const Trial trial = trial_at(at);
         const std::string identity = Json{{"program", request_.program}, {"trial", Json::parse(identity_of(trial))}}.dump();
         const fs::path file = request_.folder.empty() ? fs::path() : request_.folder / (store::hash_of(identity) + ".json");
-        const auto kept = [&] { return request_.resume && !file.empty() ? read_back(file, identity) : std::nullopt; };
+        const auto kept = [&] { return request_.resume && !file.empty() ? store::read_kept(file, identity, tried_in) : std::nullopt; };
         std::optional<Tried> tried = kept();
         if (!tried) {
             const store::FileLock lock(file, fmt::format("tries {} on map {}", at.scheme->name, at.map->name));
             tried = kept();
             if (!tried) {
                 tried = run_trial(trial, truths_, [&done](long, long) { done.look(); });
-                if (!file.empty()) store::write_fresh(file, json_of(*tried, identity));
+                if (!file.empty()) store::write_fresh(file, text_of(*tried, identity));
                 ++ran_;
             }
         }

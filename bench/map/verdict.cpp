@@ -36,6 +36,12 @@ const char* name_of(Verdict v) {
     return names[static_cast<std::size_t>(v)];
 }
 
+Verdict verdict_named(const std::string& name) {
+    for (const Verdict v : all)
+        if (name == name_of(v)) return v;
+    throw std::runtime_error("unknown outcome " + name);
+}
+
 Judgement judge(const Figures& f) {
     const bool stopped = f.status.outcome != Outcome::ok;
     if (f.status.outcome == Outcome::diverged) return {Verdict::diverged, fmt::format("at step {}", f.status.step), f.status.step};

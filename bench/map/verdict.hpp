@@ -26,6 +26,7 @@ namespace jvari::bench::map {
 enum class Verdict { sound, unjudged, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused };
 std::span<const Verdict> verdicts();
 const char* name_of(Verdict);
+Verdict verdict_named(const std::string&);  // throws std::runtime_error
 
 constexpr double error_allowed = 0.1;  // relative L2
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
-#include "bench/store/fresh_file.hpp"
+#include "bench/store/kept.hpp"
 #include "bench/store/whole.hpp"
 
 namespace jvari::bench::study {
@@ -24,19 +24,15 @@ Spread spread_in(const Json& j, int count) {
 }  // namespace
 
 std::string clock_json(const KeptClock& c, const std::string& identity) {
-    return store::sealed(Json{{"clock_of", Json::parse(identity)},
-                              {"repeats", c.wall.count},
-                              {"wall_seconds", quoted(c.wall)},
-                              {"processor_seconds", quoted(c.processor)},
-                              {"worst_block", store::text_of(c.worst_block)},
-                              {"stamp", Json::parse(json_of(c.stamp))}}
-                             .dump(-1, ' ', false, Json::error_handler_t::replace));
+    return store::kept_text(identity, {{"repeats", c.wall.count},
+                                       {"wall_seconds", quoted(c.wall)},
+                                       {"processor_seconds", quoted(c.processor)},
+                                       {"worst_block", store::text_of(c.worst_block)},
+                                       {"stamp", Json::parse(json_of(c.stamp))}});
 }
 
 std::optional<KeptClock> read_clock(const fs::path& path, const std::string& identity) {
-    try {
-        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
-        if (j.at("clock_of") != Json::parse(identity)) return std::nullopt;
+    return store::read_kept(path, identity, [](const Json& j) {
         KeptClock c;
         const int repeats = store::whole<int>(j.at("repeats"));
         c.wall = spread_in(j.at("wall_seconds"), repeats);
@@ -44,9 +40,7 @@ std::optional<KeptClock> read_clock(const fs::path& path, const std::string& ide
         c.worst_block = store::number_of(j.at("worst_block"));
         c.stamp = store::stamp_of(j.at("stamp").dump());
         return c;
-    } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
-        return std::nullopt;
-    }
+    });
 }
 
 std::string clock_file(const Job& cell, const store::Stamp& stamp) {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/store/base64.hpp"
-#include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/kept.hpp"
 #include "bench/store/outcome_name.hpp"
 #include "bench/store/whole.hpp"
 
@@ -108,32 +108,26 @@ std::string json_of(const Record& r, const std::string& identity) {
     const Against& a = r.against;
     Json rows = Json::object();
     for (const auto& [facet, table] : r.rows) rows[facet] = {{"columns", table.columns}, {"rows", table.rows}};
-    return store::sealed(Json{
-        {"job", Json::parse(identity)},
-        {"failure", c.failure},
-        {"reason", c.reason},
-        {"summary", summary_json(c.summary)},
-        {"errors", numbers(c.errors)},
-        {"in_model", numbers(c.in_model)},
-        {"against",
-         {{"reference", a.reference},
-          {"modes", a.modes},
-          {"doubling", a.doubling},
-          {"floor", numbers(a.floor)},
-          {"certificate", numbers(a.trust.figure)},
-          {"left_out", numbers(a.trust.left_out)},
-          {"certificate_in_model", numbers(a.model_trust.figure)}}},
-        {"sound", sound_json(c.sound)},
-        {"levels", levels_json(r.levels)},
-        {"rows", rows}}.dump(-1, ' ', false, Json::error_handler_t::replace));
+    return store::kept_text(identity, {{"failure", c.failure},
+                                       {"reason", c.reason},
+                                       {"summary", summary_json(c.summary)},
+                                       {"errors", numbers(c.errors)},
+                                       {"in_model", numbers(c.in_model)},
+                                       {"against",
+                                        {{"reference", a.reference},
+                                         {"modes", a.modes},
+                                         {"doubling", a.doubling},
+                                         {"floor", numbers(a.floor)},
+                                         {"certificate", numbers(a.trust.figure)},
+                                         {"left_out", numbers(a.trust.left_out)},
+                                         {"certificate_in_model", numbers(a.model_trust.figure)}}},
+                                       {"sound", sound_json(c.sound)},
+                                       {"levels", levels_json(r.levels)},
+                                       {"rows", rows}});
 }
 
 std::optional<Record> read_record(const std::filesystem::path& path, const std::string& identity, const Cell& planned) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
-    try {
-        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
-        if (j.at("job") != Json::parse(identity)) return std::nullopt;
+    return store::read_kept(path, identity, [&planned](const Json& j) {
         Record r{planned, {}, {}, {}};
         r.cell.failure = j.at("failure");
         r.cell.reason = j.at("reason");
@@ -153,25 +147,18 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
         for (const auto& [facet, kept] : j.at("rows").items()) {
             const store::Table& table = r.rows[facet] = {kept.at("columns"), kept.at("rows")};
             for (const auto& fields : table.rows)
-                if (fields.size() != table.columns.size()) return std::nullopt;
+                if (fields.size() != table.columns.size()) throw std::runtime_error("a row without a field for each column");
         }
         return r;
-    } catch (const std::exception&) {  // Json::exception, UsageError, what unsealed() throws
-        return std::nullopt;
-    }
+    });
 }
 
 std::optional<Levels> read_levels(const std::filesystem::path& path, const std::string& name) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
-    try {
-        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
-        const Json measured = Json::parse(j.at("job").at("measured").get<std::string>());
-        if (std::find(measured.begin(), measured.end(), name) == measured.end()) return std::nullopt;
+    return store::read_kept(path, [&name](const Json& j) {
+        const Json measured = Json::parse(j.at("of").at("measured").get<std::string>());
+        if (std::find(measured.begin(), measured.end(), name) == measured.end()) throw std::runtime_error("it was not measured");
         return levels_in(j.at("levels"));
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
+    });
 }
 
 }  // namespace jvari::bench::study

@@ -11,6 +11,7 @@
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/kept.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/time_limit.hpp"
@@ -135,22 +136,18 @@ std::string Judge::identity(const Model& m, int start, const char* what) const {
         .dump();
 }
 
-std::optional<std::string> Judge::kept(const std::string& identity) const {
-    if (request_.out.empty()) return std::nullopt;
-    try {
-        const fs::path path = fs::path(request_.out) / "cells" / (store::hash_of(identity) + ".json");
-        if (!fs::is_regular_file(path)) return std::nullopt;
-        std::string object = store::unsealed(store::read_whole(path));
-        if (Json::parse(object).at("identity") != identity) return std::nullopt;
-        return object;
-    } catch (const std::exception&) {  // not whole, or of another program: made again
-        return std::nullopt;
-    }
+fs::path Judge::file_of(const std::string& identity) const {
+    return fs::path(request_.out) / "cells" / (store::hash_of(identity) + ".json");
 }
 
-void Judge::keep(const std::string& identity, const std::string& object) const {
-    if (!request_.out.empty())
-        store::write_fresh(fs::path(request_.out) / "cells" / (store::hash_of(identity) + ".json"), store::sealed(object));
+template <class Read>
+auto Judge::kept(const std::string& identity, Read read) const -> std::optional<std::invoke_result_t<Read, const Json&>> {
+    if (request_.out.empty()) return std::nullopt;
+    return store::read_kept(file_of(identity), identity, read);
+}
+
+void Judge::keep(const std::string& identity, const Json& content) const {
+    if (!request_.out.empty()) store::write_fresh(file_of(identity), store::kept_text(identity, content));
 }
 
 void Judge::run_truth(int start) {
@@ -186,27 +183,23 @@ void Judge::run_truth(int start) {
     const double depth = study::fact(of.run.facts, facts::deepest_penetration);
     known.penetration = depth > 0 ? depth : 1;
     const std::string id = identity({{}, nullptr, {}}, start, "truth");
-    keep(id, Json{{"identity", id},
-                  {"reference", known.reference},
-                  {"said", known.said},
-                  {"modes", known.modes},
-                  {"certificate", store::text_of(known.certificate)},
-                  {"floor", store::text_of(known.floor)},
-                  {"horizon", store::text_of(known.horizon)},
-                  {"penetration", store::text_of(known.penetration)}}
-                 .dump());
+    keep(id, {{"reference", known.reference},
+              {"said", known.said},
+              {"modes", known.modes},
+              {"certificate", store::text_of(known.certificate)},
+              {"floor", store::text_of(known.floor)},
+              {"horizon", store::text_of(known.horizon)},
+              {"penetration", store::text_of(known.penetration)}});
 }
 
 const Truth& Judge::truth(int start) {
     if (truths_[start]) return *truths_[start];
     const std::string id = identity({{}, nullptr, {}}, start, "truth");
-    if (const auto object = kept(id)) {
-        const Json j = Json::parse(*object);
-        truths_[start] = Truth{j.at("reference"),  j.at("said"),         j.at("modes"),           number(j, "certificate"),
-                               number(j, "floor"), number(j, "horizon"), number(j, "penetration")};
-        return *truths_[start];
-    }
-    run_truth(start);
+    truths_[start] = kept(id, [](const Json& j) {
+        return Truth{j.at("reference"),  j.at("said"),         j.at("modes"),           number(j, "certificate"),
+                     number(j, "floor"), number(j, "horizon"), number(j, "penetration")};
+    });
+    if (!truths_[start]) run_truth(start);
     return *truths_[start];
 }
 
@@ -217,11 +210,13 @@ const std::vector<double>& Judge::trace(int start) {
 
 Verdict Judge::verdict(const Model& m, int start, double limit) {
     const std::string id = identity(m, start, "model");
-    if (const auto known = verdicts_.find(id); known != verdicts_.end()) return known->second;
-    if (const auto object = kept(id)) {
-        const Json j = Json::parse(*object);
+    if (const auto asked = verdicts_.find(id); asked != verdicts_.end()) return asked->second;
+    const auto known = kept(id, [](const Json& j) {
+        return Verdict{j.at("status"), number(j, "error"), number(j, "seconds"), j.at("dofs")};
+    });
+    if (known) {
         ++read_back_;
-        return verdicts_[id] = {j.at("status"), number(j, "error"), number(j, "seconds"), j.at("dofs")};
+        return verdicts_[id] = *known;
     }
     Verdict v;
     const std::vector<double>& reference = trace(start);
@@ -247,12 +242,7 @@ Verdict Judge::verdict(const Model& m, int start, double limit) {
     ++judged_;
     verdicts_[id] = v;
     if (v.seconds < worth_keeping) return v;
-    keep(id, Json{{"identity", id},
-                  {"status", v.status},
-                  {"error", store::text_of(v.error)},
-                  {"seconds", store::text_of(v.seconds)},
-                  {"dofs", v.dofs}}
-                 .dump());
+    keep(id, {{"status", v.status}, {"error", store::text_of(v.error)}, {"seconds", store::text_of(v.seconds)}, {"dofs", v.dofs}});
     return v;
 }
 
@@ -268,9 +258,9 @@ bool Judge::within(const Verdict& v, int start) {
 double Judge::cost(const Model& m) {
     const std::string id = identity(m, 0, "cost");
     if (const auto known = costs_.find(id); known != costs_.end()) return known->second;
-    if (const auto object = kept(id)) return costs_[id] = number(Json::parse(*object), "cost");
+    if (const auto cost = kept(id, [](const Json& j) { return number(j, "cost"); })) return costs_[id] = *cost;
     const double cost = costs_[id] = cost_of_(m, scene_of(m));
-    keep(id, Json{{"identity", id}, {"cost", store::text_of(cost)}}.dump());
+    keep(id, {{"cost", store::text_of(cost)}});
     return cost;
 }
 

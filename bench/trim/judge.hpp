@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,8 +92,10 @@ private:
     std::string identity(const Model&, int start, const char* what) const;
     const std::vector<double>& trace(int start);
     void run_truth(int start);
-    std::optional<std::string> kept(const std::string& identity) const;
-    void keep(const std::string& identity, const std::string& object) const;
+    std::filesystem::path file_of(const std::string& identity) const;
+    template <class Read>
+    auto kept(const std::string& identity, Read) const -> std::optional<std::invoke_result_t<Read, const nlohmann::ordered_json&>>;
+    void keep(const std::string& identity, const nlohmann::ordered_json& content) const;
 
     Request request_;
     const compare::Catalogue& catalogue_;

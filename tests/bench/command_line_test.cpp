@@ -640,6 +640,7 @@ TEST(SuiteFiles, ScenesAreLookedForBesideTheSuite) {
                             "rates = [44100]\\nduration = 0.002\\n' >study/s.toml && $J suite study/s.toml --json");
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_EQ(nlohmann::json::parse(o.out).at("cells").at(0).at("scene"), "mine");
+    EXPECT_EQ(shell(scratch, "grep -c '^source' study/mine.toml").out, "0\n");  // no paper is about it
 }
 
 TEST(Colour, IsForTerminalsThatWantIt) {

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string text = test::text_of(data, size), identity = R"({"scene":"a"})";
     static const bench::study::Cell planned{&schemes().front(), {}};
     const auto record =
-        bench::study::read_record(file.holding(bench::store::sealed("{\"job\":" + identity + "," + text + "}")), identity, planned);
+        bench::study::read_record(file.holding(bench::store::sealed("{\"of\":" + identity + "," + text + "}")), identity, planned);
     if (!record) return 0;
     ++inputs_read;
     record->cell.status();

@@ -5,9 +5,17 @@ const player = {sounds: [], shown: [], heard: null, context: null, playing: null
 const sound_like = (scheme, rate) => player.sounds.find(s => s.scheme === scheme && s.detail === rate && s.problem === scene_shown());
 const scene_shown = () => document.getElementById("scene")?.value ?? page.verdicts[0]?.scene ?? "";
 function listen_to(sound) {
-  const button = element("button", {type: "button", className: "listen", onclick: () => hear(sound, true)}, "\u25b6 listen");
+  const button = element("button", {type: "button", className: "listen", onclick: () => listen(sound)}, "\u25b6 listen");
   button.setAttribute("aria-label", `listen to ${sound.scheme}, ${sound.detail}`);
   return button;
+}
+
+function listen(sound) {
+  if (player.blind.checked) {  // its name has been said
+    player.blind.checked = false;
+    player.blind.onchange();
+  }
+  return hear(sound, true);
 }
 
 async function decoded(sound) {
