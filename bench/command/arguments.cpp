@@ -37,16 +37,6 @@ constexpr const char* examples =
     "its result could not be written (what was written stays valid).\n"
     "Ctrl-C leaves whole files only; compare and suite say how many cells are kept.";
 
-constexpr const char* welcome_text =
-    "jvari compares numerical schemes for a string that vibrates against an obstacle.\n"
-    "\n"
-    "  jvari new guitar my_guitar            write a commented scene, my_guitar.toml; also tanpura, sitar, bass, piano\n"
-    "  jvari run my_guitar.toml --scheme modal_two_point --out my_guitar.wav        hear it\n"
-    "  jvari compare my_guitar.toml --out report      which scheme, at which rate, and how wrong is it?\n"
-    "  jvari list                            the schemes, references and scenes that there are\n"
-    "\n"
-    "`jvari --help` lists every verb, `jvari help compare` teaches one.";
-
 std::string a_number(const std::string& text, bool whole) {
     double x = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -156,7 +146,14 @@ void must_be_assignments(const std::vector<std::string>& set) {
 }  // namespace
 
 const char* welcome() {
-    return welcome_text;
+    return "jvari compares numerical schemes for a string that vibrates against an obstacle.\n"
+           "\n"
+           "  jvari new guitar my_guitar            write a commented scene, my_guitar.toml; also tanpura, sitar, bass, piano\n"
+           "  jvari run my_guitar.toml --scheme modal_two_point --out my_guitar.wav        hear it\n"
+           "  jvari compare my_guitar.toml --out report      which scheme, at which rate, and how wrong is it?\n"
+           "  jvari list                            the schemes, references and scenes that there are\n"
+           "\n"
+           "`jvari --help` lists every verb, `jvari help compare` teaches one.";
 }
 
 std::optional<Request> read_arguments(int argc, const char* const* argv) {

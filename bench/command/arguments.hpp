@@ -77,8 +77,9 @@ struct CheckRequest : Common {
 using Request = std::variant<NewRequest, ListRequest, RunRequest, CompareCall, SuiteRequest, TrimCall, CertifyRequest, ReportRequest,
                              DiffRequest, CheckRequest>;
 
-// Throws UsageError. No value: help or the version was asked for and printed.
 const char* welcome();  // what there is to do, in ten lines: for those who call it without a verb
+
+// Throws UsageError. No value: help or the version was asked for and printed.
 std::optional<Request> read_arguments(int argc, const char* const* argv);
 
 }  // namespace jvari::bench::command

@@ -3,9 +3,7 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/report/chart_data.hpp"
@@ -61,7 +59,7 @@ Encodings encodings_of(const WorkPrecision& w) {
 
 Json chosen(const char* condition) {  // x and y of the columns that are chosen, then the rows that satisfy the condition
     return Json::array(
-        {{{"filter", "datum.problem == problem_field && (every_series || indexof(main_series, datum.series) >= 0)"}},
+        {{{"filter", "datum.problem == problem_field && (!length(main_series) || indexof(main_series, datum.series) >= 0)"}},
          {{"calculate", "datum[cost_field] * (cost_field == 'rate' ? 1e-3 : 1)"}, {"as", "x"}},
          {{"calculate", "cost_field == 'cost_s_per_s' || cost_field == 'ns_per_step'"}, {"as", "timed"}},
          {{"calculate", "datum.timed ? datum.x * datum.quartile_lower : null"}, {"as", "from"}},
@@ -121,7 +119,7 @@ Json line_of(const Encodings& e, const char* condition, double width) {
              {{"x", e.x}, {"y", e.y}, {"color", e.colour}, {"strokeDash", e.dash}, {"order", {{"field", "order"}}}, {"opacity", e.faint}}}};
 }
 
-void add_schemes(Json& layers, const Encodings& e) {
+void add_schemes(Json& layers, const Encodings& e, Medium medium) {
     Json from = e.x;
     from["field"] = "from";
     layers.push_back({{"transform", chosen(fmt::format("{} && datum.from > 0 && datum.to > 0", sound).c_str())},
@@ -143,10 +141,10 @@ void add_schemes(Json& layers, const Encodings& e) {
                       {"tooltip", e.of_point}}}};
     };
     Json trusted = points("datum.flags == ''", {{"filled", true}});
-    if (Json& legend = trusted["encoding"]["color"]["legend"]; legend.is_object())
-        legend.update(
-            {{"values", {{"expr", "every_series ? drawn[problem_field] : main_series"}}},
-             {"labelExpr", "replace(replace(datum.label, ' compliance=matched', ', matched'), ' compliance=own', ', as published')"}});
+    if (Json& legend = trusted["encoding"]["color"]["legend"]; legend.is_object()) {
+        legend["labelExpr"] = "replace(replace(datum.label, ' compliance=matched', ', matched'), ' compliance=own', ', as published')";
+        if (medium == Medium::page) legend["values"] = {{"expr", "main_series"}};
+    }
     trusted["params"] = Json::array(
         {{{"name", "pick"}, {"select", {{"type", "point"}, {"fields", Json::array({"series"})}, {"toggle", "true"}}}, {"bind", "legend"}}});
     layers.push_back(std::move(trusted));
@@ -283,17 +281,6 @@ Json titles_json(const std::vector<Axis>& axes) {
     return titles;
 }
 
-Json drawn_json(const store::Table& cells) {  // of each problem its series, as the legend has them
-    std::map<std::string, std::vector<std::string>> drawn;
-    for (std::size_t i = 0; i < cells.rows.size(); ++i)
-        if (auto& names = drawn[problem_of(cells, i)];
-            cells.at(i, "status") != "refused" && std::ranges::find(names, series_of(cells, i)) == names.end())
-            names.push_back(series_of(cells, i));
-    Json ordered = Json::object();
-    for (auto& [problem, names] : drawn) ordered[problem] = in_order(std::move(names));
-    return ordered;
-}
-
 Json parameter(const char* name, Json value) {
     return {{"name", name}, {"value", std::move(value)}};
 }
@@ -312,7 +299,7 @@ std::string work_precision_spec(const WorkPrecision& w) {
     add_real_time(layers);
     add_goals(layers, e, w.medium);
     add_front(layers, e);
-    add_schemes(layers, e);
+    add_schemes(layers, e, w.medium);
     if (w.medium == Medium::print) add_front_labels(layers, e);
     else add_line_labels(layers);
     add_failures(layers, e);
@@ -331,9 +318,7 @@ std::string work_precision_spec(const WorkPrecision& w) {
                       parameter("cost_field", w.costs.empty() ? "" : w.costs.front().column),
                       parameter("bands", bands),
                       parameter("problem_field", shown),
-                      parameter("drawn", drawn_json(w.cells)),
-                      parameter("every_series", true),
-                      parameter("main_series", Json::array()),
+                      parameter("main_series", Json::array()),  // those that are drawn, chosen by the page; empty: all
                       parameter("error_titles", titles_json(w.errors)),
                       parameter("cost_titles", titles_json(w.costs))};
     spec["datasets"] = {{"cells", Json::parse(chart_cells(w))},

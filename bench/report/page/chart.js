@@ -70,8 +70,8 @@ function chart_of(chart, section, first) {
   const lines = () => {  // of the scene, the error and the cost that are chosen
     const rows = chart.spec.datasets.cells.filter(row => row.problem === scene), chosen = signal => value_of(shown.find(menu => menu.signal === signal));
     const error = [chosen("measure_field"), chosen("tap_field")].filter(Boolean).join("_"), cost = chosen("cost_field");
-    const drawn = chart.spec.params.find(p => p.name === "drawn").value[scene] ?? [], few = every.checked || drawn.length <= 8;
-    return {rows, error, cost, few, names: few ? drawn : main_series(rows, chart.colours, error, cost)};
+    const drawn = chart.colours.domain.filter(name => rows.some(row => row.series === name)), few = drawn.length <= 8;
+    return {rows, error, cost, few, names: few || every.checked ? drawn : main_series(rows, chart.colours, error, cost)};
   };
   const apply = async () => {
     if (!vega_view) return;
@@ -79,8 +79,8 @@ function chart_of(chart, section, first) {
     for (const menu of shown) vega_view.signal(menu.signal, value_of(menu));
     if (of_lines) {
       const {names, few, error, cost, rows} = lines();
-      every.parentElement.hidden = few && !every.checked;
-      vega_view.signal("every_series", few).signal("main_series", names).data("labels", []);
+      every.parentElement.hidden = few;
+      vega_view.signal("main_series", names).data("labels", []);
       await vega_view.runAsync();
       if (!narrow.matches && names.length <= 8) vega_view.data("labels", line_labels(rows, names, vega_view, error, cost));
     }
@@ -133,10 +133,10 @@ function chart_of(chart, section, first) {
   async function draw() {
     frame.setAttribute("data-drawn", "false");
     if (vega_view) vega_view.finalize();
-    let spec = of_lines ? {...chart.spec, height: narrow.matches ? 260 : 400} : chart.spec;
-    if (of_lines) {  // so that its legend takes no more room than it needs
-      const {names, few} = lines(), begun = {every_series: few, main_series: names, problem_field: scene};
-      spec = {...spec, params: spec.params.map(p => p.name in begun ? {...p, value: begun[p.name]} : p)};
+    let spec = chart.spec;
+    if (of_lines) {  // its legend takes no more room than it needs
+      const begun = {main_series: lines().names, problem_field: scene};
+      spec = {...spec, height: narrow.matches ? 260 : 400, params: spec.params.map(p => p.name in begun ? {...p, value: begun[p.name]} : p)};
     }
     ({view: vega_view} = await vegaEmbed(frame, coloured(spec), {
       config: config(first), renderer: chart.scrolls ? "canvas" : "svg", logLevel: vega.Error, tooltip: {theme: dark.matches ? "dark" : "light"},

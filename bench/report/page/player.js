@@ -1,6 +1,6 @@
 // One player for all sounds of a scene. They run side by side from one clock and one of them is heard, so that another takes over in the middle
 // of the sound. Space plays and stops; keys 1 to 9 choose. A blind comparison hides the names and deals the keys anew until it is asked for them.
-const player = {sounds: [], shown: [], heard: null, context: null, playing: null, started: 0, length: 0, buttons: [], play: null, blind: null};
+const player = {sounds: [], shown: [], heard: null, context: null, playing: null, started: 0, buttons: [], play: null, blind: null};
 
 const sound_like = (scheme, rate) => player.sounds.find(s => s.scheme === scheme && s.detail === rate && s.problem === scene_shown());
 const scene_shown = () => document.getElementById("scene")?.value ?? page.verdicts[0]?.scene ?? "";
@@ -15,7 +15,7 @@ function listen(sound) {
     player.blind.checked = false;
     player.blind.onchange();
   }
-  return hear(sound, true);
+  hear(sound, true);
 }
 
 async function decoded(sound) {
@@ -36,23 +36,21 @@ async function play() {
   const buffers = await Promise.all(player.shown.map(decoded));
   stop();
   player.started = player.context.currentTime + 0.02;
-  player.length = Math.max(...buffers.map(b => b.duration));
   player.playing = buffers.map((buffer, k) => {
     const source = new AudioBufferSourceNode(player.context, {buffer}), gain = new GainNode(player.context, {gain: player.shown[k] === player.heard ? 1 : 0});
     source.connect(gain).connect(player.context.destination);
     source.start(player.started);
     return {source, gain, sound: player.shown[k]};
   });
-  const longest = buffers.findIndex(b => b.duration === player.length);
-  player.playing[longest].source.onended = stop;
+  player.playing.reduce((a, b) => b.source.buffer.duration > a.source.buffer.duration ? b : a).source.onended = stop;
   mark();
 }
 
-async function hear(sound, from_start = false) {
+function hear(sound, from_start = false) {
   player.heard = sound;
   player.playing?.forEach(({gain, sound: of}) => { gain.gain.value = of === sound ? 1 : 0; });
   mark();
-  if (from_start) await play();
+  if (from_start) play();
 }
 
 function mark() {

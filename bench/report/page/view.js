@@ -18,7 +18,7 @@ function scene_menu(scenes) {
     for (const follow of on_scene) await follow(select.value);
     document.documentElement.dataset.ready = "true";
   };
-  return element("label", {className: "scenes"}, "scene ", select);
+  return element("label", {}, "scene ", select);
 }
 
 // How a scheme is called in a sentence; tables have its options as they are given.
@@ -43,7 +43,8 @@ function verdict_of(verdicts, command) {
     const v = verdicts.find(one => one.scene === scene) ?? verdicts[0];
     document.querySelector("h1").textContent = v.finding;
     cards.replaceChildren(...v.answers.map(card_of));
-    sentences.replaceChildren(...v.sentences.map(text => element("p", {className: "soft"}, text)));
+    const certain = v.answers.map(a => `${a.within[0].toUpperCase()}${a.within.slice(1)}: ${a.certain.replace(/\.?$/, ".")}`);  // a card may show the beginning alone
+    sentences.replaceChildren(...[...certain, ...v.sentences].map(text => element("p", {className: "soft"}, text)));
   };
   on_scene.push(show);
   dark.addEventListener("change", () => show(document.getElementById("scene")?.value ?? verdicts[0].scene));

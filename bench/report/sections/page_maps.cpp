@@ -148,28 +148,34 @@ Chart map_chart(const std::string& name, const std::vector<std::string>& names, 
 }  // namespace
 
 namespace {
-struct Share {  // of the runs that were not refused
+struct Share {
     int sound = 0, runs = 0;
-    void count(const store::Table& maps, std::size_t i) {
-        runs += maps.at(i, "outcome") != "refused";
-        sound += maps.at(i, "outcome") == "sound";
-    }
-    double part() const { return static_cast<double>(sound) / runs; }
 };
+using Shares = std::map<std::string, std::map<std::string, Share>>;  // of each scheme on each map, of the runs that were not refused
+
+Shares shares_of(const store::Table& maps) {
+    Shares shares;
+    for (std::size_t i = 0; i < maps.rows.size(); ++i) {
+        if (maps.at(i, "outcome") == "refused") continue;
+        Share& share = shares[maps.at(i, "series")][maps.at(i, "map")];
+        ++share.runs;
+        share.sound += maps.at(i, "outcome") == "sound";
+    }
+    return shares;
+}
 }  // namespace
 
 Section overview_section(const Results& r) {
     Section s{"overview", "How often each scheme stays sound"};
     if (r.maps.rows.empty()) return s;
-    std::map<std::string, std::map<std::string, Share>> shares;
-    for (std::size_t i = 0; i < r.maps.rows.size(); ++i) shares[r.maps.at(i, "series")][r.maps.at(i, "map")].count(r.maps, i);
+    Shares shares = shares_of(r.maps);
     s.table.columns = {"scheme", "map", "sound", "runs"};
     Json rows = Json::array();
     for (const std::string& series : in_order(distinct(r.maps, "series")))
         for (const std::string& name : distinct(r.maps, "map")) {
             const Share share = shares[series][name];
             if (share.runs == 0) continue;
-            rows.push_back({{"series", series}, {"map", name}, {"share", 100 * share.part()}, {"runs", share.runs}});
+            rows.push_back({{"series", series}, {"map", name}, {"share", 100.0 * share.sound / share.runs}, {"runs", share.runs}});
             s.table.rows.push_back({series, name, std::to_string(share.sound), std::to_string(share.runs)});
         }
     const auto filling = [&](const char* title) { return Filling{title, r.name, {}, {}, {{"rows", rows.dump()}}, {}}; };
@@ -182,9 +188,7 @@ Section overview_section(const Results& r) {
 }
 
 std::string finding_of_maps(const Results& r) {
-    std::map<std::string, std::map<std::string, Share>> shares;
-    for (std::size_t i = 0; i < r.maps.rows.size(); ++i)
-        if (r.maps.at(i, "outcome") != "refused") shares[r.maps.at(i, "series")][r.maps.at(i, "map")].count(r.maps, i);
+    const Shares shares = shares_of(r.maps);
     if (shares.empty()) return "";
     const auto sound_maps = [](const auto& of) {
         return std::ranges::count_if(of.second, [](const auto& m) { return m.second.sound == m.second.runs; });
