@@ -60,7 +60,7 @@ function how_to_read() {
   for (const [word, meaning] of words) list.append(element("dt", {}, word), element("dd", {}, meaning));
   const sources = Array.isArray(page.manifest?.schemes) ? page.manifest.schemes.map(s => [s.name, s.source]) : Object.entries(page.manifest?.schemes ?? {});
   for (const [name, source] of sources) list.append(element("dt", {}, name), element("dd", {}, source));
-  list.append(element("dt", {}, "columns"), element("dd", {}, "bench/README.md of the sources explains every column of the tables"));
+  list.append(element("dt", {}, "columns"), element("dd", {}, "'jvari list columns' explains every column of the tables"));
   const scenes = page.manifest?.scenes ?? (page.manifest?.scene?.text ? {[page.manifest.scene.name]: page.manifest.scene.text} : {});
   const texts = Object.entries(scenes).map(([name, text]) => {
     const whole = element("pre", {tabIndex: 0}, text);
