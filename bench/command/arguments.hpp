@@ -1,14 +1,11 @@
-// The command line as values: one struct per verb.
+// Arguments that several verbs have, and what their texts may be.
 #pragma once
 
-#include <optional>
+#include <CLI/CLI.hpp>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "bench/compare/request.hpp"
-#include "bench/trim/judge.hpp"
 
 namespace jvari::bench::command {
 
@@ -17,69 +14,19 @@ struct Common {
     std::vector<std::string> plugins;
 };
 
-struct NewRequest : Common {
-    std::string instrument, name;
-};
+std::string a_number(const std::string& text, bool whole);  // "" where it is one that is > 0; else what was expected
+extern const CLI::Validator positive, counting;             // a number > 0; a whole one
+extern const CLI::Validator hertz, seconds;  // a number > 0 that may have its unit behind it: the text becomes the number in SI units
 
-struct ListRequest : Common {
-    std::string what;  // "": everything
-    bool markdown = false;
-};
+void add_common(CLI::App& verb, Common&);
+void add_scene(CLI::App& verb, std::string& scene);
+void add_set(CLI::App& verb, std::vector<std::string>& set);
+void add_modes(CLI::App& verb, int& modes);
+void add_options(CLI::App& verb, std::vector<std::string>& options);
+void add_jobs(CLI::App& verb, int& jobs);
 
-struct RunRequest : Common {
-    std::string scene, scheme;
-    std::optional<double> rate;  // [Hz]
-    int modes = 0;
-    std::optional<double> duration;  // [s]
-    std::optional<double> tap_rate;  // [Hz]
-    bool energy = false;
-    std::vector<std::string> set;
-    std::vector<compare::SchemeOption> options;
-    std::string out, wav_format, plot;
-    bool mono = false;
-};
-
-struct CompareCall : Common, compare::CompareRequest {
-    bool resume = false;
-};
-
-struct ReportRequest : Common {
-    std::string folder;
-};
-
-struct SuiteRequest : Common {
-    std::string suite, out;
-    bool resume = false;
-    std::string print;  // "slurm"
-    int jobs = 0;       // 0: as many as there are cores
-};
-
-struct TrimCall : Common, trim::Request {};
-
-struct CertifyRequest : Common {
-    std::string scene, out, reference;
-    int modes = 0;
-    std::optional<double> duration, tap_rate, oversampled_rate;  // [s], [Hz], [Hz]
-    std::vector<std::string> set;
-    bool again = false;
-};
-
-struct DiffRequest : Common {
-    std::string before, after;  // folders
-    std::string history;        // one folder, in place of the two
-};
-
-struct CheckRequest : Common {
-    std::vector<std::string> schemes;  // none: those of the plugins
-    std::string junit;
-};
-
-using Request = std::variant<NewRequest, ListRequest, RunRequest, CompareCall, SuiteRequest, TrimCall, CertifyRequest, ReportRequest,
-                             DiffRequest, CheckRequest>;
-
-const char* welcome();  // what there is to do, in ten lines: for those who call it without a verb
-
-// Throws UsageError. No value: help or the version was asked for and printed.
-std::optional<Request> read_arguments(int argc, const char* const* argv);
+// Both throw UsageError: what is no KEY.PATH=VALUE, what is no [SCHEME:]NAME=VALUE.
+void must_be_assignments(const std::vector<std::string>& set);
+std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts);
 
 }  // namespace jvari::bench::command

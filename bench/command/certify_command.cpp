@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
@@ -24,6 +24,14 @@ namespace jvari::bench::command {
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+struct CertifyRequest : Common {
+    std::string scene, out, reference;
+    int modes = 0;
+    std::optional<double> duration, tap_rate, oversampled_rate;  // [s], [Hz], [Hz]
+    std::vector<std::string> set;
+    bool again = false;
+};
 
 fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed scene does not take the place of the one it was made from
     if (!r.out.empty()) {
@@ -138,9 +146,9 @@ Certificate made(const Scene& scene, CertifySettings settings, const Console& co
     settings.within = [&](double fraction) { progress->show(from + part * fraction, what); };
     return certify(scene, settings);
 }
-}  // namespace
 
 int certify_command(const CertifyRequest& r) {
+    must_be_assignments(r.set);
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
@@ -204,6 +212,42 @@ int certify_command(const CertifyRequest& r) {
                                         {"certificate", Json::parse(trust::json_of(kept))},
                                         {"wall_seconds", costs}}));
     return good ? exit_code::done : exit_code::run_failed;
+}
+}  // namespace
+
+Act certify_verb(CLI::App& program) {
+    const auto r = std::make_shared<CertifyRequest>();
+    CLI::App* verb = program.add_subcommand("certify", "how far the references agree on a scene: what an error can be believed to");
+    add_scene(*verb, r->scene);
+    add_set(*verb, r->set);
+    add_modes(*verb, r->modes);
+    verb->add_option("--duration", r->duration, "in place of the scene's; compare uses a certificate as far as it reaches")
+        ->type_name("S")
+        ->transform(seconds);
+    verb->add_option("--tap-rate", r->tap_rate, "rows per second that are compared; 44100 where absent")->type_name("HZ")->transform(hertz);
+    verb->add_option("--oversampled-rate", r->oversampled_rate,
+                     "also the best scheme at a quarter, half and all of this rate, with its own estimate; absent: only where no reference "
+                     "represents the scene, at 64 tap rates")
+        ->type_name("HZ")
+        ->check(positive);
+    verb->add_option(
+            "--out", r->out,
+            "the file, .json; results/certificates/<scene>.json where absent, with part of the scene's hash in its name where --set "
+            "changes the scene. What a clock measured goes beside it, to .cost.json")
+        ->type_name("FILE");
+    verb->add_option("--reference", r->reference,
+                     "this one alone, at its two accuracies: a whole second of one that is fast. Its file has its name in it")
+        ->type_name("NAME");
+    verb->add_flag("--again", r->again, "runs the references also where the file is there and of the same scene and settings");
+    verb->footer(
+        "Example: jvari certify tanpura_c3_release --duration 0.1\n"
+        "\n"
+        "Every reference that represents the scene runs at two settings of its accuracy. The table says, pair by pair, how far they are "
+        "apart and\n"
+        "for how long they agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the "
+        "figure.");
+    add_common(*verb, *r);
+    return [r] { return certify_command(*r); };
 }
 
 }  // namespace jvari::bench::command

@@ -1,13 +1,19 @@
 // jvari check: does a scheme, of this tree or of a plugin, keep what every scheme promises?
 #include "bench/check/check.hpp"
-#include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::command {
+
+namespace {
+struct CheckRequest : Common {
+    std::vector<std::string> schemes;  // none: those of the plugins
+    std::string junit;
+};
 
 int check_command(const CheckRequest& r) {
     const Console console(r.json, r.quiet);
@@ -29,6 +35,21 @@ int check_command(const CheckRequest& r) {
     if (!r.junit.empty()) store::write_fresh(r.junit, check::junit_of(checked));
     console.print_json(check::json_of(checked));
     return broken ? exit_code::run_failed : exit_code::done;
+}
+}  // namespace
+
+Act check_verb(CLI::App& program) {
+    const auto r = std::make_shared<CheckRequest>();
+    CLI::App* verb =
+        program.add_subcommand("check", "does a scheme keep what every scheme promises: the contract, and what it claims in numbers");
+    verb->add_option("schemes", r->schemes, "schemes or references; absent: those of the plugins")->type_name("SCHEME");
+    verb->add_option("--junit", r->junit, "also writes JUnit XML, as continuous integration reads it")->type_name("FILE");
+    verb->footer(
+        "Example: jvari check --plugin build/libmy_scheme.so --junit check.xml\n"
+        "\n"
+        "Exit code 4 where a promise is broken.");
+    add_common(*verb, *r);
+    return [r] { return check_command(*r); };
 }
 
 }  // namespace jvari::bench::command

@@ -6,11 +6,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
-#include "bench/command/commands.hpp"
 #include "bench/command/compare_text.hpp"
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"
 #include "bench/compare/record/cheapest.hpp"
@@ -31,6 +32,37 @@ namespace jvari::bench::command {
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+struct CompareCall : Common, compare::CompareRequest {
+    bool resume = false;
+    std::vector<std::string> option_lists;
+    std::string modes_of_reference = "0";
+};
+
+std::optional<int> modes_of_reference(const std::string& text) {
+    if (text == "cell") return std::nullopt;
+    if (text == "0") return 0;
+    if (!a_number(text, true).empty())
+        throw store::UsageError(
+            fmt::format("--reference-modes: found \"{}\", expected a whole number from 0 to {}, or cell", text, store::most_counted));
+    return std::stoi(text);
+}
+
+// Each value of a list for itself; an option is named once.
+std::vector<compare::SchemeOption> one_by_one(const std::vector<compare::SchemeOption>& lists) {
+    std::vector<compare::SchemeOption> options;
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+        const compare::SchemeOption& list = lists[k];
+        for (std::size_t j = 0; j < k; ++j)
+            if (lists[j].scheme == list.scheme && lists[j].name == list.name)
+                throw store::UsageError(fmt::format("--option {}: found more than once; several values stand in one list, {}={},{}",
+                                                    list.name, list.name, lists[j].value, list.value));
+        std::istringstream values(list.value);
+        for (std::string value; std::getline(values, value, ',');) options.push_back({list.scheme, list.name, value});
+        if (list.value.empty()) options.push_back(list);
+    }
+    return options;
+}
 
 std::string kept_text(const study::Kept& keep) {
     if (keep.folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
@@ -74,7 +106,6 @@ std::string certificate_text(const compare::Comparison& c) {
                t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + (t.of_this_program ? ")" : ", of another program)")) +
            (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") + note;
 }
-}  // namespace
 
 int compare_command(const CompareCall& r) {
     const Console console(r.json, r.quiet);
@@ -123,6 +154,53 @@ int compare_command(const CompareCall& r) {
         store::indented(with_results({{"scene", c.scene().name}, {"reference", c.reference.name()}, {"status", exit_code::status(code)}},
                                      manifest, cells, cheapest, files)));
     return code;
+}
+}  // namespace
+
+Act compare_verb(CLI::App& program) {
+    const auto r = std::make_shared<CompareCall>();
+    CLI::App* verb = program.add_subcommand("compare", "schemes at several rates against a reference: error and cost of each");
+    add_scene(*verb, r->scene);
+    add_set(*verb, r->set);
+    verb->add_option("--modes", r->modes,
+                     "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many where they lie below rate/2")
+        ->delimiter(',')
+        ->type_name("N,...")
+        ->check(counting);
+    add_options(*verb, r->option_lists);
+    verb->add_option("--schemes", r->schemes, "absent: every scheme that represents the scene, but for controls")
+        ->delimiter(',')
+        ->type_name("A,B,...");
+    verb->add_flag("--controls", r->controls,
+                   "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
+    verb->add_option("--rates", r->rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")->delimiter(',')->type_name("HZ,...")->transform(hertz);
+    verb->add_option("--reference", r->reference, "a reference or a scheme; absent: the highest reference that represents the scene")
+        ->type_name("NAME");
+    verb->add_option(
+            "--reference-modes", r->modes_of_reference,
+            "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
+            "of the schemes")
+        ->type_name("N|cell");
+    verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);
+    verb->add_option("--tap-rate", r->tap_rate,
+                     "rows per second that are compared; 44100 where all rates are multiples of it, else the lowest rate")
+        ->type_name("HZ")
+        ->transform(hertz);
+    verb->add_option("--repeats", r->repeats, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent")
+        ->type_name("N")
+        ->check(counting);
+    add_jobs(*verb, r->jobs);
+    verb->add_flag("--resume", r->resume, "reads back the errors of the cells that DIR holds and runs the others; all are timed again");
+    verb->add_option("--out", r->out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
+        ->type_name("DIR");
+    verb->footer("Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
+    add_common(*verb, *r);
+    return [r] {
+        must_be_assignments(r->set);
+        r->options = one_by_one(scheme_options(r->option_lists));
+        r->reference_modes = modes_of_reference(r->modes_of_reference);
+        return compare_command(*r);
+    };
 }
 
 }  // namespace jvari::bench::command

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/command/list_keys.hpp"
 #include "bench/command/list_seam.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/suite/suite_file.hpp"
@@ -17,6 +18,11 @@ namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
+
+struct ListRequest : Common {
+    std::string what;  // "": everything
+    bool markdown = false;
+};
 
 struct Shelf {  // what is listed
     compare::Catalogue catalogue;
@@ -130,9 +136,11 @@ std::string suites_text() {
             suite.contains("error") ? "cannot be read: " + suite.at("error").get<std::string>() : suite.at("source").get<std::string>());
     return text + (all.empty() ? "  none\n" : "");
 }
-}  // namespace
 
 int list_command(const ListRequest& r) {
+    static const std::set<std::string> in_markdown{"schemes", "options", "facts", "keys", "columns"};
+    if (r.markdown && !in_markdown.contains(r.what))
+        throw store::UsageError("--markdown goes with `jvari list schemes`, and with options, facts, keys or columns in place of schemes");
     const Console console(r.json, false);  // --quiet: the list is all that was asked for
     Shelf shelf{compare::Catalogue(r.plugins), {}, {}};
     const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
@@ -179,6 +187,23 @@ int list_command(const ListRequest& r) {
     console.print(text);
     console.print_json(store::indented(json));
     return exit_code::done;
+}
+}  // namespace
+
+Act list_verb(CLI::App& program) {
+    const auto r = std::make_shared<ListRequest>();
+    CLI::App* verb = program.add_subcommand("list", "what exists, and which scheme represents which scene");
+    verb->add_option("what", r->what,
+                     "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or columns (of cells.csv); absent: "
+                     "all, and the matrix")
+        ->check(CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites", "keys", "columns"}))
+        ->type_name("WHAT")
+        ->option_text("");
+    verb->add_flag("--markdown", r->markdown,
+                   "with `schemes`: the capability table of the README; with `options`, `facts`, `keys` or `columns`: their table");
+    verb->footer("Example: jvari list schemes --markdown");
+    add_common(*verb, *r);
+    return [r] { return list_command(*r); };
 }
 
 }  // namespace jvari::bench::command

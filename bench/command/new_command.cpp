@@ -6,8 +6,8 @@
 #include <cctype>
 #include <filesystem>
 
-#include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/sound/synthetic_body.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
@@ -19,6 +19,10 @@ namespace jvari::bench::command {
 
 namespace {
 namespace fs = std::filesystem;
+
+struct NewRequest : Common {
+    std::string instrument, name;
+};
 
 struct Template {
     const char *instrument, *scene;
@@ -98,7 +102,6 @@ int new_body(const std::string& name, const Console& console) {
     console.print_json(store::indented({{"status", "ok"}, {"bridge", bridge.string()}, {"nut", nut.string()}}));
     return exit_code::done;
 }
-}  // namespace
 
 int new_command(const NewRequest& r) {
     const Console console(r.json, r.quiet);
@@ -121,6 +124,19 @@ int new_command(const NewRequest& r) {
         fmt::format("written: {}, after the library's {}; it says what each key means, and what to try", file.string(), chosen->scene));
     console.print_json(store::indented({{"status", "ok"}, {"file", file.string()}, {"after", chosen->scene}}));
     return exit_code::done;
+}
+}  // namespace
+
+Act new_verb(CLI::App& program) {
+    const auto r = std::make_shared<NewRequest>();
+    CLI::App* verb = program.add_subcommand("new", "a commented scene to begin with: writes NAME.toml here");
+    verb->add_option("instrument", r->instrument, "guitar, tanpura, sitar, bass or piano; or body: a made-up pair of responses")
+        ->required()
+        ->type_name("INSTRUMENT");
+    verb->add_option("name", r->name, "of the scene and, with .toml, of its file")->required()->type_name("NAME");
+    verb->footer("Example: jvari new guitar my_guitar");
+    add_common(*verb, *r);
+    return [r] { return new_command(*r); };
 }
 
 }  // namespace jvari::bench::command

@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/report/figure_chart.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -14,7 +14,10 @@ namespace jvari::bench::command {
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-}  // namespace
+
+struct ReportRequest : Common {
+    std::string folder;
+};
 
 int report_command(const ReportRequest& r) {
     const Console console(r.json, r.quiet);
@@ -30,6 +33,16 @@ int report_command(const ReportRequest& r) {
     for (const std::string& name : report::write_report(r.folder, console)) tell(name);
     console.print_json(store::indented({{"folder", r.folder}, {"files", files}}));
     return exit_code::done;
+}
+}  // namespace
+
+Act report_verb(CLI::App& program) {
+    const auto r = std::make_shared<ReportRequest>();
+    CLI::App* verb = program.add_subcommand("report", "page and pictures, made again from a folder that compare or suite wrote");
+    verb->add_option("folder", r->folder, "holds manifest.json and cells.csv, maps.csv or both")->required()->type_name("DIR");
+    verb->footer("Example: jvari report report");
+    add_common(*verb, *r);
+    return [r] { return report_command(*r); };
 }
 
 }  // namespace jvari::bench::command

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/report/run_chart.hpp"
@@ -28,6 +28,19 @@ namespace jvari::bench::command {
 namespace {
 using Json = nlohmann::ordered_json;
 
+struct RunRequest : Common {
+    std::string scene, scheme;
+    std::optional<double> rate;  // [Hz]
+    int modes = 0;
+    std::optional<double> duration;  // [s]
+    std::optional<double> tap_rate;  // [Hz]
+    bool energy = false;
+    std::vector<std::string> set;
+    std::vector<std::string> options;
+    std::string out, wav_format, plot;
+    bool mono = false;
+};
+
 Settings settings_for(const RunRequest& r, const Descriptor& d) {
     Settings s;
     const double rate = r.rate.value_or(44100);
@@ -37,7 +50,7 @@ Settings settings_for(const RunRequest& r, const Descriptor& d) {
     s.modes = r.modes;
     if (!continuous && !store::whole_multiple(rate, s.tap_rate))
         throw store::UsageError(fmt::format("--tap-rate {}: the sample rate of {} Hz is no whole multiple of it", s.tap_rate, rate));
-    for (const compare::SchemeOption& o : r.options) {
+    for (const compare::SchemeOption& o : scheme_options(r.options)) {
         if (o.scheme.empty() || o.scheme == d.name) s.options.emplace_back(o.name, o.value);
         else throw store::UsageError(fmt::format("--option {}:{}={}: this run is of {}", o.scheme, o.name, o.value, d.name));
     }
@@ -166,9 +179,9 @@ void draw(const std::string& file, const report::DrawnRun& run, const report::Ve
     if (!text) throw store::Unwritable(file + ": " + why);
     store::write_fresh(file, *text);
 }
-}  // namespace
 
 int run_command(const RunRequest& r) {
+    must_be_assignments(r.set);
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
@@ -219,6 +232,35 @@ int run_command(const RunRequest& r) {
     if (result.status.outcome == Outcome::ok) return exit_code::done;
     console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome), result.status.step, result.trace.rows));
     return exit_code::run_failed;
+}
+}  // namespace
+
+Act run_verb(CLI::App& program) {
+    const auto r = std::make_shared<RunRequest>();
+    CLI::App* verb = program.add_subcommand("run", "one scheme on one scene");
+    add_scene(*verb, r->scene);
+    add_set(*verb, r->set);
+    add_modes(*verb, r->modes);
+    add_options(*verb, r->options);
+    verb->add_option("--scheme", r->scheme, "a scheme or a reference")->required()->type_name("NAME");
+    verb->add_option("--rate", r->rate, "sample rate; 44100 where absent")->type_name("HZ")->transform(hertz);
+    verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);
+    verb->add_option("--tap-rate", r->tap_rate, "rows per second; 44100 where absent, or the rate where that is no multiple of it")
+        ->type_name("HZ")
+        ->transform(hertz);
+    verb->add_flag("--energy", r->energy, "probe the energy: three more columns, and the residuals of the balance");
+    verb->add_option("--out", r->out, "writes the trace: .csv or .h5; .wav or .flac: what is heard of it")->type_name("FILE");
+    verb->add_option("--plot", r->plot,
+                     "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)")
+        ->type_name("FILE");
+    verb->add_flag("--mono", r->mono, "one channel where a body gives two");
+    verb->add_option("--wav-format", r->wav_format, "of a .wav or .flac: pcm24 (default) or pcm16")
+        ->check(CLI::IsMember({"pcm24", "pcm16"}))
+        ->type_name("FORMAT")
+        ->option_text("FORMAT");
+    verb->footer("Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration 0.2 --energy --out c3.csv");
+    add_common(*verb, *r);
+    return [r] { return run_command(*r); };
 }
 
 }  // namespace jvari::bench::command

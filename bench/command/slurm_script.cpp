@@ -21,11 +21,12 @@ std::string quoted(const std::string& word) {  // for a shell
 }
 }  // namespace
 
-std::string slurm_script(const SuiteRequest& r, const suite::Suite& suite) {
+std::string slurm_script(const suite::Suite& suite, const std::string& name, const std::string& out,
+                         const std::vector<std::string>& plugins) {
     // a suite of the library stays a name, whatever stands under that name where the script runs
-    std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string(), "suite",
-                                   suite.shelved ? r.suite : fs::absolute(r.suite).string(), "--out", fs::absolute(r.out).string()};
-    for (const std::string& plugin : r.plugins) words.insert(words.end(), {"--plugin", fs::absolute(plugin).string()});
+    std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string(), "suite", suite.shelved ? name : fs::absolute(name).string(),
+                                   "--out", fs::absolute(out).string()};
+    for (const std::string& plugin : plugins) words.insert(words.end(), {"--plugin", fs::absolute(plugin).string()});
     std::string call;
     for (const std::string& word : words) {
         if (std::ranges::any_of(word, [](unsigned char c) { return c < ' ' || c == 127; }))

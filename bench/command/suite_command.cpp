@@ -8,10 +8,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
 #include "bench/command/slurm_script.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/convergence_table.hpp"
@@ -38,6 +38,13 @@ namespace jvari::bench::command {
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+struct SuiteRequest : Common {
+    std::string suite, out;
+    bool resume = false;
+    std::string print;  // "slurm"
+    int jobs = 0;       // 0: as many as there are cores
+};
 
 std::string manifest_of(const suite::Suite& suite, const study::Plan& plan) {
     std::map<std::string, std::string> sources;
@@ -89,7 +96,7 @@ std::string kept_text(const study::Plan& plan, const fs::path& folder) {
 
 int print_script(const SuiteRequest& r, const suite::Suite& suite, const Console& console) {
     if (r.out.empty()) throw store::UsageError("--print: there is no --out DIR for the tasks to share");
-    const std::string script = slurm_script(r, suite);
+    const std::string script = slurm_script(suite, r.suite, r.out, r.plugins);
     console.print(script);
     console.print_json(store::indented({{"script", script}}));
     return exit_code::done;
@@ -103,8 +110,6 @@ void note_missing_locks(const fs::path& folder, const Console& console) {
     } catch (const store::Busy&) {  // another begins, and has one
     }
 }
-
-}  // namespace
 
 int suite_command(const SuiteRequest& r) {
     const Console console(r.json, r.quiet);
@@ -161,6 +166,29 @@ int suite_command(const SuiteRequest& r) {
         {{"suite", suite.name}, {"status", exit_code::status(code)}, {"ran", run.ran}, {"timed", run.timed}, {"read_back", run.read_back}},
         manifest, cells, cheapest, files)));
     return code;
+}
+}  // namespace
+
+Act suite_verb(CLI::App& program) {
+    const auto r = std::make_shared<SuiteRequest>();
+    CLI::App* verb =
+        program.add_subcommand("suite", "a declared set of comparisons, sweeps, stability maps and figures over scenes and schemes");
+    verb->add_option("suite", r->suite, "a suite file, or a name that `jvari list suites` shows")->required()->type_name("FILE");
+    verb->add_option("--out", r->out,
+                     "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures")
+        ->type_name("DIR");
+    verb->add_flag("--resume", r->resume,
+                   "reads back the cells that DIR holds and runs the others; any number of processes may do so at once in one DIR");
+    verb->add_option("--print", r->print, "runs nothing: writes the script of a Slurm array, whose tasks share DIR, to standard output")
+        ->check(CLI::IsMember({"slurm"}))
+        ->type_name("slurm")
+        ->option_text("slurm");
+    add_jobs(*verb, r->jobs);
+    verb->footer(
+        "Examples: jvari suite paper-deshmukh --out sitar --resume\n"
+        "          jvari suite stability --out maps --print slurm > job.sh && sbatch job.sh");
+    add_common(*verb, *r);
+    return [r] { return suite_command(*r); };
 }
 
 }  // namespace jvari::bench::command

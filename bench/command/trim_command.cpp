@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/command/commands.hpp"
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
+#include "bench/command/verbs.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
@@ -20,6 +20,8 @@ namespace jvari::bench::command {
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+struct TrimCall : Common, trim::Request {};
 
 std::string needs_text(const trim::Trimmed& t, const trim::Judge& judge) {
     std::string text = fmt::format("  {:<44} {:>10} {:>10} {:>7}  {}\n", "part", "error", "cost", "needed", "in the model");
@@ -60,9 +62,9 @@ std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
                         t.costs[std::min<std::size_t>(1, t.costs.size() - 1)].median / t.costs.back().median);
     return text;
 }
-}  // namespace
 
 int trim_command(const TrimCall& r) {
+    must_be_assignments(r.set);
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.Common::plugins);
     compare::note_slow_plugins(console);
@@ -107,6 +109,44 @@ int trim_command(const TrimCall& r) {
                                         {"needs", Json::parse(store::rows_json(needs))},
                                         {"files", files}}));
     return t.path.found ? exit_code::done : exit_code::run_failed;
+}
+}  // namespace
+
+Act trim_verb(CLI::App& program) {
+    const auto r = std::make_shared<TrimCall>();
+    CLI::App* verb = program.add_subcommand("trim", "the cheapest model of a scene within a tolerance: no more than it needs");
+    add_scene(*verb, r->scene);
+    verb->add_option("--within", r->within, "the tolerance: 1%, or 1dB where the measure is in dB")->required()->type_name("ERROR");
+    verb->add_option("--of", r->measure, "l2_50ms (absent), third_octave_db, stft, centroid or decay")
+        ->type_name("MEASURE")
+        ->option_text("MEASURE");
+    verb->add_option("--tap", r->tap, "what is listened to; absent: the first nut force, else the first tap")->type_name("NAME");
+    verb->add_option("--scheme", r->scheme, "a scheme; any: all that represent the scene or what is left of it")
+        ->type_name("NAME|any")
+        ->option_text("NAME|any");
+    add_set(*verb, r->set);
+    verb->add_option("--duration", r->duration, "how much of the scene is run and judged; 0.05 where absent")
+        ->type_name("S")
+        ->transform(seconds)
+        ->option_text("S");
+    verb->add_option("--tap-rate", r->tap_rate, "rows per second that are compared, and the lowest rate that is tried; 44100 where absent")
+        ->type_name("HZ")
+        ->transform(hertz)
+        ->option_text("HZ");
+    verb->add_option("--reference", r->reference, "a reference or a scheme; absent: the highest reference that represents the scene")
+        ->type_name("NAME");
+    verb->add_option("--reference-modes", r->reference_modes,
+                     "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber)
+        ->option_text("N");
+    add_jobs(*verb, r->jobs);
+    verb->add_option("--out", r->out,
+                     "folder for trimmed.toml, needs.csv, path.csv, trim.svg, report.html; what was judged is kept in its cells/")
+        ->type_name("DIR");
+    verb->footer("Example: jvari trim tanpura_c3_release --within 1% --out trimmed");
+    add_common(*verb, *r);
+    return [r] { return trim_command(*r); };
 }
 
 }  // namespace jvari::bench::command

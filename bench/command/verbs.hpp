@@ -1,0 +1,28 @@
+// The verbs. A verb is a file: its arguments, which it adds to the command line with their help, and what it does with them.
+#pragma once
+
+#include <functional>
+
+#include "bench/command/arguments.hpp"
+
+namespace jvari::bench::command {
+
+// Does what was asked for, once the arguments are read, and returns the exit code of the program. Throws UsageError, BadScene,
+// SceneFileError (2), Refusal (3).
+using Act = std::function<int()>;
+
+Act new_verb(CLI::App& program);
+Act list_verb(CLI::App& program);
+Act run_verb(CLI::App& program);
+Act compare_verb(CLI::App& program);
+Act suite_verb(CLI::App& program);
+Act trim_verb(CLI::App& program);
+Act certify_verb(CLI::App& program);
+Act report_verb(CLI::App& program);
+Act diff_verb(CLI::App& program);
+Act check_verb(CLI::App& program);
+
+constexpr Act (*verbs[])(CLI::App&) = {new_verb,  list_verb,    run_verb,    compare_verb, suite_verb,  // as --help lists them
+                                       trim_verb, certify_verb, report_verb, diff_verb,    check_verb};
+
+}  // namespace jvari::bench::command
