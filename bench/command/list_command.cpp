@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "bench/command/console.hpp"
 #include "bench/command/list_keys.hpp"
@@ -24,165 +24,124 @@ struct ListRequest : Common {
     bool markdown = false;
 };
 
-struct Shelf {  // what is listed
-    compare::Catalogue catalogue;
+using Schemes = std::vector<const Descriptor*>;
+struct Shelf {
     std::vector<std::pair<std::string, Scene>> scenes;            // library name, scene
     std::vector<std::pair<std::string, std::string>> unreadable;  // library name, why
 };
+Shelf library() {
+    Shelf shelf;
+    for (const std::string& name : library_scenes()) try {
+            shelf.scenes.emplace_back(name, read_scene(name, {}));
+        } catch (const std::runtime_error& e) {
+            shelf.unreadable.emplace_back(name, e.what());
+        }
+    return shelf;
+}
 
-constexpr Quantity quantities[] = {Quantity::displacement, Quantity::velocity,     Quantity::nut_force,
-                                   Quantity::bridge_force, Quantity::thread_force, Quantity::driving_force};
-
-Json scenes_json(const Shelf& shelf) {
+Listing list_scenes(const Shelf& shelf) {
+    std::size_t width = 0;
+    for (const auto& [name, scene] : shelf.scenes) width = std::max(width, name.size());
     Json all = Json::array();
+    std::string text = "scenes\n";
     for (const auto& [name, scene] : shelf.scenes) {
         Json taps = Json::array();
-        for (const Tap& tap : scene.taps)
+        std::vector<std::string> tap_names;
+        for (const Tap& tap : scene.taps) {
             taps.push_back({{"name", tap.name}, {"quantity", name_of(tap.quantity)}, {"unit", unit_of(tap.quantity)}});
+            tap_names.push_back(tap.name);
+        }
+        const std::vector<std::string> needs = compare::names_in(needed_by(scene));
         all.push_back({{"name", name},
                        {"source", scene.source},
                        {"duration", scene.duration},
                        {"strings", scene.strings.size()},
-                       {"needs", compare::names_in(needed_by(scene))},
+                       {"needs", needs},
                        {"taps", taps}});
-    }
-    for (const auto& [name, why] : shelf.unreadable) all.push_back({{"name", name}, {"error", why}});
-    return all;
-}
-
-Json matrix_json(const Shelf& shelf) {
-    Json all = Json::array();
-    for (const auto& [name, scene] : shelf.scenes)
-        for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
-            for (const Descriptor* d : *list) {
-                const Features missing = needed_by(scene) - d->represents;
-                all.push_back(
-                    {{"scene", name}, {"scheme", d->name}, {"represents", missing.empty()}, {"missing", compare::names_in(missing)}});
-            }
-    return all;
-}
-
-const char* meaning_of(Quantity q) {
-    switch (q) {
-        case Quantity::displacement: return "of the string at a place, positive away from the barrier";
-        case Quantity::velocity: return "of the string at a place";
-        case Quantity::nut_force: return "of the string on its end at x = length, which on a guitar is the saddle";
-        case Quantity::bridge_force: return "of the barriers on the string, the mean over a row";
-        case Quantity::thread_force: return "of the thread on the string, the mean over a row";
-        case Quantity::driving_force: return "-(bridge_force + thread_force): of the string on what it touches";
-    }
-    return "";
-}
-
-Json taps_json() {
-    Json all = Json::array();
-    for (Quantity q : quantities) all.push_back({{"name", name_of(q)}, {"unit", unit_of(q)}, {"meaning", meaning_of(q)}});
-    return all;
-}
-
-std::string scenes_text(const Shelf& shelf) {
-    std::size_t width = 0;
-    for (const auto& [name, scene] : shelf.scenes) width = std::max(width, name.size());
-    std::string text = "scenes\n";
-    for (const auto& [name, scene] : shelf.scenes) {
-        std::vector<std::string> taps;
-        for (const Tap& tap : scene.taps) taps.push_back(tap.name);
         text += fmt::format("  {:<{}}  {}\n  {:<{}}  {} s; taps {}; needs {}\n", name, width, scene.source, "", width, scene.duration,
-                            fmt::join(taps, ", "), fmt::join(compare::names_in(needed_by(scene)), ", "));
+                            fmt::join(tap_names, ", "), fmt::join(needs, ", "));
     }
-    for (const auto& [name, why] : shelf.unreadable) text += fmt::format("  {}  cannot be read: {}\n", name, why);
-    return text;
+    for (const auto& [name, why] : shelf.unreadable) {
+        all.push_back({{"name", name}, {"error", why}});
+        text += fmt::format("  {}  cannot be read: {}\n", name, why);
+    }
+    return {std::move(all), text, ""};
 }
 
-std::string matrix_text(const Shelf& shelf) {  // schemes down, scenes across
+Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {  // its text has schemes down, scenes across
+    Json all = Json::array();
     std::size_t width = 0;
     std::string text = "which represents which scene\n";
-    for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
-        for (const Descriptor* d : *list) width = std::max(width, std::string(d->name).size());
-    for (std::size_t k = 0; k < shelf.scenes.size(); ++k)
-        text += fmt::format("  {:<{}}  {}{}\n", "", width, std::string(3 * k, ' '), shelf.scenes[k].first);
-    for (const auto* list : {&shelf.catalogue.schemes, &shelf.catalogue.references})
-        for (const Descriptor* d : *list) {
-            text += fmt::format("  {:<{}}  ", d->name, width);
-            for (const auto& [name, scene] : shelf.scenes) text += (needed_by(scene) - d->represents).empty() ? "x  " : ".  ";
-            text += '\n';
+    for (const Descriptor* d : schemes) width = std::max(width, std::string(d->name).size());
+    for (std::size_t k = 0; k < shelf.scenes.size(); ++k) {
+        const auto& [name, scene] = shelf.scenes[k];
+        text += fmt::format("  {:<{}}  {}{}\n", "", width, std::string(3 * k, ' '), name);
+        for (const Descriptor* d : schemes) {
+            const Features missing = needed_by(scene) - d->represents;
+            all.push_back({{"scene", name}, {"scheme", d->name}, {"represents", missing.empty()}, {"missing", compare::names_in(missing)}});
         }
-    return text;
+    }
+    for (const Descriptor* d : schemes) {
+        text += fmt::format("  {:<{}}  ", d->name, width);
+        for (const auto& [name, scene] : shelf.scenes) text += (needed_by(scene) - d->represents).empty() ? "x  " : ".  ";
+        text += '\n';
+    }
+    return {std::move(all), text, ""};
 }
 
-std::string taps_text() {
-    std::string text = "taps\n";
-    for (Quantity q : quantities) text += fmt::format("  {:<14}{:<5}{}\n", name_of(q), unit_of(q), meaning_of(q));
-    return text;
-}
-
-Json suites_json() {
+Listing list_suites() {
     Json all = Json::array();
+    std::string text = "suites\n";
     for (const std::string& name : suite::library_suites()) try {
             const suite::Suite suite = suite::read_suite(name);
             all.push_back({{"name", name}, {"source", suite.source}, {"sets", suite.sets.size()}});
+            text += fmt::format("  {}  {}\n", name, suite.source);
         } catch (const std::runtime_error& e) {
             all.push_back({{"name", name}, {"error", e.what()}});
+            text += fmt::format("  {}  cannot be read: {}\n", name, e.what());
         }
-    return all;
-}
-
-std::string suites_text() {
-    std::string text = "suites\n";
-    const Json all = suites_json();
-    for (const Json& suite : all)
-        text += fmt::format(
-            "  {}  {}\n", suite.at("name").get<std::string>(),
-            suite.contains("error") ? "cannot be read: " + suite.at("error").get<std::string>() : suite.at("source").get<std::string>());
-    return text + (all.empty() ? "  none\n" : "");
+    if (all.empty()) text += "  none\n";
+    return {std::move(all), text, ""};
 }
 
 int list_command(const ListRequest& r) {
-    static const std::set<std::string> in_markdown{"schemes", "options", "facts", "keys", "columns"};
-    if (r.markdown && !in_markdown.contains(r.what))
-        throw store::UsageError("--markdown goes with `jvari list schemes`, and with options, facts, keys or columns in place of schemes");
     const Console console(r.json, false);  // --quiet: the list is all that was asked for
-    Shelf shelf{compare::Catalogue(r.plugins), {}, {}};
-    const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
-    if (asked("scenes"))
-        for (const std::string& name : library_scenes()) try {
-                shelf.scenes.emplace_back(name, read_scene(name, {}));
-            } catch (const std::runtime_error& e) {
-                shelf.unreadable.emplace_back(name, e.what());
-            }
+    const compare::Catalogue catalogue(r.plugins);
+    Schemes both = catalogue.schemes;
+    both.insert(both.end(), catalogue.references.begin(), catalogue.references.end());
     if (r.markdown) {
-        std::vector<const Descriptor*> all = shelf.catalogue.schemes;
-        all.insert(all.end(), shelf.catalogue.references.begin(), shelf.catalogue.references.end());
-        const std::string table = r.what == "options"   ? list_options(shelf.catalogue).markdown
-                                  : r.what == "facts"   ? list_facts().markdown
-                                  : r.what == "keys"    ? list_keys().markdown
-                                  : r.what == "columns" ? list_columns().markdown
-                                                        : list_descriptors("", all).markdown;
-        console.print(table);
-        console.print_json(store::indented({{"markdown", table}}));
+        const std::map<std::string, std::function<Listing()>> tables{{"schemes", [&] { return list_descriptors("", both); }},
+                                                                     {"options", [&] { return list_options(both); }},
+                                                                     {"facts", list_facts},
+                                                                     {"keys", list_keys},
+                                                                     {"columns", list_columns}};
+        const auto table = tables.find(r.what);
+        if (table == tables.end())
+            throw store::UsageError(
+                "--markdown goes with `jvari list schemes`, and with options, facts, keys or columns in place of schemes");
+        const std::string markdown = table->second().markdown;
+        console.print(markdown);
+        console.print_json(store::indented({{"markdown", markdown}}));
         return exit_code::done;
     }
     Json json = Json::object();
     std::string text;
-    const auto part = [&](const char* what, const Json& j, const std::string& t) {
-        if (!asked(what)) return;
-        json[what] = j;
-        text += (text.empty() ? "" : "\n") + t;
+    const auto add = [&](const char* what, const Listing& l) {
+        json[what] = l.json;
+        text += (text.empty() ? "" : "\n") + l.text;
     };
-    const auto listing = [&](const char* what, const Listing& l) { part(what, Json::parse(l.json), l.text); };
-    listing("schemes", list_descriptors("schemes", shelf.catalogue.schemes));
-    listing("references", list_descriptors("references", shelf.catalogue.references));
-    listing("options", list_options(shelf.catalogue));
-    listing("facts", list_facts());
-    part("scenes", scenes_json(shelf), scenes_text(shelf));
-    part("taps", taps_json(), taps_text());
-    if (asked("suites")) part("suites", suites_json(), suites_text());
-    listing("keys", list_keys());
-    listing("columns", list_columns());
-    if (asked("scenes")) {
-        json["matrix"] = matrix_json(shelf);
-        text += "\n" + matrix_text(shelf);
-    }
+    const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
+    if (asked("schemes")) add("schemes", list_descriptors("schemes", catalogue.schemes));
+    if (asked("references")) add("references", list_descriptors("references", catalogue.references));
+    if (asked("options")) add("options", list_options(both));
+    if (asked("facts")) add("facts", list_facts());
+    const Shelf shelf = asked("scenes") ? library() : Shelf{};
+    if (asked("scenes")) add("scenes", list_scenes(shelf));
+    if (asked("taps")) add("taps", list_taps());
+    if (asked("suites")) add("suites", list_suites());
+    if (asked("keys")) add("keys", list_keys());
+    if (asked("columns")) add("columns", list_columns());
+    if (asked("scenes")) add("matrix", list_matrix(shelf, both));
     text.pop_back();
     console.print(text);
     console.print_json(store::indented(json));

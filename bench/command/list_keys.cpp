@@ -47,7 +47,7 @@ Listing list_keys() {
         w.markdown += fmt::format("| `{}` | {} |\n", f.name, f.meaning);
         json["measure"].push_back({{"name", f.name}, {"meaning", f.meaning}});
     }
-    return {json.dump(), w.text, w.markdown};
+    return {std::move(json), w.text, w.markdown};
 }
 
 }  // namespace jvari::bench::command

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 namespace jvari::bench::command {
@@ -36,15 +37,14 @@ bool same(const Option& a, const Option& b) {
            std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const std::string& p, const std::string& q) { return p == q; });
 }
 
-std::vector<Listed> options_of(const compare::Catalogue& catalogue) {
+std::vector<Listed> options_of(const std::vector<const Descriptor*>& schemes) {
     std::vector<Listed> all;
-    for (const auto* list : {&catalogue.schemes, &catalogue.references})
-        for (const Descriptor* d : *list)
-            for (const Option& o : d->options) {
-                const auto known = std::find_if(all.begin(), all.end(), [&o](const Listed& l) { return same(*l.option, o); });
-                if (known != all.end()) known->schemes.emplace_back(d->name);
-                else all.push_back({&o, {d->name}});
-            }
+    for (const Descriptor* d : schemes)
+        for (const Option& o : d->options) {
+            const auto known = std::find_if(all.begin(), all.end(), [&o](const Listed& l) { return same(*l.option, o); });
+            if (known != all.end()) known->schemes.emplace_back(d->name);
+            else all.push_back({&o, {d->name}});
+        }
     return all;
 }
 
@@ -101,15 +101,15 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
                                  not_quite.empty() ? "" : fmt::format(" ◐ {}.", fmt::join(approximations_of(*d, "`"), ", ")),
                                  note.empty() ? "" : " " + note);
     }
-    return {json.dump(), text + (list.empty() ? "  none\n" : ""),
+    return {std::move(json), text + (list.empty() ? "  none\n" : ""),
             head + " energy balance | source |\n" + rule + "---|---|\n" + body +
                 "\n● as the scene says; ◐ changed, at any rate and with any number of modes, and a fact of the run says how.\n\n" + notes};
 }
 
-Listing list_options(const compare::Catalogue& catalogue) {
+Listing list_options(const std::vector<const Descriptor*>& schemes) {
     Json json = Json::array();
     std::string text = "options\n", markdown = "| option | default | meaning | schemes |\n|---|---|---|---|\n";
-    for (const Listed& l : options_of(catalogue)) {
+    for (const Listed& l : options_of(schemes)) {
         const Option& o = *l.option;
         json.push_back(
             {{"name", o.name}, {"default", o.fallback}, {"meaning", o.meaning}, {"choices", words_of(o)}, {"schemes", l.schemes}});
@@ -118,30 +118,35 @@ Listing list_options(const compare::Catalogue& catalogue) {
         for (const std::string& name : l.schemes) quoted.push_back("`" + name + "`");
         markdown += fmt::format("| `{}` | {} | {} | {} |\n", o.name, o.fallback, meaning_of(o), fmt::join(quoted, ", "));
     }
-    return {json.dump(), text, markdown};
+    return {std::move(json), text, markdown};
+}
+
+Listing list_measured(const char* title, int name_width, int unit_width, const std::vector<Measured>& all) {
+    Json json = Json::array();
+    std::string text = fmt::format("{}\n", title), markdown;
+    for (const auto& [names, unit, meaning] : all) {  // one name, or several with a comma between them
+        json.push_back({{"name", names}, {"unit", unit}, {"meaning", meaning}});
+        text += fmt::format("  {:<{}}{:<{}}{}\n", names, name_width, unit, unit_width, meaning);
+        std::string quoted = "`" + names + "`";
+        for (auto at = quoted.find(", "); at != std::string::npos; at = quoted.find(", ", at + 4)) quoted.replace(at, 2, "`, `");
+        markdown += fmt::format("| {} | {} | {} |\n", quoted, unit, meaning);
+    }
+    const std::string head = std::string(title, std::strlen(title) - 1);  // of one: "fact"
+    return {std::move(json), text, fmt::format("| {} | unit | meaning |\n|---|---|---|\n", head) + markdown};
 }
 
 Listing list_facts() {
-    Json json = Json::array();
-    std::string text = "facts\n", markdown = "| fact | unit | meaning |\n|---|---|---|\n";
-    for (const FactName& f : facts::table) {
-        json.push_back({{"name", f.name}, {"unit", f.unit}, {"meaning", f.meaning}});
-        text += fmt::format("  {:<28}{:<7}{}\n", f.name, f.unit, f.meaning);
-        markdown += fmt::format("| `{}` | {} | {} |\n", f.name, f.unit, f.meaning);
-    }
-    return {json.dump(), text, markdown};
+    std::vector<Measured> all;
+    for (const FactName& f : facts::table) all.push_back({f.name, f.unit, f.meaning});
+    return list_measured("facts", 28, 7, all);
 }
 
 Listing list_columns() {
-    struct Line {
-        std::string names;
-        std::string unit, meaning;
-    };
-    std::vector<Line> lines;
+    std::vector<Measured> all;
     for (const study::Column& c : study::columns()) {
         std::string name = c.name;
         if (name == "{m}") {
-            for (const study::Measure& m : study::measures()) lines.push_back({"`" + m.column + "`", m.unit, m.title});
+            for (const study::Measure& m : study::measures()) all.push_back({m.column, m.unit, m.title});
             continue;
         }
         for (const auto& [slot, word] : {std::pair{"{m}", "<error>"},
@@ -151,19 +156,23 @@ Listing list_columns() {
                                          {"{f}", "<fact>"},
                                          {"{t}", "<tap>"}})
             if (const auto at = name.find(slot); at != std::string::npos) name.replace(at, 3, word);
-        if (*c.meaning) lines.push_back({"`" + name + "`", c.unit, c.meaning});
-        else lines.back().names += ", `" + name + "`";
+        if (*c.meaning) all.push_back({name, c.unit, c.meaning});
+        else all.back().name += ", " + name;
     }
-    Json json = Json::array();
-    std::string text = "columns\n", markdown = "| column | unit | meaning |\n|---|---|---|\n";
-    for (const Line& l : lines) {
-        std::string names = l.names;
-        std::erase(names, '`');
-        json.push_back({{"name", names}, {"unit", l.unit}, {"meaning", l.meaning}});
-        text += fmt::format("  {:<28}{:<7}{}\n", names, l.unit, l.meaning);
-        markdown += fmt::format("| {} | {} | {} |\n", l.names, l.unit, l.meaning);
-    }
-    return {json.dump(), text, markdown};
+    return list_measured("columns", 28, 7, all);
+}
+
+Listing list_taps() {
+    constexpr std::pair<Quantity, const char*> taps[] = {
+        {Quantity::displacement, "of the string at a place, positive away from the barrier"},
+        {Quantity::velocity, "of the string at a place"},
+        {Quantity::nut_force, "of the string on its end at x = length, which on a guitar is the saddle"},
+        {Quantity::bridge_force, "of the barriers on the string, the mean over a row"},
+        {Quantity::thread_force, "of the thread on the string, the mean over a row"},
+        {Quantity::driving_force, "-(bridge_force + thread_force): of the string on what it touches"}};
+    std::vector<Measured> all;
+    for (const auto& [q, meaning] : taps) all.push_back({jvari::name_of(q), unit_of(q), meaning});
+    return list_measured("taps", 14, 5, all);
 }
 
 }  // namespace jvari::bench::command

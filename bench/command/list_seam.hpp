@@ -1,6 +1,7 @@
 // What `jvari list` says of the seam: schemes and what they represent, their options, the facts they report.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,19 @@ namespace jvari::bench::command {
 
 // One thing listed in its three forms.
 struct Listing {
-    std::string json, text, markdown;
+    nlohmann::ordered_json json;
+    std::string text, markdown;
 };
+// What has a unit: "  name  unit  meaning" a line, names and units filled to these widths.
+struct Measured {
+    std::string name, unit, meaning;
+};
+Listing list_measured(const char* title, int name_width, int unit_width, const std::vector<Measured>&);
+
 Listing list_descriptors(const char* title, const std::vector<const Descriptor*>&);  // markdown: the capability table of the README
-Listing list_options(const compare::Catalogue&);
+Listing list_options(const std::vector<const Descriptor*>&);
 Listing list_facts();
 Listing list_columns();  // of cells.csv
+Listing list_taps();
 
 }  // namespace jvari::bench::command

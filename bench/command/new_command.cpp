@@ -8,6 +8,7 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
+#include "bench/sound/audio_file.hpp"
 #include "bench/sound/synthetic_body.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
@@ -94,8 +95,8 @@ int new_body(const std::string& name, const Console& console) {
     const fs::path bridge = name + "_bridge.wav", nut = name + "_nut.wav";
     must_be_free(bridge);
     must_be_free(nut);
-    sound::write_response(bridge, sound::synthetic_response(sound::BodyEnd::bridge), sound::synthetic_rate);
-    sound::write_response(nut, sound::synthetic_response(sound::BodyEnd::nut), sound::synthetic_rate);
+    sound::write_audio(bridge, sound::Samples::single, sound::synthetic_rate, {sound::synthetic_response(sound::BodyEnd::bridge)});
+    sound::write_audio(nut, sound::Samples::single, sound::synthetic_rate, {sound::synthetic_response(sound::BodyEnd::nut)});
     console.print(fmt::format(
         "written: {} and {}, synthetic: no instrument has them. In a scene beside them:\n\n[body]\nbridge = \"{}\"\nnut = \"{}\"",
         bridge.string(), nut.string(), bridge.string(), nut.string()));

@@ -111,18 +111,20 @@ std::string level_text(const Played& p) {
                        decibels(p.rms), p.clipped);
 }
 
-void write_audio(const std::filesystem::path& path, const std::string& extension, int bits, double rate, const Played& p) {
+namespace {
+void write_frames(const std::filesystem::path& path, int format, double rate, const std::vector<std::vector<double>>& channels) {
     SF_INFO info{};
     info.samplerate = static_cast<int>(std::lround(rate));
-    info.channels = static_cast<int>(p.channels.size());
-    info.format = (extension == ".flac" ? SF_FORMAT_FLAC : SF_FORMAT_WAV) | (bits == 16 ? SF_FORMAT_PCM_16 : SF_FORMAT_PCM_24);
+    info.channels = static_cast<int>(channels.size());
+    info.format = format;
     SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
     if (!file) throw std::runtime_error(sf_strerror(nullptr));
     sf_command(file, SFC_SET_CLIPPING, nullptr, SF_TRUE);
-    const std::size_t rows = p.channels.front().size();
+    sf_command(file, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);  // it holds the time of writing
+    const std::size_t rows = channels.front().size();
     std::vector<double> frames;
     for (std::size_t n = 0; n < rows; ++n)
-        for (const auto& channel : p.channels) frames.push_back(channel[n]);
+        for (const auto& channel : channels) frames.push_back(channel[n]);
     errno = 0;
     const bool good = sf_writef_double(file, frames.data(), static_cast<sf_count_t>(rows)) == static_cast<sf_count_t>(rows);
     const int reason = errno;
@@ -130,6 +132,18 @@ void write_audio(const std::filesystem::path& path, const std::string& extension
         const int why = good ? errno : reason;
         throw std::runtime_error(why != 0 ? std::strerror(why) : "libsndfile refuses");
     }
+}
+}  // namespace
+
+void write_audio(const std::filesystem::path& path, Samples kind, double rate, const std::vector<std::vector<double>>& channels) {
+    const int bits = kind == Samples::pcm16 ? SF_FORMAT_PCM_16 : kind == Samples::pcm24 ? SF_FORMAT_PCM_24 : SF_FORMAT_FLOAT;
+    store::FreshFile fresh(path);
+    try {
+        write_frames(fresh.path(), (path.extension() == ".flac" ? SF_FORMAT_FLAC : SF_FORMAT_WAV) | bits, rate, channels);
+    } catch (const std::runtime_error& why) {
+        throw store::Unwritable(fmt::format("cannot write {}: {}", path.string(), why.what()));
+    }
+    fresh.keep();
 }
 
 std::string Player::write(const Trace& trace) const {
@@ -142,13 +156,7 @@ std::string Player::write(const Trace& trace) const {
         channels.resize(1);
     }
     const Played p = levelled(std::move(channels));
-    store::FreshFile fresh(file_.path);
-    try {
-        write_audio(fresh.path(), file_.path.extension().string(), file_.format == "pcm16" ? 16 : 24, trace.tap_rate, p);
-    } catch (const std::runtime_error& why) {
-        throw store::Unwritable(fmt::format("cannot write {}: {}", file_.path.string(), why.what()));
-    }
-    fresh.keep();
+    write_audio(file_.path, file_.format == "pcm16" ? Samples::pcm16 : Samples::pcm24, trace.tap_rate, p.channels);
     return level_text(p) + body_text_;
 }
 

@@ -53,6 +53,8 @@ std::vector<double> without_body(std::span<const double> force, double rate);
 std::vector<double> without_steady(std::span<const double> force, double rate);
 Played levelled(std::vector<std::vector<double>> channels);
 std::string level_text(const Played&);  // "full scale 1.2 N, peak -1.0 dB, rms -20.3 dB, 0 samples clipped"
-void write_audio(const std::filesystem::path&, const std::string& extension, int bits, double rate, const Played&);  // std::runtime_error
+enum class Samples { pcm16, pcm24, single };
+// A .wav or .flac by its extension. Throws Unwritable.
+void write_audio(const std::filesystem::path&, Samples, double rate, const std::vector<std::vector<double>>& channels);
 
 }  // namespace jvari::bench::sound

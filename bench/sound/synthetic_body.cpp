@@ -1,16 +1,9 @@
 #include "bench/sound/synthetic_body.hpp"
 
-#include <fmt/core.h>
-#include <sndfile.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <memory>
 #include <numbers>
-
-#include "bench/store/fresh_file.hpp"
-#include "bench/store/usage.hpp"
 
 namespace jvari::bench::sound {
 
@@ -80,22 +73,6 @@ std::vector<double> synthetic_response(BodyEnd end) {
     if (end == BodyEnd::nut) h = unscaled(nut);
     for (double& v : h) v *= scale;
     return h;
-}
-
-void write_response(const std::filesystem::path& path, std::span<const double> response, double rate) {
-    store::FreshFile fresh(path);
-    SF_INFO info{};
-    info.samplerate = static_cast<int>(std::lround(rate));
-    info.channels = 1;
-    info.format = SF_FORMAT_WAV | SF_FORMAT_FLOAT;
-    SNDFILE* file = sf_open(fresh.path().c_str(), SFM_WRITE, &info);
-    if (!file) throw store::Unwritable(fmt::format("cannot write {}: {}", path.string(), sf_strerror(nullptr)));
-    sf_command(file, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);  // it holds the time of writing
-    const std::vector<float> samples(response.begin(), response.end());
-    const auto count = static_cast<sf_count_t>(samples.size());
-    const bool good = sf_writef_float(file, samples.data(), count) == count;
-    if (sf_close(file) != 0 || !good) throw store::Unwritable(fmt::format("cannot write {}: libsndfile refuses", path.string()));
-    fresh.keep();
 }
 
 }  // namespace jvari::bench::sound

@@ -4,8 +4,6 @@
 // lies below 200 Hz is taken away by a high pass of second order. Synthetic: no instrument has it.
 #pragma once
 
-#include <filesystem>
-#include <span>
 #include <vector>
 
 namespace jvari::bench::sound {
@@ -15,8 +13,5 @@ constexpr double synthetic_rate = 44100;  // [Hz]
 
 // 2048 rows at 44.1 kHz; the strongest mode of the bridge's answers a force with as much pressure [1/1].
 std::vector<double> synthetic_response(BodyEnd);
-
-// As a .wav of one channel in single precision. Throws Unwritable.
-void write_response(const std::filesystem::path&, std::span<const double> response, double rate);
 
 }  // namespace jvari::bench::sound

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include "bench/store/fresh_file.hpp"
@@ -18,37 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 constexpr double full = 32767;
-
-struct Memory {  // a file that libsndfile writes into
-    std::string bytes;
-    sf_count_t at = 0;
-};
-
-SF_VIRTUAL_IO memory_calls() {
-    SF_VIRTUAL_IO io{};
-    io.get_filelen = [](void* m) { return static_cast<sf_count_t>(static_cast<Memory*>(m)->bytes.size()); };
-    io.seek = [](sf_count_t offset, int whence, void* user) {
-        auto* m = static_cast<Memory*>(user);
-        m->at = offset + (whence == SEEK_SET ? 0 : whence == SEEK_CUR ? m->at : static_cast<sf_count_t>(m->bytes.size()));
-        return m->at;
-    };
-    io.read = [](void* to, sf_count_t count, void* user) {
-        auto* m = static_cast<Memory*>(user);
-        count = std::clamp<sf_count_t>(static_cast<sf_count_t>(m->bytes.size()) - m->at, 0, count);
-        std::memcpy(to, m->bytes.data() + m->at, static_cast<std::size_t>(count));
-        m->at += count;
-        return count;
-    };
-    io.write = [](const void* from, sf_count_t count, void* user) {
-        auto* m = static_cast<Memory*>(user);
-        m->bytes.resize(std::max(m->bytes.size(), static_cast<std::size_t>(m->at + count)));
-        std::memcpy(m->bytes.data() + m->at, from, static_cast<std::size_t>(count));
-        m->at += count;
-        return count;
-    };
-    io.tell = [](void* m) { return static_cast<Memory*>(m)->at; };
-    return io;
-}
 
 struct Shape {
     double mean = 0, rms = 0, peak = 0;  // of full scale 1, the mean aside
@@ -80,18 +48,17 @@ Sound sound_of(std::span<const double> signal, double rate) {
 }
 
 std::string wav_of(const Sound& s) {
-    SF_INFO info{};
-    info.samplerate = static_cast<int>(s.rate);
-    info.channels = 1;
-    info.format = SF_FORMAT_WAV | SF_FORMAT_PCM_16;
-    Memory memory;
-    SF_VIRTUAL_IO calls = memory_calls();
-    SNDFILE* file = sf_open_virtual(&calls, SFM_WRITE, &info, &memory);
-    if (!file) throw std::runtime_error(std::string("no sound: ") + sf_strerror(nullptr));
-    const auto count = static_cast<sf_count_t>(s.samples.size());
-    const bool good = sf_write_short(file, s.samples.data(), count) == count;
-    if (sf_close(file) != 0 || !good) throw std::runtime_error("a sound could not be written");
-    return std::move(memory.bytes);
+    std::string wav;
+    const auto put = [&wav](auto value, int bytes) {  // little-endian
+        for (int k = 0; k < bytes; ++k) wav += static_cast<char>(static_cast<std::uint32_t>(value) >> 8 * k);
+    };
+    const auto rate = static_cast<std::uint32_t>(s.rate);
+    const std::size_t size = 2 * s.samples.size();
+    wav += "RIFF", put(36 + size, 4), wav += "WAVEfmt ", put(16, 4);
+    put(1, 2), put(1, 2), put(rate, 4), put(2 * rate, 4), put(2, 2), put(16, 2);  // PCM, one channel, bytes a second, of a frame, bits
+    wav += "data", put(size, 4);
+    for (const std::int16_t v : s.samples) put(v, 2);
+    return wav;
 }
 
 Sound read_wav(const fs::path& path, double peak) {

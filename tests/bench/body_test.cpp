@@ -59,7 +59,7 @@ TEST(SyntheticBody, OfTheLibraryIsWhatTheProgramMakes) {
 
 TEST(ImpulseResponse, HasTheSameGainAtAnotherRate) {
     const Folder folder;
-    write_response(folder / "h.wav", synthetic_response(BodyEnd::bridge), synthetic_rate);
+    write_audio(folder / "h.wav", Samples::single, synthetic_rate, {synthetic_response(BodyEnd::bridge)});
     const auto own = impulse_response(folder / "h.wav", 44100, "body.bridge");
     for (const double rate : {48000.0, 96000.0, 44100.0 / 2}) {
         const auto other = impulse_response(folder / "h.wav", rate, "body.bridge");
@@ -79,11 +79,11 @@ TEST(ImpulseResponse, ThatCannotBeTakenSaysWhy) {
         return std::string();
     };
     EXPECT_NE(says(folder / "nothing.wav").find("body.nut: found"), std::string::npos);
-    write_audio(folder / "two.wav", ".wav", 16, 44100, {{{0.5, 0.5}, {0.5, 0.5}}, 1, 0.5, 0.5, 0});
+    write_audio(folder / "two.wav", Samples::pcm16, 44100, {{0.5, 0.5}, {0.5, 0.5}});
     EXPECT_NE(says(folder / "two.wav").find("which has 2 channels"), std::string::npos);
-    write_audio(folder / "none.wav", ".wav", 16, 44100, {{{}}, 1, 0, 0, 0});
+    write_audio(folder / "none.wav", Samples::pcm16, 44100, {{}});
     EXPECT_NE(says(folder / "none.wav").find("which is empty"), std::string::npos);
-    write_response(folder / "long.wav", std::vector<double>(11000, 0.1), 1000);
+    write_audio(folder / "long.wav", Samples::single, 1000, {std::vector<double>(11000, 0.1)});
     EXPECT_NE(says(folder / "long.wav").find("which is longer"), std::string::npos);
 }
 
@@ -100,8 +100,8 @@ TEST(Radiation, OfAnImpulseIsTheResponseAndSectionsComeNear) {
 
 Scene with_body(Scene scene, const Folder& folder) {
     scene.body = Body{folder / "bridge.wav", folder / "nut.wav", 0, {}};
-    write_response(scene.body->bridge, std::vector<double>{1, 0}, 44100);
-    write_response(scene.body->nut, std::vector<double>{0, 0, 0.5}, 44100);
+    write_audio(scene.body->bridge, Samples::single, 44100, {{1, 0}});
+    write_audio(scene.body->nut, Samples::single, 44100, {{0, 0, 0.5}});
     return scene;
 }
 

@@ -75,7 +75,7 @@ TEST(Played, ReadsBackToTheLastBitOfItsFormat) {
     for (const std::string extension : {".wav", ".flac"})
         for (const int bits : {24, 16}) {
             const auto path = folder / ("x" + extension);
-            bench::sound::write_audio(path, extension, bits, 48000, p);
+            bench::sound::write_audio(path, bits == 16 ? bench::sound::Samples::pcm16 : bench::sound::Samples::pcm24, 48000, p.channels);
             SF_INFO info{};
             SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
             ASSERT_TRUE(file) << extension;
