@@ -3,9 +3,9 @@
 # own that is used, once. A cell of a table counts by itself, a link as its text, a span of code as one word. usage: prose.sh [TREE]
 here=$(cd "$(dirname "$0")" && pwd)
 cd "${1:-$here/..}" || exit 2
-texts=$(ls README.md CONTRIBUTING.md docs/*.md bench/README.md bench/suites/README.md results/README.md results/*/README.md scenes/README.md)
-terms='tap cell certificate noise_floor horizon control fact headline_error thread barrier nut reference ledger flag front outcome map suite
-    measurement precursor footprint profile tap_rate'
+texts=$(ls README.md CONTRIBUTING.md docs/*.md bench/README.md bench/suites/README.md results/README.md results/*/README.md scenes/README.md tests/*/README.md)
+terms='tap cell certificate noise_floor horizon control fact headline_error thread barrier nut reference ledger flag front map suite
+    precursor footprint tap_rate stand-in'
 status=0
 complain() { echo "$@" >&2; status=1; }
 

@@ -8,7 +8,8 @@ echo word | check >/dev/null 2>&1 || { echo "aspell and its English dictionary a
 unknown() { check | sort -u | grep -vixF -f "$here/words.txt"; }
 [ "$(echo 'a strng and a barrier' | unknown)" = strng ] || { echo "spelling.sh: does not find the one mistake that was planted" >&2; exit 1; }
 
-found=$(awk -f "$here/sentences.awk" *.md docs/*.md bench/README.md bench/suites/README.md results/README.md results/*/README.md scenes/README.md |
+texts=$(ls *.md docs/*.md bench/README.md bench/suites/README.md results/README.md results/*/README.md scenes/README.md tests/*/README.md)
+found=$(awk -f "$here/sentences.awk" $texts |
     sed 's/^[^\t]*\t//; s/CODE//g; s|https\?://[^ ]*||g; s/[^ ]*[0-9_][^ ]*//g; s/[^ ]*\.[a-z][^ ]*//g; s/[’'\'']s\>//g' | unknown)
 [ -z "$found" ] && exit 0
 printf '%s\n^ unknown words: mend them, or add those of the field to tests/words.txt\n' "$found" >&2
