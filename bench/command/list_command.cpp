@@ -159,7 +159,7 @@ Act list_verb(CLI::App& program) {
         ->type_name("WHAT")
         ->option_text("");
     verb->add_flag("--markdown", r->markdown,
-                   "with `schemes`: the capability table of the README; with `options`, `facts`, `keys` or `columns`: their table");
+                   "with `schemes`: the table of docs/schemes.md; with `options`, `facts`, `keys` or `columns`: their table");
     verb->footer("Example: jvari list schemes --markdown");
     add_common(*verb, *r);
     return [r] { return list_command(*r); };

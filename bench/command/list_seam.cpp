@@ -62,7 +62,8 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
     Json json = Json::array();
     std::size_t width = 0;
     for (const Descriptor* d : list) width = std::max(width, std::string(d->name).size());
-    std::string text = fmt::format("{}\n", title), head = "| scheme | several strings | body |", rule = "|---|:-:|:-:|", body, notes;
+    std::string text = fmt::format("{}\n", title), head = "| scheme |", rule = "|---|", body, notes;
+    std::vector<std::pair<std::string, std::string>> noted;  // a note, and the schemes that have it
     for (int i = 0; i < feature_count; ++i) {
         head += fmt::format(" {} |", jvari::name_of(static_cast<Feature>(1u << i)));
         rule += ":-:|";
@@ -90,20 +91,24 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
         if (!not_quite.empty()) text += fmt::format("  {:<{}}  approximates {}\n", "", width, fmt::join(approximations_of(*d, ""), ", "));
         if (!note.empty()) text += fmt::format("  {:<{}}  {}\n", "", width, note);
 
-        body += fmt::format("| `{}` | ● | ● |", d->name);  // each string is a scheme of its own, a body filters what they give
+        body += fmt::format("| `{}` |", d->name);
         for (int i = 0; i < feature_count; ++i) {
             const auto feature = static_cast<Feature>(1u << i);
             body += not_quite.has(feature) ? " ◐ |" : d->represents.has(feature) ? " ● |" : "  |";
         }
         body += fmt::format(" {} | {} |\n", name_of(d->balance), d->source);
-        if (!not_quite.empty() || !note.empty())
-            notes += fmt::format("- `{}`:{}{}\n", d->name,
-                                 not_quite.empty() ? "" : fmt::format(" ◐ {}.", fmt::join(approximations_of(*d, "`"), ", ")),
-                                 note.empty() ? "" : " " + note);
+        if (not_quite.empty() && note.empty()) continue;
+        const std::string line = (not_quite.empty() ? "" : fmt::format(" ◐ {}.", fmt::join(approximations_of(*d, "`"), ", "))) +
+                                 (note.empty() ? "" : " " + note);
+        const auto known = std::ranges::find(noted, line, &std::pair<std::string, std::string>::first);
+        if (known != noted.end()) known->second += fmt::format(", `{}`", d->name);
+        else noted.emplace_back(line, fmt::format("`{}`", d->name));
     }
+    for (const auto& [line, names] : noted) notes += fmt::format("- {}:{}\n", names, line);
     return {std::move(json), text + (list.empty() ? "  none\n" : ""),
             head + " energy balance | source |\n" + rule + "---|---|\n" + body +
-                "\n● as the scene says; ◐ changed, at any rate and with any number of modes, and a fact of the run says how.\n\n" + notes};
+                "\n● as in the scene; ◐ approximated, and a fact of the run says how. Every scheme takes several strings and a body.\n\n" +
+                notes};
 }
 
 Listing list_options(const std::vector<const Descriptor*>& schemes) {
