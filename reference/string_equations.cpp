@@ -1,6 +1,7 @@
 #include "reference/string_equations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "reference/partial_sums.hpp"
@@ -9,6 +10,8 @@
 namespace jvari {
 
 namespace {
+constexpr int most_states = 18;  // of what is in series
+
 JVARI_CLONES
 double dot(const double* g, const double* x, int n) {
     Lanes sum = {};
@@ -40,8 +43,9 @@ void add(const double* d, double F, double* dv, int n) {
 }
 }  // namespace
 
-StringEquations::StringEquations(const Modes& modes, const String& s, const std::optional<InSeries>& series) : mass_(modes.mass) {
-    padded = (modes.count() + (series && series->relaxes() ? 1 : 0) + lanes - 1) / lanes * lanes;
+StringEquations::StringEquations(const Modes& modes, const String& s, const std::optional<InSeries>& series)
+    : mass_(modes.mass), modes_(modes.count()), states_(series ? series->states : 0) {
+    padded = (modes_ + states_ + lanes - 1) / lanes * lanes;
     const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
     const auto fill = [&](std::vector<double>& rows) { rows.resize((rows.size() + padded - 1) / padded * padded, 0.0); };
     for (int i = 0; i < modes.count(); ++i) {
@@ -50,45 +54,26 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
         pad(loss_, 2 * modes.mass * modes.sigma[i]);
     }
     for (auto* rows : {&omega_, &damping_, &loss_}) fill(*rows);
-    const SeriesPoints in = series ? series->points : SeriesPoints();
-    if (series && series->relaxes()) {
-        thread_ = modes.count();
-        thread_rate_ = std::sqrt(in.stiff_cc / modes.mass);
-        thread_loss_ = in.r_c / (thread_rate_ * thread_rate_);
-        damping_[thread_] = in.k_c / in.r_c;
-    }
-    if (series) pull_back_ = series->pull();
-    const auto add_point = [&](const std::vector<double>& g, double own = 0) {  // own: Y_c in what it reads
+    const auto add_point = [&](const std::vector<double>& g) {
         for (int i = 0; i < modes.count(); ++i) {
             pad(reads_, g[i] / modes.omega0[i]);
             pad(weights_, g[i]);
             pad(gains_, g[i] / modes.mass);
         }
-        if (thread_ >= 0) {
-            reads_.push_back(0);
-            weights_.push_back(0);
-            gains_.push_back(own * thread_rate_ / in.r_c);
-            own_.push_back(own / thread_rate_);
-        } else own_.push_back(0);
         for (auto* rows : {&reads_, &weights_, &gains_}) fill(*rows);
     };
-    std::vector<double> at_thread(modes.count(), 0.0);
-    if (s.thread) at_thread = footprint_weights(modes, s.thread->position, s.thread->width);
     for (const Barrier& barrier : s.barriers) {
         const auto& b = std::get<LumpedBarrier>(barrier);
-        auto g = footprint_weights(modes, b.position, b.width);
-        for (int i = 0; i < modes.count(); ++i) g[i] -= pull_back_ * at_thread[i];
-        add_point(g, pull_back_);
-        const double lifted = pull_back_ != 0 ? pull_back_ * s.thread->height : 0;
-        point_.push_back({SeriesLaw({b.stiffness.k, b.exponent}, in.law.S), b.contact_loss, 0, b.height - lifted});
+        add_point(footprint_weights(modes, b.position, b.width));
+        point_.push_back({{b.stiffness.k, b.exponent}, b.contact_loss, 0, b.height});
     }
     contacts = static_cast<int>(point_.size());
     if (s.thread) {
-        add_point(at_thread, thread_ >= 0 ? -1 : 0);
-        const bool own = !in.thread;
-        point_.push_back({SeriesLaw({own ? s.thread->stiffness : in.stiff_cc, 1}, 0), 0, own ? s.thread->damping : 0, s.thread->height});
+        add_point(footprint_weights(modes, s.thread->position, s.thread->width));
+        point_.push_back({{s.thread->stiffness, 1}, 0, s.thread->damping, s.thread->height});
     }
     points = static_cast<int>(point_.size());
+    if (series) put_in_series(*series);
     if (s.pluck) {
         pluck_.push_back(*s.pluck);
         add_point(footprint_weights(modes, s.pluck->position, s.pluck->width));
@@ -101,26 +86,86 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
     motion_.resize(points);
     pull_.resize(points);
     stiffness_.assign(contacts, 0.0);
+    for (auto* v : {&acting_, &speed_, &change_}) v->assign(std::max(points, states_), 0.0);
     for (int a = 0; a < contacts; ++a)
         for (int b = 0; b < contacts; ++b) couples_.push_back(std::abs(dot(row(weights_, a), row(gains_, b), padded)));
 }
 
+void StringEquations::put_in_series(const InSeries& series) {
+    const int n = states_;
+    for (int i = 0; i < n; ++i) width_.push_back(std::sqrt(series.energy[i * n + i] / mass_));
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            drift_.push_back(width_[i] * series.A[i * n + j] / width_[j]);
+            losing_.push_back(series.loss[i * n + j] / (width_[i] * width_[j]));
+        }
+    for (int i = 0; i < n; ++i)
+        for (int a = 0; a < points; ++a) push_.push_back(width_[i] * series.B[i * points + a]);
+    reply_.assign(static_cast<std::size_t>(n + points) * n, 0.0);
+}
+void StringEquations::solve_series(double gamma) noexcept {
+    const int n = states_;
+    std::vector<double>& E = reply_;  // (I - gamma A)^-1 by elimination of a few states, column by column of I
+    for (int c = 0; c < n; ++c)
+        for (int i = 0; i < n; ++i) E[i * n + c] = i == c;
+    std::array<double, most_states * most_states> left{};
+    for (int i = 0; i < n * n; ++i) left[i] = (i % (n + 1) == 0) - gamma * drift_[i];
+    for (int c = 0; c < n; ++c)  // I - gamma A is nearly diagonal or dominated by it: A decays
+        for (int i = 0; i < n; ++i) {
+            if (i == c) continue;
+            const double factor = left[i * n + c] / left[c * n + c];
+            for (int j = 0; j < n; ++j) {
+                left[i * n + j] -= factor * left[c * n + j];
+                E[i * n + j] -= factor * E[c * n + j];
+            }
+        }
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) E[i * n + j] /= left[i * n + i];
+    for (int a = 0; a < points; ++a)
+        for (int i = 0; i < n; ++i) {
+            double sum = 0;
+            for (int j = 0; j < n; ++j) sum += E[i * n + j] * push_[j * points + a];
+            E[(n + a) * n + i] = sum;
+        }
+}
+
+void StringEquations::read_series(const double* z, double* series) const noexcept {
+    for (int j = 0; j < states_; ++j) series[j] = states(z)[j] / width_[j];
+}
+void StringEquations::put_series(const double* series, double* z) const noexcept {
+    for (int j = 0; j < states_; ++j) states(z)[j] = series[j] * width_[j];
+}
+double StringEquations::drift(int state, const double* z) const noexcept {
+    double sum = 0;
+    for (int j = 0; j < states_; ++j) sum += drift_[state * states_ + j] * states(z)[j];
+    return sum;
+}
+double StringEquations::series_speed(const double* z, const double* force, double* speed) const noexcept {
+    for (int j = 0; j < states_; ++j) {
+        speed[j] = drift(j, z);
+        for (int a = 0; a < points; ++a) speed[j] += push_[j * points + a] * force[a];
+    }
+    double lost = 0;
+    for (int i = 0; i < states_; ++i)
+        for (int j = 0; j < states_; ++j) lost += speed[i] * losing_[i * states_ + j] * speed[j];
+    return lost;
+}
+
 StringEquations::Motion StringEquations::motion(int a, const double* z) const noexcept {
-    const double thread = thread_ >= 0 ? own_[a] * z[padded + thread_] : 0;
-    return {dot(row(reads_, a), z, padded) + thread, dot(row(weights_, a), z + padded, padded)};
+    Motion m{dot(row(reads_, a), z, padded), dot(row(weights_, a), z + padded, padded)};
+    if (states_ > 0) m = {m.y + states(z)[a] / width_[a], m.v + drift(a, z) / width_[a]};
+    return m;
 }
 
 StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
     const Point& q = point_[a];
     const double eta = q.height - m.y;
-    const double k = q.law.law.k, alpha = q.law.law.alpha;
-    if (a >= contacts) return {k * eta - q.r * m.v, k, q.r, q.r, 0};
-    if (alpha == 1) {
-        const double f = q.law.both * eta, give = 1 - q.beta * m.v;
-        return {f * give, q.law.both * give, q.beta * f, q.beta * f, q.beta * k};
+    const double k = q.law.k, alpha = q.law.alpha;
+    if (a >= contacts) {  // its force moves its point by at_once(a) F
+        const double own = 1 + q.r * at_once(a), F = (k * eta - q.r * m.v) / own;
+        return {F, k / own, q.r / own, q.r, 0};
     }
-    if (q.law.S > 0) return {std::copysign(q.law.force(std::abs(eta)), eta), q.law.slope(std::abs(eta)), 0, 0, 0};
-    const double slope = k * std::pow(std::abs(eta), alpha - 1), f = slope * eta, give = 1 - q.beta * m.v;
+    const double slope = alpha == 1 ? k : k * std::pow(std::abs(eta), alpha - 1), f = slope * eta, give = 1 - q.beta * m.v;
     return {f * give, alpha * slope * give, q.beta * f, q.beta * f, q.beta * alpha * slope};
 }
 
@@ -128,19 +173,8 @@ double StringEquations::penetration(int a, const double* z) const noexcept {
     return point_[a].height - motion(a, z).y;
 }
 double StringEquations::penetration_speed(int a, const double* z) const noexcept {
-    return -dot(row(weights_, a), z + padded, padded) - (thread_ >= 0 ? own_[a] * thread_slope(z) : 0);
-}
-double StringEquations::thread_slope(const double* z) const noexcept {
-    double sum = -damping_[thread_] * z[padded + thread_];
-    for (int a = 0; a < points; ++a)
-        if (acts(a)) sum += row(gains_, a)[thread_] * pull(a, motion(a, z)).F;
-    return sum;
-}
-double StringEquations::thread_force(const double* z) const noexcept {
-    return thread_ >= 0 ? pull(contacts, motion(contacts, z)).F : 0;
-}
-void StringEquations::put_thread(double Y, double* z) const noexcept {
-    if (thread_ >= 0) z[padded + thread_] = thread_rate_ * Y;
+    const Motion m = motion(a, z);
+    return -m.v - (acts(a) && states_ > 0 ? at_once(a) * pull(a, m).F : 0);
 }
 double StringEquations::contact_force(int a, const double* z) const noexcept {
     return pull(a, motion(a, z)).F;
@@ -152,16 +186,18 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
     std::fill_n(sum, sums, 0.0);
     oscillate(omega_.data(), damping_.data(), p, v, dp, dv, padded);
     sum[dissipated] = square(loss_.data(), v, padded);
+    std::fill(acting_.begin(), acting_.end(), 0.0);
     for (int a = 0; a < points; ++a) {
         if (!acts(a)) continue;
         const Motion m = motion(a, z);
         const Pull f = pull(a, m);
+        acting_[a] = f.F;
+        const double v = m.v + (a >= contacts ? at_once(a) * f.F : 0);
         add(row(gains_, a), f.F, dv, padded);
         sum[a < contacts ? bridge_impulse : thread_impulse] += f.F;
-        if (a < contacts) sum[thread_impulse] -= pull_back_ * f.F;
-        sum[dissipated] += f.drag * m.v * m.v;
+        sum[dissipated] += f.drag * v * v;
     }
-    if (thread_ >= 0) sum[dissipated] += thread_loss_ * dv[thread_] * dv[thread_];
+    if (states_ > 0) sum[dissipated] += series_speed(z, acting_.data(), states(dz));
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
         add(row(gains_, points), F, dv, padded);
@@ -185,15 +221,17 @@ double StringEquations::scale_squared(const double* z) const noexcept {
 
 // An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/sum(g^2/m_i) what the modes have there.
 // Points close to each other push the same modes: their stiffnesses add up, as Gershgorin's circles do.
-double StringEquations::pace(const double* z) const noexcept {
+double StringEquations::pace(const double* z, bool decays) const noexcept {
+    double decay = 0;
     for (int a = 0; a < contacts; ++a) {
         stiffness_[a] = 0;
         if (!touched[a]) continue;
         const Point& q = point_[a];
         const double give = couples_[a * contacts + a], v = penetration_speed(a, z);
-        const double k = q.law.law.k, alpha = q.law.law.alpha;
+        const double k = q.law.k, alpha = q.law.alpha;
         const double depth = std::max(penetration(a, z), std::pow(v * v * (alpha + 1) / (2 * k * give), 1 / (alpha + 1)));
-        stiffness_[a] = q.law.S > 0 ? q.law.slope(depth) : k * std::pow(depth, alpha - 1);
+        stiffness_[a] = k * std::pow(depth, alpha - 1);
+        if (decays && states_ > 0) decay = std::max(decay, at_once(a) * q.law.slope(depth));  // of a point that has no mass
     }
     double fastest = 0;
     for (int a = 0; a < contacts; ++a) {
@@ -202,7 +240,7 @@ double StringEquations::pace(const double* z) const noexcept {
         for (int b = 0; b < contacts; ++b) sum += couples_[a * contacts + b] * stiffness_[b];
         fastest = std::max(fastest, sum);
     }
-    return std::sqrt(fastest);
+    return std::max(std::sqrt(fastest), decay);
 }
 
 void StringEquations::solve(double t, double gamma, const double* z, const double* b, double* x) noexcept {
@@ -218,6 +256,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
                 for (int i = 0; i < padded; ++i) sum += row(weights_, a)[i] * row(gains_, c)[i] * inverse_[i];
                 compliance_[a * points + c] = sum;
             }
+        solve_series(gamma);
     }
     const double *bp = b, *bv = b + padded;
     double *xp = x, *xv = x + padded;
@@ -225,6 +264,10 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         const double w = gamma * omega_[i], p = bp[i], v = bv[i];
         xp[i] = ((1 + gamma * damping_[i]) * p + w * v) * inverse_[i];
         xv[i] = (v - w * p) * inverse_[i];
+    }
+    for (int i = 0; i < states_; ++i) {
+        states(x)[i] = 0;
+        for (int j = 0; j < states_; ++j) states(x)[i] += reply_[i * states_ + j] * states(b)[j];
     }
     // dF_a = -K_a dy_a - R_a dv_a,   dy_a = (block solution) + gamma^2 S_ab dF_b,   dv_a = (block solution) + gamma S_ab dF_b
     const int wide = points + 1;
@@ -238,8 +281,13 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         const Motion d = motion(a, x);
         for (int c = 0; c < points; ++c)
             if (acts(c)) equation[c] += (gamma * f.K + f.R) * gamma * compliance_[a * points + c];
-        for (int c = 0; thread_ >= 0 && c < points; ++c)
-            if (acts(c)) equation[c] += gamma * f.K * own_[a] * row(gains_, c)[thread_] * inverse_[thread_];
+        for (int c = 0; states_ > 0 && c < points; ++c) {
+            if (!acts(c)) continue;
+            const double* answer = reply_.data() + (states_ + c) * states_;
+            double speed = 0;
+            for (int j = 0; j < states_; ++j) speed += drift_[a * states_ + j] * answer[j];
+            equation[c] += gamma * (f.K * answer[a] + f.R * speed) / width_[a];
+        }
         equation[points] = -f.K * d.y - f.R * d.v;
     }
     for (int c = 0; c < points; ++c) {  // elimination; the matrix is I + (positive diagonal) x (Gram matrix): pivots on the diagonal hold
@@ -266,6 +314,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
             xv[i] += v;
             xp[i] += gamma * omega_[i] * v;
         }
+        for (int j = 0; j < states_; ++j) states(x)[j] += F * reply_[(states_ + a) * states_ + j];
     }
     // the sums' rows
     double* sum = x + 2 * padded;
@@ -277,15 +326,17 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         if (!acts(a)) continue;
         const Motion d = motion(a, x);
         sum[a < contacts ? bridge_impulse : thread_impulse] += gamma * force_[a];
-        if (a < contacts) sum[thread_impulse] -= gamma * pull_back_ * force_[a];
-        lost += 2 * pull_[a].drag * motion_[a].v * d.v - pull_[a].drag_slope * motion_[a].v * motion_[a].v * d.y;
+        const double at_once_F = a >= contacts ? at_once(a) : 0, v = motion_[a].v + at_once_F * pull_[a].F;
+        lost += 2 * pull_[a].drag * v * (d.v + at_once_F * force_[a]) - pull_[a].drag_slope * v * v * d.y;
     }
-    if (thread_ >= 0) {
-        double change = -damping_[thread_] * xv[thread_];
-        for (int a = 0; a < points; ++a)
-            if (acts(a)) change += row(gains_, a)[thread_] * force_[a];
-        lost += 2 * thread_loss_ * thread_slope(z) * change;
+    for (int a = 0; a < points; ++a) {
+        acting_[a] = acts(a) ? pull_[a].F : 0;
+        if (!acts(a)) force_[a] = 0;
     }
+    series_speed(z, acting_.data(), speed_.data());
+    series_speed(x, force_.data(), change_.data());
+    for (int i = 0; i < states_; ++i)
+        for (int j = 0; j < states_; ++j) lost += 2 * speed_[i] * losing_[i * states_ + j] * change_[j];
     sum[dissipated] += gamma * lost;
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
@@ -304,36 +355,34 @@ void StringEquations::jacobian(double t, const double* z, double* J) const noexc
         at(padded + i, padded + i) = -damping_[i];
         at(2 * padded + dissipated, padded + i) = 2 * loss_[i] * v[i];
     }
+    const int states = padded + modes_, lost = 2 * padded + dissipated;  // of what is in series
+    std::fill(acting_.begin(), acting_.end(), 0.0);
+    for (int i = 0; i < states_; ++i)
+        for (int j = 0; j < states_; ++j) at(states + i, states + j) += drift_[i * states_ + j];
     for (int a = 0; a < points; ++a) {
         if (!acts(a)) continue;
         const Motion m = motion(a, z);
         const Pull f = pull(a, m);
+        acting_[a] = f.F;
         const double *y = row(reads_, a), *g = row(weights_, a), *d = row(gains_, a);
-        const int impulse = 2 * padded + (a < contacts ? bridge_impulse : thread_impulse);
-        for (int j = 0; j < padded; ++j) {
-            for (int i = 0; i < padded; ++i) {
-                at(padded + i, j) -= d[i] * f.K * y[j];
-                at(padded + i, padded + j) -= d[i] * f.R * g[j];
-            }
-            at(impulse, j) -= f.K * y[j];
-            at(impulse, padded + j) -= f.R * g[j];
-            if (a < contacts) at(2 * padded + thread_impulse, j) += pull_back_ * f.K * y[j];
-            at(2 * padded + dissipated, j) -= f.drag_slope * m.v * m.v * y[j];
-            at(2 * padded + dissipated, padded + j) += 2 * f.drag * m.v * g[j];
+        const double by_force = a >= contacts ? at_once(a) : 0, v_a = m.v + by_force * f.F;
+        const auto add_column = [&](int j, double reads, double moves) {  // of what reads the point and its velocity so
+            const double F = -f.K * reads - f.R * moves;
+            for (int i = 0; i < modes_; ++i) at(padded + i, j) += d[i] * F;
+            for (int i = 0; i < states_; ++i) at(states + i, j) += push_[i * points + a] * F;
+            at(2 * padded + (a < contacts ? bridge_impulse : thread_impulse), j) += F;
+            at(lost, j) += 2 * f.drag * v_a * (moves + by_force * F) - f.drag_slope * v_a * v_a * reads;
+        };
+        for (int j = 0; j < modes_; ++j) {
+            add_column(j, y[j], 0);
+            add_column(padded + j, 0, g[j]);
         }
+        for (int j = 0; j < states_; ++j) add_column(states + j, (j == a) / width_[a], drift_[a * states_ + j] / width_[a]);
     }
-    if (thread_ >= 0) {
-        const int own = padded + thread_;
-        for (int a = 0; a < points; ++a) {
-            if (!acts(a)) continue;
-            const double K = pull(a, motion(a, z)).K * own_[a];
-            for (int i = 0; i < padded; ++i) at(padded + i, own) -= row(gains_, a)[i] * K;
-            at(2 * padded + (a < contacts ? bridge_impulse : thread_impulse), own) -= K;
-            if (a < contacts) at(2 * padded + thread_impulse, own) += pull_back_ * K;
-        }
-        const double twice = 2 * thread_loss_ * thread_slope(z);
-        for (int j = 0; j < 2 * padded; ++j) at(2 * padded + dissipated, j) += twice * at(own, j);
-    }
+    series_speed(z, acting_.data(), speed_.data());
+    for (int i = 0; i < states_; ++i)
+        for (int j = 0; j < states_; ++j)
+            for (int k = 0; k < 2 * padded; ++k) at(lost, k) += 2 * speed_[i] * losing_[i * states_ + j] * at(states + j, k);
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
         for (int j = 0; j < padded; ++j) at(2 * padded + supplied, padded + j) += F * row(weights_, points)[j];

@@ -8,8 +8,8 @@
 // so that a trial step may overshoot. Four sums ride along: impulses of barriers and thread, energy supplied and dissipated. The Jacobian
 // is 2x2 blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's formula.
 //
-// With something in series (in_series.hpp) the last point is its spring to the thread, F_s, and the thread's own displacement is one more
-// v, which forces move and nothing but itself brings back: w Y_c' = -k_c/r_c (w Y_c) + w/r_c (e F_b - F_s), w^2 = 1/(m C_cc).
+// What is in series with the points (in_series.hpp) has states of its own, scaled to velocities, v = w z with w^2 = S_jj/m, behind the
+// modes' v. A point's displacement then is that of the modes and one of them, whose velocity its own force moves at once, by B_aa F_a.
 #pragma once
 
 #include <vector>
@@ -17,6 +17,7 @@
 #include "reference/equations.hpp"
 #include "reference/in_series.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/contact/contact.hpp"
 
 namespace jvari {
 
@@ -29,9 +30,9 @@ struct StringEquations final : Equations {
     double pluck_time = 0;  // since the pluck's start, at t = 0 of the integrator [s]
     bool plucked = false;
 
-    int size() const override { return 2 * padded + sums; }  // p, v, sums
-    double thread_force(const double* z) const noexcept;     // F_s of in_series.hpp, where the thread has a state [N]
-    void put_thread(double Y, double* z) const noexcept;     // Y_c - h_c into that state [m]
+    int size() const override { return 2 * padded + sums; }            // p, v, sums
+    void read_series(const double* z, double* series) const noexcept;  // the states in series, in their own units
+    void put_series(const double* series, double* z) const noexcept;
     void slope(double t, const double* z, double* dz) const noexcept override;
     double penetration(int contact, const double* z) const noexcept override;        // eta [m]
     double penetration_speed(int contact, const double* z) const noexcept override;  // [m/s]
@@ -39,14 +40,15 @@ struct StringEquations final : Equations {
     double potential(int point, double y) const noexcept;                            // [J], of a barrier or the thread
     double scale_squared(
         const double* z) const noexcept override;  // sum of p^2 + v^2, or what barriers and thread press, 2 potential/m, where that is more
-    double pace(const double* z) const noexcept;   // of the motion in contacts that are this deep and this fast, a bound [1/s]
+    // Of the motion in contacts that are this deep and this fast, a bound [1/s]; decays: of a point without mass as well.
+    double pace(const double* z, bool decays = true) const noexcept;
 
     void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept override;  // (I - gamma J(z)) x = b
     void jacobian(double t, const double* z, double* J) const noexcept override;                        // dense, column by column
 
 private:
     struct Point {
-        SeriesLaw law;
+        ContactLaw law;
         double beta, r, height;
     };
     struct Pull {  // force of a point, F, and its derivatives -K to y, -R to v; drag: its loss is drag v^2
@@ -60,12 +62,19 @@ private:
     Pull pull(int a, Motion) const noexcept;
     const double* row(const std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * padded; }
 
-    double thread_slope(const double* z) const noexcept;  // of the thread's state
+    const double* states(const double* z) const noexcept { return z + padded + modes_; }  // w z, in series
+    double* states(double* z) const noexcept { return z + padded + modes_; }
+    double drift(int state, const double* z) const noexcept;                                              // A w z
+    double at_once(int a) const noexcept { return states_ > 0 ? push_[a * points + a] / width_[a] : 0; }  // D_a' by F_a [m/(N s)]
+    // What is in series under the forces: its states' speed, put into `speed`, and what it loses with the thread [W].
+    double series_speed(const double* z, const double* force, double* speed) const noexcept;
+    void solve_series(double gamma) noexcept;
+    void put_in_series(const InSeries&);
 
-    double mass_, pull_back_ = 0;               // e
-    int thread_ = -1;                           // which v the thread's state is
-    double thread_rate_ = 0, thread_loss_ = 0;  // w [1/s], r_c/w^2
-    std::vector<double> own_;                   // of that v in a point's displacement [point]
+    double mass_;
+    int modes_, states_ = 0;                     // of what is in series
+    std::vector<double> width_;                  // w [state]
+    std::vector<double> drift_, push_, losing_;  // A [state][state], B [state][point] and Q [state][state], of w z
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                     // none or one
     std::vector<double> omega_, damping_, loss_;   // omega0, 2 sigma, 2 m sigma
@@ -77,7 +86,9 @@ private:
     std::vector<double> couples_;               // |g_a d_b| [contact][contact]
     mutable std::vector<Motion> motion_;
     mutable std::vector<Pull> pull_;
-    mutable std::vector<double> stiffness_;  // [contact]
+    mutable std::vector<double> stiffness_;                // [contact]
+    std::vector<double> reply_;                            // (I - gamma A)^-1 [state][state], and times B behind it [point][state]
+    mutable std::vector<double> acting_, speed_, change_;  // forces; speeds of what is in series
 };
 
 }  // namespace jvari

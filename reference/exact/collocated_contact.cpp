@@ -177,7 +177,8 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
             most = std::max(most, std::abs(f));
         }
         if (most == 0) continue;
-        const double rest = std::max(std::abs(f7), std::abs(f6)) / most, push = w.kernel(touching[a], touching[a])[1] * d * most;
+        const double* h = w.kernel(touching[a], touching[a]);
+        const double rest = std::max(std::abs(f7), std::abs(f6)) / most, push = (h[0] + h[1] * d) * most;
         error = std::max(error, push / (push + std::abs(r[touching[a] * stride + 1])) * std::pow(rest, 1.5));
     }
     return error;
@@ -203,6 +204,13 @@ void CollocatedContact::derivatives(int which, double* f) const noexcept {
         for (int j = 0; j < nodes; ++j) sum += powers_[n * nodes + j] * force_[which * nodes + j];
         f[n] = sum * scale;
     }
+}
+
+double CollocatedContact::force(int which, double at) const noexcept {
+    double f[nodes], sum = 0, power = 1;
+    derivatives(which, f);
+    for (int n = 0; n < nodes; ++n, power *= at / n) sum += f[n] * power;
+    return sum;
 }
 
 void CollocatedContact::moments(int which, double until, int count, double* m) const noexcept {

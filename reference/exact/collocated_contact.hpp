@@ -8,24 +8,23 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
-#include "schemes/contact/series_contact.hpp"
+#include "schemes/contact/contact.hpp"
 
 namespace jvari {
 
 class MacroWindow;
 
-struct BarrierLaw {  // odd beyond the surface; with a compliance in series eta is the approach of what is above
-    SeriesLaw law;
+struct BarrierLaw {  // odd beyond the surface
+    ContactLaw law;
     double beta = 0;  // of a contact loss [s/m]
-    BarrierLaw(const ContactLaw& barrier, double loss, double compliance = 0) : law(barrier, compliance), beta(loss) {}
-    bool spring() const noexcept { return law.law.alpha == 1 && beta == 0; }
-    double stiffness() const noexcept { return law.both; }         // of a spring [N/m]
+    bool spring() const noexcept { return law.alpha == 1 && beta == 0; }
     double stiffness(double eta, double elastic) const noexcept {  // -dF/dy where the elastic force is known
-        if (eta == 0) return law.law.alpha == 1 ? law.both : 0;
-        return law.S == 0 ? law.law.alpha * std::abs(elastic / eta) : law.slope(std::abs(eta));
+        if (eta == 0) return law.alpha == 1 ? law.k : 0;
+        return law.alpha * std::abs(elastic / eta);
     }
     double elastic(double eta) const noexcept { return std::copysign(law.force(std::abs(eta)), eta); }
     double force(double eta, double v) const noexcept { return elastic(eta) * (1 - beta * v); }
@@ -39,8 +38,9 @@ public:
     enum class From { elsewhere, last_end, same_start };  // where it starts, seen from the last step: its forces are a first guess
     double step(const double* r, std::span<const int> touching, double d, From) noexcept;
 
-    // Of the last step: every contact's derivatives, the forces' moments, and the energy that contact losses took [J].
+    // Of the last step: every contact's derivatives, forces and their moments, and the energy that contact losses took [J].
     void path(const double* r, double* path) const noexcept;
+    double force(int which, double at) const noexcept;                           // `at` from the step's start [N]
     void moments(int which, double until, int count, double* m) const noexcept;  // until no later than the step's end
     double dissipated() const noexcept;
 

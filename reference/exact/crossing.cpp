@@ -177,7 +177,7 @@ double crossing_within(const Gap& gap, double from, const Bounds& b, double boun
 
 double first_crossing(const Gap& gap, double end, double bound) noexcept {
     double fastest = 0;
-    for (int k = 0; k < gap.pairs; ++k) fastest = std::max(fastest, gap.lambda[k].imag());
+    for (int k = 0; k < gap.pairs; ++k) fastest = std::max({fastest, gap.lambda[k].imag(), -gap.lambda[k].real()});
     Gap::Values v = gap.at_start();
     const PairBounds pairs(gap);
     const Bounds whole = bounds_until(gap, pairs, end);

@@ -4,10 +4,10 @@
 // linear, only the contact points are not. So the modes are touched twice a window (macro_window.hpp), and between its events a few short
 // vectors move. From one event to the next the points follow
 //   - their free motion, where nothing touches;
-//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast pair per point, or a polynomial where they are soft;
+//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast part per point, or a polynomial where they are soft;
 //   - collocated_contact.hpp, step by step (contact_steps.hpp), where the law is no spring or there are many contacts.
-// crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. With compliance=matched the static
-// deflection of the modes left out stands in series with barrier and thread (in_series.hpp).
+// crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. With compliance=matched what the
+// modes left out would yield and radiate stands in series with barriers and thread (in_series.hpp).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -35,11 +35,11 @@ struct Extremes {  // of the run so far
     double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, largest_force = 0, deepest = 0, tolerance = 0;
 };
 
-std::vector<BarrierLaw> laws_of(const String& s, const std::optional<InSeries>& series) {
+std::vector<BarrierLaw> laws_of(const String& s) {
     std::vector<BarrierLaw> laws;
     for (const Barrier& barrier : s.barriers) {
         const auto& b = std::get<LumpedBarrier>(barrier);
-        laws.emplace_back(ContactLaw{b.stiffness.k, b.exponent}, b.contact_loss, series ? series->points.law.S : 0);
+        laws.push_back({{b.stiffness.k, b.exponent}, b.contact_loss});
     }
     return laws;
 }
@@ -47,7 +47,7 @@ std::vector<BarrierLaw> laws_of(const String& s, const std::optional<InSeries>& 
 double exponent_of(const std::vector<BarrierLaw>& laws) {  // the one farthest from a spring's
     double exponent = 1;
     for (const BarrierLaw& l : laws)
-        if (std::abs(l.law.law.alpha - 1) > std::abs(exponent - 1)) exponent = l.law.law.alpha;
+        if (std::abs(l.law.alpha - 1) > std::abs(exponent - 1)) exponent = l.law.alpha;
     return exponent;
 }
 
@@ -88,7 +88,7 @@ private:
     std::vector<double> start_, stiffness_;   // y at t = 0; m omega0^2, per mode
 
     std::vector<double> y_, u_;  // the state
-    double thread_force_ = 0;    // and F_s of in_series.hpp
+    std::vector<double> z_;      // and that of what is in series
     std::vector<char> touching_, known_zero_;
     long row_ = 0;
     double bridge_impulse_ = 0, thread_impulse_ = 0;
@@ -112,7 +112,7 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
                            const std::optional<InSeries>& series)
     : modes_(std::move(modes)),
       window_(modes_, s, 1 / tap_rate, tolerance, series),
-      law_(laws_of(s, series)),
+      law_(laws_of(s)),
       collocation_(window_, law_),
       spending_(window_, modes_, tolerance),
       readout_(scene, modes_),
@@ -126,6 +126,7 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     for (int i = 0; i < modes_.count(); ++i) stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
     stiffness_ = window_.osc.pad(stiffness);
     y_ = u_ = start_;
+    if (series) z_.assign(series->states, 0.0);
     const int contacts = window_.contacts;
     touching_.resize(contacts + 1);
     known_zero_.resize(contacts + 1);
@@ -139,7 +140,7 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
             std::vector<int> points;
             std::vector<double> k;
             for (int a = 0; a < contacts; ++a)
-                if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].stiffness());
+                if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].law.k);
             TouchingSet set(window_, points, k);
             if (set.solves()) sets_[bits] = {set, spending_.pairs_of(set)};
         }
@@ -150,13 +151,14 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
 void ExactContact::reset() noexcept {
     std::copy(start_.begin(), start_.end(), y_.begin());
     std::fill(u_.begin(), u_.end(), 0.0);
+    std::fill(z_.begin(), z_.end(), 0.0);
     std::fill(touching_.begin(), touching_.end(), 0);
     std::fill(known_zero_.begin(), known_zero_.end(), 0);
     row_ = idle_ = 0;
     steps_.reset();
     leaves_ = HUGE_VAL;
     onward_ = false;
-    bridge_impulse_ = thread_impulse_ = thread_force_ = 0;
+    bridge_impulse_ = thread_impulse_ = 0;
     energies_ = {};
     extremes_ = {};
 }
@@ -173,7 +175,7 @@ Status ExactContact::advance(const Block& out) noexcept {
 void ExactContact::write(const Block& out, int row) const noexcept {
     readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(), bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
     const double F_e = pluck_.empty() ? 0 : force(pluck_[0], row_ / tap_rate_);
-    if (window_.series()) add_series(out, row, *window_.series(), window_.forces(y_.data(), thread_force_, F_e), F_e);
+    if (window_.series()) add_series(out, row, *window_.series(), z_.data(), F_e);
     if (out.energy) write_energy(out, row, stored(F_e), energies_.supplied, energies_.dissipated);
 }
 
@@ -203,7 +205,7 @@ bool ExactContact::stretch(double from, double to, bool plucked, const Block& ou
 
 bool ExactContact::window(double end, bool plucked, double since_pluck, const Block& out) noexcept {
     MacroWindow& w = window_;
-    w.open(y_.data(), u_.data(), plucked, since_pluck, thread_force_);
+    w.open(y_.data(), u_.data(), plucked, since_pluck, z_.data());
     ++extremes_.windows;
     for (int a = 0; a < w.contacts; ++a) {
         std::copy_n(w.free_motion(a), w.size, at(r_, a));
@@ -222,7 +224,7 @@ bool ExactContact::window(double end, bool plucked, double since_pluck, const Bl
     w.state_at(end, moments_.data(), y_.data(), u_.data(), y_.data(), u_.data());
     for (int a = 0; a < w.contacts; ++a) bridge_impulse_ += at(moments_, a)[0] * w.seconds();
     thread_impulse_ += w.thread_impulse();
-    thread_force_ = w.thread_force();
+    if (w.series()) std::copy_n(w.series_state(), z_.size(), z_.begin());
     return std::isfinite(y_[0]);
 }
 
@@ -303,7 +305,8 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
             else collocation_.moments(i, until, count, at(moment_, i));
     };
     if (probe && end > 0) {
-        const auto all_moments = [&](double when, double* M) {  // of the phases before, seen from an earlier instant, and of this one
+        const auto all_moments = [&](double when, double* M,
+                                     double* F) {  // of the phases before, seen from an earlier instant, and of this
             double earlier[3 * most_terms];
             std::fill_n(earlier, w.size, 0.0);
             powers(when - now - left, w.size, earlier + w.size);
@@ -311,8 +314,12 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
             for (int a = 0; a < w.contacts; ++a)
                 w.sweep().combine(M + a * w.stride, w.size, at(moments_, a), w.terms, earlier + w.size, -1);
             moments_until(when - now, w.terms);
-            for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
+            std::fill_n(F, w.contacts, 0.0);
+            for (int i = 0; i < static_cast<int>(touched_.size()); ++i) {
+                F[touched_[i]] =
+                    touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), when - now) : collocation_.force(i, when - now);
                 for (int n = 0; n < w.terms; ++n) M[touched_[i] * w.stride + n] += at(moment_, i)[n];
+            }
         };
         spending_.spend({now, now + end, y_.data(), u_.data(), touch_}, all_moments, energies_);
         if (!touched_.empty() && !touch_) energies_.dissipated += collocation_.dissipated();
@@ -437,10 +444,11 @@ double ExactContact::stored(double F_e) const noexcept {
         potential += stiffness_[i] * y_[i] * y_[i];
     }
     double energy = 0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
-    if (window_.series()) return energy + window_.series_energy(y_.data(), thread_force_, F_e);
+    const auto& series = window_.series();
+    if (series) energy += series->stored(z_.data());
     for (int a = 0; a < s.points; ++a) {
         const double* g = s.weights.data() + static_cast<long>(a) * window_.osc.padded;
-        double eta = s.height[a];
+        double eta = s.height[a] - (series ? z_[a] + series->plucked(a) * F_e : 0);
         for (int i = 0; i < window_.osc.padded; ++i) eta -= g[i] * y_[i];
         energy += a < s.contacts ? law_[a].law.potential(eta) : 0.5 * s.k[a] * eta * eta;
     }
@@ -456,7 +464,7 @@ std::vector<Fact> ExactContact::facts() const {
             {facts::contact_steps, extremes_.steps},
             {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
             {facts::largest_contact_force, extremes_.largest_force},
-            {facts::deepest_penetration, window_.series() && !law_.empty() ? law_[0].law.depth(extremes_.deepest) : extremes_.deepest},
+            {facts::deepest_penetration, extremes_.deepest},
             {facts::detection_tolerance, extremes_.tolerance}};
 }
 

@@ -15,6 +15,7 @@ constexpr double of_window = 1e-15;  // relative: what a window cuts is below ro
 Flight::Flight(const Modes& modes, const String& s, double interval, const std::optional<InSeries>& series)
     : window(modes, s, interval, of_window, series), energies_(window, modes, of_window) {
     if (s.pluck) longest_plucked_ = std::min(1.0, pluck_window(*s.pluck) / window.seconds());
+    if (series) z.assign(series->states, 0.0);
     r_.assign(static_cast<std::size_t>(window.contacts + 1) * window.stride, 0.0);
     none_ = r_;
 }
@@ -26,7 +27,7 @@ Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int l
     const bool whole = left <= longest;
     const double full = whole ? left : left / std::ceil(left / longest), end = std::min(1.0, full / w.length);
     for (int i = 0; i < w.osc.padded; ++i) u[i] *= w.length;
-    w.open(y, u, plucked, since_pluck, thread_force);
+    w.open(y, u, plucked, since_pluck, z.data());
     Landing landing{end, -1};
     for (int a = 0; a < w.contacts; ++a) {
         double* r = r_.data() + static_cast<long>(a) * w.stride;
@@ -41,11 +42,14 @@ Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int l
         if (contact <= landing.length) landing = {contact, a};
     }
     tolerance_ = std::max(tolerance_, 2 * (w.truncation() + w.rounding()));
-    const auto no_forces = [&](double, double* M) { std::fill_n(M, none_.size() - w.stride, 0.0); };
+    const auto no_forces = [&](double, double* M, double* F) {
+        std::fill_n(M, none_.size() - w.stride, 0.0);
+        std::fill_n(F, w.contacts, 0.0);
+    };
     if (probe) energies_.spend({0, landing.length, y, u}, no_forces, sums.energies);
     w.state_at(landing.length, none_.data(), y, u, y, u);
     sums.thread += w.thread_impulse();
-    thread_force = w.thread_force();
+    if (w.series()) std::copy_n(w.series_state(), z.size(), z.begin());
     for (int i = 0; i < w.osc.padded; ++i) u[i] /= w.length;
     landing.length = landing.contact < 0 ? full : landing.length * w.length;
     return landing;

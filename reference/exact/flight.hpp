@@ -2,6 +2,7 @@
 // the first crossing of its gaps. Times are in units of 1/rate (oscillators.hpp), and so are the velocities here.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "reference/exact/macro_window.hpp"
@@ -23,13 +24,16 @@ public:
         double bridge = 0, thread = 0;  // [N s]
         WindowEnergies::Sums energies = {};
     };
-    double thread_force = 0;  // F_s of in_series.hpp, of the present state
+    std::vector<double> z;  // of what is in series (in_series.hpp), of the present state
 
     // One window, no longer than `left`. `leaving`: the barrier whose surface the string has just left, -1: none. Energies where `probe`.
     Landing fly(double left, bool plucked, double since_pluck, int leaving, double* y, double* u, Sums&, bool probe) noexcept;
 
     double tolerance() const { return tolerance_; }  // no contact deeper than this was missed [m]
-    void reset() { tolerance_ = thread_force = 0; }
+    void reset() {
+        tolerance_ = 0;
+        std::fill(z.begin(), z.end(), 0.0);
+    }
 
 private:
     double longest_plucked_ = 1, tolerance_ = 0;  // of a window under the pluck [window]

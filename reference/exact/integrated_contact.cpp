@@ -41,7 +41,7 @@ private:
                      const Block& out) noexcept;            // no further than the next crossing; how far [1/rate]
     void start(bool plucked, double since_pluck) noexcept;  // y, u -> the integrator's state
     void toggle(int contact) noexcept;
-    double pace() noexcept;  // of the fastest motion [1/s]
+    double pace(bool decays) noexcept;  // of the fastest motion [1/s]; decays: of a contact in series as well
     double stored() const noexcept;
     const std::optional<InSeries>& series() const noexcept { return flight_.window.series(); }
     bool exact_flight() const noexcept {
@@ -106,7 +106,7 @@ void IntegratedContact::reset() noexcept {
 Status IntegratedContact::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
         readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate, sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
-        if (series()) add_series(out, row, *series(), flight_.window.forces(y_.data(), flight_.thread_force, 0), 0);
+        if (series()) add_series(out, row, *series(), flight_.z.data(), 0);
         if (out.energy) write_energy(out, row, stored(), sums_.energies.supplied, sums_.energies.dissipated);
         if (!interval(out)) return {Outcome::not_converged, row_};
         ++row_;
@@ -154,7 +154,7 @@ double IntegratedContact::integrate(double left, bool plucked, double since_pluc
         y_[i] = z[i] / modes_.omega0[i];
         u_[i] = z[equations_.padded + i] / flight_.window.osc.rate;
     }
-    flight_.thread_force = equations_.thread_force(z);
+    equations_.read_series(z, flight_.z.data());
     const double* sum = z + 2 * equations_.padded;
     double since[StringEquations::sums];
     for (int k = 0; k < StringEquations::sums; ++k) {
@@ -185,22 +185,18 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
         z[i] = modes_.omega0[i] * y_[i];
         z[equations_.padded + i] = flight_.window.osc.rate * u_[i];
     }
-    if (series() && series()->relaxes()) {
-        double y_c = 0;
-        const auto& g = flight_.window.springs.weights;  // the thread's are the last
-        for (int i = 0; i < modes_.count(); ++i) y_c += g[g.size() - flight_.window.osc.padded + i] * y_[i];
-        equations_.put_thread(series()->lag(y_c, flight_.thread_force), z);
-    }
+    equations_.put_series(flight_.z.data(), z);
     std::fill(std::begin(seen_), std::end(seen_), 0.0);
     equations_.plucked = plucked;
     equations_.pluck_time = since_pluck;
-    const double scale = 1 / pace();
-    integrator_.restart(choice_.first_step * scale, choice_.longest_step * scale);
+    const bool implicit = choice_.integrator.method == Method::bdf || choice_.integrator.method == Method::esdirk;  // of stiff decays
+    integrator_.restart(choice_.first_step / pace(true), choice_.longest_step / pace(!implicit));
     running_ = true;
 }
 
-double IntegratedContact::pace() noexcept {
-    return std::max(flight_.window.springs.growth(untouched_.data()) * flight_.window.osc.rate, equations_.pace(integrator_.state()));
+double IntegratedContact::pace(bool decays) noexcept {
+    return std::max(flight_.window.springs.growth(untouched_.data()) * flight_.window.osc.rate,
+                    equations_.pace(integrator_.state(), decays));
 }
 
 double IntegratedContact::stored() const noexcept {
@@ -210,10 +206,10 @@ double IntegratedContact::stored() const noexcept {
         kinetic += v * v + p * p;
     }
     energy = 0.5 * modes_.mass * kinetic;
-    if (series()) return energy + flight_.window.series_energy(y_.data(), flight_.thread_force, 0);
+    if (series()) energy += series()->stored(flight_.z.data());
     for (int a = 0; a < equations_.points; ++a) {
         const double* g = flight_.window.springs.weights.data() + static_cast<long>(a) * flight_.window.osc.padded;
-        double y = 0;
+        double y = series() ? flight_.z[a] : 0;
         for (int i = 0; i < modes_.count(); ++i) y += g[i] * y_[i];
         energy += equations_.potential(a, y);
     }
@@ -222,16 +218,15 @@ double IntegratedContact::stored() const noexcept {
 
 std::vector<Fact> IntegratedContact::facts() const {
     const auto effort = integrator_.effort();
-    std::vector<Fact> facts = {
-        {facts::events, events_},
-        {facts::contact_points, double(equations_.contacts)},
-        {facts::integrator_steps, effort.steps},
-        {facts::slope_evaluations, effort.slopes},
-        {facts::linear_solves, effort.solves},
-        {facts::integrator_tolerance, choice_.integrator.tolerance},
-        {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
-        {facts::largest_contact_force, effort.largest_force},
-        {facts::deepest_penetration, series() && equations_.contacts > 0 ? series()->points.law.depth(effort.deepest) : effort.deepest}};
+    std::vector<Fact> facts = {{facts::events, events_},
+                               {facts::contact_points, double(equations_.contacts)},
+                               {facts::integrator_steps, effort.steps},
+                               {facts::slope_evaluations, effort.slopes},
+                               {facts::linear_solves, effort.solves},
+                               {facts::integrator_tolerance, choice_.integrator.tolerance},
+                               {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
+                               {facts::largest_contact_force, effort.largest_force},
+                               {facts::deepest_penetration, effort.deepest}};
     if (choice_.exact_flight) facts.push_back({facts::detection_tolerance, flight_.tolerance()});
     return facts;
 }

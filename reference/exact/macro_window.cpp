@@ -45,22 +45,17 @@ WindowChoice choose_window(double tolerance, double reach, bool split) {
 
 MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, double tolerance, const std::optional<InSeries>& series,
                          int windows, int kept)
-    : osc(modes),
-      springs(modes, osc, s, series ? series->pull() : 0),
-      contacts(springs.contacts),
-      sweep_(&sweep_functions()),
-      series_(series),
-      series_cc_(series ? series->C.cc : 0) {
+    : osc(modes), springs(modes, osc, s, series), contacts(springs.contacts), sweep_(&sweep_functions()), series_(series) {
     if (s.pluck) pluck_.push_back(*s.pluck);
     none_.assign(contacts + 1, 0);
     const double growth = largest_eigenvalue();
-    const bool split = !series && contacts > 0;
+    const bool split = contacts > 0;
     const auto choice = choose_window(tolerance, growth * osc.rate * interval, split);
     per_row = windows > 0 ? windows : choice.per_row;
     terms = kept > 0 ? kept : choice.terms;
     size = std::max(16, (terms + lanes - 1) / lanes * lanes);  // 16: a collocated path is of degree 9
     stride = 2 * size + lanes;
-    known_ = relaxes() ? terms : std::min(terms, size - 1);
+    known_ = std::min(terms, size - 1);
     length = osc.rate * interval / per_row;
     reach = growth * length;
     for (int n = 0; n < terms; ++n) slower_.push_back(std::pow(reach, -n));
@@ -93,6 +88,12 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     offset_ = impulse_;
     base_moments_.assign(stride, 0.0);
     flow_ = flow_at_ = zeros_;
+    if (series_) {
+        in_window_.emplace_back(*series_, seconds(), size, terms);
+        z_.assign(series_->states, 0.0);
+        z_now_ = z_;
+        moments_of_.assign(springs.points, nullptr);
+    }
     free_flow(1, flow_);
     make_kernel();
 }
@@ -116,19 +117,16 @@ void MacroWindow::make_base(const Modes& modes) {
     for (std::size_t i = 0; i < gains_.size(); ++i) gains_[i] *= length * length * over_base_[i % M];
 }
 
-// The thread's force F_s answers what its point does without it. With C_cc in series (0: nothing), Y_c the thread's own displacement,
-//     F_s = (Y_c - y_c)/C_cc,   r Y_c' = -F_s - k (Y_c - h) + e F_b,   y_c = p_c + h_cc * F_s:
-//     F_s (1 + (r s + k)(C_cc + h_cc)) = r (Y_c - p_c)(0) - (k + r d/dt)(p_c - h) + e F_b
-// in Laplace transforms. The reciprocal series of the bracket, sign turned: it begins with s^-1 where r C_cc > 0, else with 1.
+// The thread's force answers what its point does without it: F_c = k (h - y_c) - r y_c', y_c = p_c + h_cc * F_c, so
+//     F_c (1 + (r s + k) h_cc) = -(k + r d/dt)(p_c - h)
+// in Laplace transforms. The reciprocal series of the bracket, sign turned. (With something in series h_cc(0) is not zero.)
 std::vector<double> MacroWindow::reply_series(double window, int count) const {
     const double k = springs.k[contacts], r = springs.r[contacts] / window;
     std::vector<double> h(count), bracket(count, 0.0), g(count);
     double scale = window;
     for (int n = 0; n < count; ++n, scale *= window) h[n] = springs.h(contacts, contacts)[n] * scale;
-    const int first = relaxes() ? 1 : 0;  // bracket[m]: of s^(first - m)
-    if (relaxes()) bracket[0] = r * series_cc_;
-    bracket[first] = 1 + k * series_cc_;
-    for (int m = first + 1; m < count; ++m) bracket[m] = k * h[m - first - 1] + r * h[m - first];
+    bracket[0] = 1 + r * h[0];
+    for (int m = 1; m < count; ++m) bracket[m] = k * h[m - 1] + r * h[m];
     g[0] = -1 / bracket[0];
     for (int n = 1; n < count; ++n) {
         for (int m = 1; m <= n; ++m) g[n] -= bracket[m] * g[n - m];
@@ -137,21 +135,18 @@ std::vector<double> MacroWindow::reply_series(double window, int count) const {
     return g;
 }
 
-// F_s of a motion of the thread's point, `first` of an instant before it: -r (Y_c - p_c), or -e of a unit impulse of F_b.
-void MacroWindow::answer(const double* reply, const double* motion, double first, double window, int count, double* F) const {
+// F_c of a motion of the thread's point.
+void MacroWindow::answer(const double* reply, const double* motion, double window, int count, double* F) const {
     const double k = springs.k[contacts], r = springs.r[contacts] / window;
     std::vector<double> x(count, 0.0);
-    for (int n = 0; n < count; ++n) {
-        if (relaxes()) x[n] = n == 0 ? first : k * motion[n - 1] + r * motion[n];
-        else if (n + 1 < count) x[n] = k * motion[n] + r * motion[n + 1];
-    }
+    for (int n = 0; n + 1 < count; ++n) x[n] = k * motion[n] + r * motion[n + 1];
     for (int n = 0; n < count; ++n) {
         F[n] = 0;
         for (int m = 0; m <= n; ++m) F[n] += reply[m] * x[n - m];
     }
 }
 
-// What a unit impulse of a point's force makes of every point and of F_s, y[point][count] and F[count], per derivative.
+// What a unit impulse of a point's force makes of every point and of F_c, y[point][count] and F[count], per derivative.
 void MacroWindow::impulse_response(int force, double window, int count, const double* reply, double* y, double* F) const {
     double power = window;
     for (int n = 0; n < count; ++n, power *= window)
@@ -159,25 +154,21 @@ void MacroWindow::impulse_response(int force, double window, int count, const do
     std::fill_n(F, count, 0.0);
     if (!threaded()) return;
     const std::vector<double> p(y + contacts * count, y + (contacts + 1) * count);
-    answer(reply, p.data(), series_ && force < contacts ? -series_->pull() : 0, window, count, F);
-    for (int a = 0; a < springs.points; ++a) {
-        const double share = series_ ? series_->share(a == contacts) : 0;
+    answer(reply, p.data(), window, count, F);
+    for (int a = 0; a < springs.points; ++a)
         for (int n = 0; n < count; ++n) {
             double power_j = window;
             for (int j = 0; j < n; ++j, power_j *= window) y[a * count + n] += springs.h(a, contacts)[j] * power_j * F[n - 1 - j];
-            y[a * count + n] += share * F[n];
         }
-    }
 }
 
-// Of the string with its thread [rate]: what the derivatives of impulse responses grow by in the end.
+// Of the string with its thread and what is in series [rate]: what the derivatives of impulse responses grow by in the end.
 double MacroWindow::largest_eigenvalue() const {
     double largest = 1;
-    if (!threaded()) return largest;
+    if (!threaded() && !series_) return largest;
     constexpr int count = longest_series;
-    double majorant = springs.growth(none_.data());
-    if (relaxes()) majorant = std::max(majorant, 2 * (1 + springs.k[contacts] * series_cc_) / (springs.r[contacts] * series_cc_));
-    const auto reply = reply_series(1 / majorant, count);
+    const double majorant = springs.growth(none_.data());
+    const auto reply = threaded() ? reply_series(1 / majorant, count) : std::vector<double>();
     std::vector<double> y(static_cast<std::size_t>(springs.points) * count), F(count);
     for (int b = 0; b < springs.points; ++b) {
         impulse_response(b, 1 / majorant, count, reply.data(), y.data(), F.data());
@@ -192,7 +183,8 @@ double MacroWindow::largest_eigenvalue() const {
                 largest = std::max(largest, majorant * std::pow(largest_from(late) / largest_from(early), 1.0 / (late - early)));
         }
     }
-    return std::min(largest, majorant);
+    const double alone = series_ ? series_rate(*series_) / osc.rate : 0;  // it is moved by its forces, as the modes are
+    return std::max(alone, std::min(largest, majorant));
 }
 
 // What a unit impulse at b does: to the points through the modes and the thread, and to the thread's force.
@@ -235,7 +227,7 @@ void MacroWindow::free_flow(double at, std::vector<double>& e) const noexcept {
     for (int i = 0; i < M; ++i) e12[i] /= length, e21[i] *= length;
 }
 
-void MacroWindow::open(const double* y, const double* u, bool plucked, double since_pluck, double thread) noexcept {
+void MacroWindow::open(const double* y, const double* u, bool plucked, double since_pluck, const double* z) noexcept {
     const Springs& s = springs;
     plucked_ = plucked;
     ModalSweep m;
@@ -247,6 +239,11 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
     m.y = y, m.u = u, m.a = a_.data(), m.b = b_.data(), m.base = base_.data(), m.weights = weights_.data();
     m.p = p_.data(), m.reach = reach_.data(), m.scratch = scratch_.data();
     sweep_->read(m);
+    if (series_) std::copy_n(z, series_->states, z_.begin());
+    for (int a = 0; series_ && a < s.points; ++a) {
+        in_window_.front().add_free(a, z, p_.data() + a * stride);
+        reach_[a] += std::abs(z[a]);
+    }
     std::copy_n(p_.begin(), contacts * stride, free_.begin());
     if (plucked) {
         double* f = force_.data() + s.points * stride;
@@ -258,25 +255,19 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
             double* out = (a < contacts ? free_.data() : p_.data()) + a * stride;
             for (int j = 0; j < known_; ++j, power *= length)
                 for (int n = j + 1; n <= known_; ++n) out[n] += s.h(a, s.points)[j] * power * f[n - 1 - j];
-            for (int n = 0; series_ && n <= known_; ++n) out[n] += series_->plucked(a == contacts) * f[n];
+            for (int n = 0; series_ && n <= known_; ++n) out[n] += series_->plucked(a) * f[n];
         }
     }
     if (threaded()) {
         double *F = force_.data() + contacts * stride, *p = p_.data() + contacts * stride;
         p[0] -= s.height[contacts];
         const double k = s.k[contacts], r = s.r[contacts] / length;
-        if (relaxes()) {
-            for (int n = terms - 1; n > 0; --n) p[n] = k * p[n - 1] + r * p[n];
-            p[0] = -r * series_cc_ * thread;
-        } else {
-            for (int n = 0; n < known_; ++n) p[n] = k * p[n] + r * p[n + 1];
-        }
+        for (int n = 0; n < known_; ++n) p[n] = k * p[n] + r * p[n + 1];
         sweep_->combined(F, size, p, known_, reply_.data() + stride, -1);
         std::fill(F + known_, F + size, 0.0);
         for (int a = 0; a < contacts; ++a) {
             double* f = free_.data() + a * stride;
             sweep_->combine(f, size, F, known_, by_thread_.data() + a * stride + size - 1, -1);
-            for (int n = 0; series_ && n < terms; ++n) f[n] += series_->share(false) * F[n];
         }
     }
     double largest = 0, most = s.pluck_reach;
@@ -314,21 +305,24 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
             if (M[b * stride] != 0)
                 sweep_->combine(m, size, answer_.data() + b * stride, known_, M + b * stride + 1, 1);  // kappa^(n) with M_(n+1)
         thread_impulse_ = m[0] * seconds();
-        if (relaxes()) {
-            const double* F = force_.data() + contacts * stride;
+        if (series_) {  // nobody else asks
             double now[3];
-            sweep_->evaluate(F, size, at, now);
+            sweep_->evaluate(force_.data() + contacts * stride, size, at, now);
             thread_force_ = now[0];
             for (int b = 0; b < contacts; ++b)
                 if (M[b * stride] != 0) thread_force_ += weighted_sum(answer_.data() + b * stride, M + b * stride, terms);
         }
-        for (int b = 0; series_ && b < contacts; ++b) thread_impulse_ -= series_->pull() * M[b * stride] * seconds();
         push(contacts, m);
     }
     if (plucked_) {
         double* m = moments_.data() + s.points * stride;
         sweep_->combined(m, size, force_.data() + s.points * stride, terms, e + 1, 1);
         push(s.points, m);
+    }
+    if (series_) {
+        for (int b = 0; b < contacts; ++b) moments_of_[b] = M[b * stride] != 0 ? M + b * stride : nullptr;
+        if (threaded()) moments_of_[contacts] = moments_.data() + contacts * stride;
+        in_window_.front().move(at, z_.data(), moments_of_.data(), z_now_.data());
     }
     return acting;
 }
@@ -379,34 +373,6 @@ MacroWindow::Push MacroWindow::push_at(double at) const noexcept {
         p.force = p.force * at + F[n] * inverse_factorial[n];
     }
     return p;
-}
-
-// The damper's loss, and what the pluck does to the deflections that it has a part in.
-MacroWindow::Power MacroWindow::series_power(const double* y, const Push& pluck) const noexcept {
-    Power power;
-    const Readings read = readings(y, thread_force_, pluck.force);
-    const auto [b, c] = series_->points.forces(read.b, read.c, read.Y);
-    if (relaxes()) {
-        const double r = springs.r[contacts] / osc.rate, v = -(c + springs.k[contacts] * read.Y) / r;
-        power.dissipated = r * v * v * seconds();
-    }
-    power.supplied = -(series_->C.be * b + series_->C.ce * c) * pluck.change;
-    return power;
-}
-
-// Of what is in series: what the modes read at barrier and thread, the pluck's part counted in, and Y_c - h_c.
-MacroWindow::Readings MacroWindow::readings(const double* y, double thread, double F_e) const noexcept {
-    const auto read = [&](int a) { return dot(osc, springs.weights.data() + static_cast<long>(a) * osc.padded, y); };
-    const double b = contacts > 0 ? read(0) + series_->C.be * F_e : 0, c = threaded() ? read(contacts) + series_->C.ce * F_e : 0;
-    return {b, c, series_->lag(c, thread)};
-}
-SeriesPoints::Forces MacroWindow::forces(const double* y, double thread, double F_e) const noexcept {
-    const Readings r = readings(y, thread, F_e);
-    return series_->points.forces(r.b, r.c, r.Y);
-}
-double MacroWindow::series_energy(const double* y, double thread, double F_e) const noexcept {
-    const Readings r = readings(y, thread, F_e);
-    return series_->points.energy(r.b, r.c, r.Y);
 }
 
 }  // namespace jvari

@@ -14,6 +14,7 @@
 
 #include "reference/exact/modal_sweep.hpp"
 #include "reference/exact/oscillators.hpp"
+#include "reference/exact/series_window.hpp"
 #include "reference/exact/springs.hpp"
 #include "reference/in_series.hpp"
 
@@ -24,8 +25,8 @@ struct WindowChoice {
     int terms = 2;     // derivatives kept
 };
 // For a relative `tolerance` and a string whose fastest motion grows by e^reach between two rows. Where stiff contact is split
-// (touching_set.hpp) no window spans more than longest_reach: beyond it more terms make that worse, not better. Where nothing is split,
-// with something in series or no contact at all, a window may span longest_unsplit, if most_terms are enough for it.
+// (touching_set.hpp) no window spans more than longest_reach: beyond it more terms make that worse, not better. Where there is no contact
+// a window may span longest_unsplit, if most_terms are enough for it.
 constexpr double longest_reach = 2.5, longest_unsplit = 5;
 constexpr int most_split_terms = 24, most_terms = 32;
 WindowChoice choose_window(double tolerance, double reach, bool split = true);
@@ -55,40 +56,33 @@ public:
     double kernel_truncation() const { return kernel_truncation_; }  // of a displacement, by an impulse M_0 of 1 [m]
     const SweepFunctions& sweep() const { return *sweep_; }
 
-    // thread: F_s of in_series.hpp at its start, where the thread has a state of its own [N]
-    void open(const double* y, const double* u, bool plucked, double since_pluck, double thread = 0) noexcept;
+    // z: the state of what is in series (in_series.hpp), where there is any
+    void open(const double* y, const double* u, bool plucked, double since_pluck, const double* z = nullptr) noexcept;
 
     // The modes at `at`, under contact forces of moments M[contact][stride]. The output may be the input of open().
     void state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept;
     // The same within a window, cheaper and good for integrals: (y, u) acts as the impulses (u + a y) delta + y delta'.
     void state_near(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept;
-    double thread_impulse() const { return thread_impulse_; }  // until the instant of the last state_at [N s]
-    double thread_force() const { return thread_force_; }      // F_s at that instant, where the thread has a state
+    double thread_impulse() const { return thread_impulse_; }     // until the instant of the last state_at [N s]
+    const double* series_state() const { return z_now_.data(); }  // z at that instant
     const std::optional<InSeries>& series() const { return series_; }
-    SeriesPoints::Forces forces(const double* y, double thread, double F_e) const noexcept;  // of what is in series, in that state
-    double series_energy(const double* y, double thread, double F_e) const noexcept;         // [J]
+    double thread_force() const { return thread_force_; }             // at that instant [N]
+    void series_speed(const double* F, double* out) const noexcept {  // z' there [per window], under the forces of contacts and thread
+        in_window_.front().speed(z_now_.data(), F, out);
+    }
 
     struct Push {
         double force = 0, change = 0;  // of the pluck [N], and its derivative [N/window]
     };
     Push push_at(double at) const noexcept;
     double push_growth() const { return plucked_ ? push_growth_ : 0; }  // of the open window: its derivatives grow by so much each
-    struct Power {
-        double supplied = 0, dissipated = 0;  // [J/window]
-    };
-    Power series_power(const double* y, const Push&) const noexcept;  // of what is in series, at the instant of the last state_at
     bool threaded() const { return springs.points > contacts; }
 
 private:
     double largest_eigenvalue() const;
     std::vector<double> reply_series(double window, int count) const;
-    void answer(const double* reply, const double* motion, double first, double window, int count, double* F) const;
+    void answer(const double* reply, const double* motion, double window, int count, double* F) const;
     void impulse_response(int force, double window, int count, const double* reply, double* y, double* F) const;
-    struct Readings {
-        double b, c, Y;
-    };
-    Readings readings(const double* y, double thread, double F_e) const noexcept;
-    bool relaxes() const { return series_ && series_->relaxes(); }
     void make_base(const Modes&);
     void make_kernel();
     void free_flow(double at, std::vector<double>& e) const noexcept;
@@ -98,7 +92,9 @@ private:
     const SweepFunctions* sweep_;
     int known_;  // derivatives of the thread's force: its damper needs one more of its point's motion
     std::optional<InSeries> series_;
-    double series_cc_ = 0;      // C_cc [m/N]
+    std::vector<SeriesWindow> in_window_;  // none or one
+    std::vector<double> z_, z_now_;        // of what is in series, at the window's start and at the instant of the last state_at
+    std::vector<const double*> moments_of_;
     std::vector<Pluck> pluck_;  // none or one
     std::vector<char> none_;
     std::vector<int> sweep_terms_;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/exact/series_window.hpp"
+
 namespace jvari {
 
-Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s, double pull) {
+Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s, const std::optional<InSeries>& in_series) {
     const double gain = 1 / (modes.mass * osc.rate * osc.rate);
     const auto add = [&](std::vector<double> g) {
         const auto w = osc.pad(g), d = osc.pad(g, gain);
@@ -27,7 +29,6 @@ Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s, do
         height.push_back(s.thread->height);
     }
     points = static_cast<int>(k.size());
-    for (int i = 0; pull != 0 && i < contacts * osc.padded; ++i) gains[i] -= pull * gains[contacts * osc.padded + i % osc.padded];
     forces = points + (s.pluck ? 1 : 0);
     if (s.pluck) {
         const auto g = footprint_weights(modes, s.pluck->position, s.pluck->width);
@@ -45,9 +46,16 @@ Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s, do
         if (b == points)
             for (double reach : bound) pluck_reach = std::max(pluck_reach, reach * std::abs(s.pluck->amplitude));
     }
+    for (int a = 0; in_series && a < points; ++a)
+        for (int b = 0; b < points; ++b) {
+            const auto more = series_kernel(*in_series, osc.rate, a, b, longest_series);
+            double* hab = kernel.data() + (static_cast<long>(a) * forces + b) * longest_series;
+            for (int n = 0; n < longest_series; ++n) hab[n] += more[n];
+        }
 
     sized_.assign(static_cast<long>(points) * forces, 0.0);
-    for (floor_ = 2;;) {  // |h^(i)| <= i |h^(1)| bound: beyond the series kept, i 2^-i is nothing
+    for (floor_ = std::max(2.0, in_series ? 2 * series_rate(*in_series) / osc.rate : 0);
+         ;) {  // |h^(i)| <= i |h^(1)| bound: beyond the series kept, i 2^-i is nothing
         for (int a = 0; a < points; ++a)
             for (int b = 0; b < forces; ++b) {
                 double power = 1, sum = 0;
@@ -66,8 +74,9 @@ double Springs::growth(const char* touching) const {
         double K = 0, R = 0;
         for (int b = 0; b < points; ++b) {
             if (b < contacts && !touching[b]) continue;
-            K += sized_[a * forces + b] * k[b];
-            R += sized_[a * forces + b] * r[b];
+            const double own = 1 + r[b] * h(b, b)[0];
+            K += sized_[a * forces + b] * k[b] / own;
+            R += (sized_[a * forces + b] * r[b] + std::abs(h(a, b)[0]) * k[b]) / own;
         }
         rho = std::max(rho, (R + std::sqrt(R * R + 3.6 * K)) / 1.8);
     }

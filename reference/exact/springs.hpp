@@ -3,20 +3,22 @@
 //
 //     y_a(t) = p_a(t) + sum_b int_0^t h_ab(t - s) F_b(s) ds,    F_b = k_b (height_b - y_b) - r_b y_b'
 //
-// whose Taylor coefficients follow one from another (h_ab(0) = 0), and whose remainder a majorant bounds: if
+// whose Taylor coefficients follow one from another, and whose remainder a majorant bounds: if
 // sum_b sum_i |h_ab^(i)| rho^(-i-1) (k_b + r_b rho) <= 0.9 for every a, then |y_a^(n)| <= C rho^n from one n on means the same for all n.
+// h_ab(0) = 0 but of a point with something in series (in_series.hpp), whose own h(0) divides its k and r by 1 + r h(0).
 // Times are in units of 1/rate (oscillators.hpp). Leaves out: contact loss, exponents other than 1.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "reference/exact/oscillators.hpp"
+#include "reference/in_series.hpp"
 
 namespace jvari {
 
 struct Springs {
-    // pull: how much of a contact's force the thread's point takes back (in_series.hpp), 0 where nothing is in series
-    Springs(const Modes&, const Oscillators&, const String&, double pull = 0);
+    Springs(const Modes&, const Oscillators&, const String&, const std::optional<InSeries>& = {});
 
     int contacts = 0;                  // points 0 ... contacts - 1; the thread, where there is one, is the last point
     int points = 0;                    // contacts and thread
@@ -33,7 +35,7 @@ struct Springs {
     double growth(const char* touching) const;
 
     // Over a window of length z: y[a][n] and F[b][n] are n-th derivatives x z^n, n < terms. p[a][n] likewise, n < p_terms, and F of the
-    // pluck, are given.
+    // pluck, are given. With nothing in series.
     void solve(const char* touching, double z, const double* p, int p_terms, int terms, double* y, double* F) const;
 
 private:

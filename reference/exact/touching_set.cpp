@@ -16,7 +16,7 @@ using Complex = std::complex<Real>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr Real stiff = 12;           // the slowest fast pair, in radians per window
+constexpr Real stiff = 12;           // the slowest fast pair in radians per window, or decay
 constexpr Real most_spans = 100;     // of a window
 constexpr Real longest_span = 9;     // of a soft set's growth: e^9 last bits are as much as the tolerances here bear
 constexpr int resolvent_terms = 72;  // 9^72/72! is nothing
@@ -50,47 +50,49 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
         for (int a = 0; a < P; ++a)
             for (int b = 0; b < P; ++b) A[j](a, b) = h(points_[a], points_[b], j) * k_[b];
 
-    // The fast invariant subspace: (p, p')' = L (p, p') with I^(j-1) p = [1 0] L^(1-j) (p, p').
+    // The fast invariant subspace: (p, ... p^(o-1))' = L (p, ... p^(o-1)) with I^i p = [1 0] L^-i (p, ...).
+    const int o = order_ = A[0].isZero(0) ? 2 : 1;
     Matrix symmetric(P, P);
     for (int a = 0; a < P; ++a)
-        for (int b = 0; b < P; ++b) symmetric(a, b) = A[1](a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
+        for (int b = 0; b < P; ++b) symmetric(a, b) = A[o - 1](a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
     const Matrix even = (symmetric + symmetric.transpose()) / 2;
-    const bool all_stiff = Eigen::LLT<Matrix>(even - stiff * stiff * Matrix::Identity(P, P)).info() == Eigen::Success;
-    if (!all_stiff || !A[0].isZero(0)) {
+    const bool all_stiff = Eigen::LLT<Matrix>(even - std::pow(stiff, Real(o)) * Matrix::Identity(P, P)).info() == Eigen::Success;
+    if (!all_stiff) {
         soften();
         return;
     }
-    Matrix L = Matrix::Zero(2 * P, 2 * P);
-    L.topRightCorner(P, P).setIdentity();
-    L.bottomLeftCorner(P, P) = -A[1];
-    for (int i = 0; i < 200; ++i) {
+    Matrix first = Matrix::Zero(o * P, o * P);
+    if (o == 2) first.topRightCorner(P, P).setIdentity();
+    first.bottomLeftCorner(P, P) = -A[o - 1];
+    Matrix L = first;
+    Real change = 1;
+    for (int i = 0; i < 200 && change >= 1e-18L; ++i) {
         const Matrix inverse = L.inverse();
-        Matrix next = L, power = inverse;
-        next.bottomRows(P).setZero();
-        next.bottomLeftCorner(P, P) = -A[1];
-        for (int j = 2; j < N; ++j, power = power * inverse) next.bottomRows(P) -= A[j] * power.topRows(P);
-        const Real change = (next - L).norm() / L.norm();
+        Matrix next = first, power = inverse;
+        for (int j = o; j < N; ++j, power = power * inverse) next.bottomRows(P) -= A[j] * power.topRows(P);
+        change = (next - L).norm() / L.norm();
         L = next;
-        if (change < 1e-18L) break;
     }
+    if (!(change < 1e-15L)) return;  // no part is so much faster than the others
     const Eigen::EigenSolver<Matrix> eigen(L);
     std::vector<Complex> rates;
     ComplexMatrix v(P, P);
-    for (int k = 0; k < 2 * P; ++k) {
-        if (!(eigen.eigenvalues()(k).imag() > 0) || static_cast<int>(rates.size()) == P) continue;
+    for (int k = 0; k < o * P; ++k) {
+        const bool wanted = o == 2 ? eigen.eigenvalues()(k).imag() > 0 : eigen.eigenvalues()(k).imag() == 0;
+        if (!wanted || static_cast<int>(rates.size()) == P) continue;
         v.col(static_cast<int>(rates.size())) = eigen.eigenvectors().col(k).head(P);
         v.col(static_cast<int>(rates.size())) /= v.col(static_cast<int>(rates.size())).norm();
         rates.push_back(eigen.eigenvalues()(k));
     }
-    if (static_cast<int>(rates.size()) < P) return;  // a pair that does not oscillate
+    if (static_cast<int>(rates.size()) < P) return;  // a pair that does not oscillate, or a decay that does
     for (const Complex& rate : rates)
         if (rate.real() > 0) return;
 
     // G: rows and columns [derivative][point].
     Matrix operation = Matrix::Zero(P * N, P * N);
     for (int n = 0; n < N; ++n) {
-        if (n + 2 < N) operation.block(n * P, (n + 2) * P, P, P).setIdentity();
-        for (int j = 1; j <= n + 1 && j < N; ++j) operation.block(n * P, (n + 1 - j) * P, P, P) += A[j];
+        if (n + o < N) operation.block(n * P, (n + o) * P, P, P).setIdentity();
+        for (int j = o - 1; j <= n + o - 1 && j < N; ++j) operation.block(n * P, (n + o - 1 - j) * P, P, P) += A[j];
     }
     const Matrix G = operation.partialPivLu().inverse();
 
@@ -98,17 +100,18 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     for (int k = 0; k < P; ++k)
         for (int n = 0; n < N; ++n) {
             Complex power = Complex(1) / rates[k];
-            for (int j = n + 2; j < N; ++j, power /= rates[k]) q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
+            for (int j = n + o; j < N; ++j, power /= rates[k]) q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
         }
     const ComplexMatrix Q = G * q;
 
-    Matrix start(2 * P, 2 * P);  // beta -> (p(0), p'(0))
+    Matrix start(o * P, o * P);  // beta, real and for pairs imaginary part -> p(0) and for pairs p'(0)
     for (int k = 0; k < P; ++k) {
-        const ComplexMatrix here = v.col(k) + Q.block(0, k, P, 1), speed = rates[k] * v.col(k) + Q.block(P, k, P, 1);
-        start.block(0, k, P, 1) = here.real();
-        start.block(0, P + k, P, 1) = -here.imag();
-        start.block(P, k, P, 1) = speed.real();
-        start.block(P, P + k, P, 1) = -speed.imag();
+        ComplexMatrix here = v.col(k);
+        for (int d = 0; d < o; ++d, here *= rates[k]) {
+            const ComplexMatrix all = here + Q.block(d * P, k, P, 1);
+            start.block(d * P, k, P, 1) = all.real();
+            if (o == 2) start.block(d * P, P + k, P, 1) = -all.imag();
+        }
     }
     const Matrix inverse = start.inverse();
 
@@ -116,11 +119,11 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     growth_ = w.reach;
     for (const Complex& rate : rates) rate_.push_back(static_cast<std::complex<double>>(rate));
     beta_.resize(2 * P);
-    start_.resize(4 * P * P);
-    for (int i = 0; i < 2 * P; ++i)
-        for (int j = 0; j < 2 * P; ++j) start_[i * 2 * P + j] = static_cast<double>(inverse(i, j));
+    start_.resize(o * o * P * P);
+    for (int i = 0; i < o * P; ++i)
+        for (int j = 0; j < o * P; ++j) start_[i * o * P + j] = static_cast<double>(inverse(i, j));
     inverse_.assign(static_cast<std::size_t>(P) * N * P * size, 0.0);
-    for (int m = 0; m + 2 < N; ++m)
+    for (int m = 0; m + o < N; ++m)
         for (int b = 0; b < P; ++b)
             for (int a = 0; a < P; ++a)
                 for (int n = 0; n < N; ++n)
@@ -143,7 +146,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
             }
             Complex sum = 0;  // -sum_b k_b v_b sum_j h_j lambda^(-j-1) of e^(lambda u), and what I^(j+1) leaves of it as powers
             for (int b = 0; b < P; ++b)
-                for (int j = 1; j < N; ++j) {
+                for (int j = 0; j < N; ++j) {
                     const Complex part = -static_cast<Real>(k_[b]) * v(b, k) * h(a, points_[b], j);
                     sum += part * std::pow(rates[k], static_cast<Real>(-j - 1));
                     for (int n = 0; n <= j; ++n) add(n, -part * std::pow(rates[k], static_cast<Real>(n - j - 1)));
@@ -203,16 +206,16 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
         double* out = path + points_[a] * stride;
         std::fill_n(out, size, 0.0);
         for (int b = 0; b < P; ++b)
-            combine(out, size, r + points_[b] * stride + 2, N - 2, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
+            combine(out, size, r + points_[b] * stride + order_, N - order_, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
                     static_cast<long>(P) * P * size);
     }
     for (int k = 0; k < pairs_; ++k) {
         double re = 0, im = 0;
         for (int b = 0; b < P; ++b)
-            for (int d = 0; d < 2; ++d) {
+            for (int d = 0; d < order_; ++d) {
                 const double x = r[points_[b] * stride + d] - path[points_[b] * stride + d];
-                re += start_[k * 2 * P + d * P + b] * x;
-                im += start_[(P + k) * 2 * P + d * P + b] * x;
+                re += start_[k * order_ * P + d * P + b] * x;
+                if (order_ == 2) im += start_[(P + k) * 2 * P + d * P + b] * x;
             }
         beta_[2 * k] = re;
         beta_[2 * k + 1] = -im;
@@ -234,6 +237,14 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
         }
         add_pairs(a);
     }
+}
+
+double TouchingSet::force(int which, const double* path, const std::complex<double>* amplitude, double u) const noexcept {
+    const int a = points_[which];
+    double now[3];
+    window_->sweep().evaluate(path + a * window_->stride, window_->size, u, now);
+    for (int k = 0; k < pairs_; ++k) now[0] += (amplitude[a * pairs_ + k] * std::exp(rate_[k] * u)).real();
+    return -k_[which] * now[0];
 }
 
 void TouchingSet::moments(int which, const double* path, const std::complex<double>* amplitude, double u, int count,

@@ -47,12 +47,17 @@ WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolera
         return w.osc.pad({first, first + M}, factor);
     };
     thread_ = pluck_ = y_ = u_ = lost_ = std::vector<double>(M, 0.0);
-    if (w.threaded() && !w.series()) {  // in series the thread moves otherwise than its point
+    if (w.threaded()) {
         thread_ = row(s.weights, w.contacts, 1);
         thread_loss_ = s.r[w.contacts] / w.osc.rate / seconds;
     }
     if (s.forces > s.points) pluck_ = row(s.gains, s.points, modes.mass * w.osc.rate * w.osc.rate);
     moments_.assign(static_cast<std::size_t>(w.contacts + 1) * w.stride, 0.0);
+    force_.assign(w.contacts + 2, 0.0);
+    if (w.series()) {
+        speed_.assign(w.series()->states, 0.0);
+        for (double q : w.series()->loss) series_loss_.push_back(q / seconds);
+    }
     lost_to_.assign(static_cast<std::size_t>(w.contacts + 1) * most_nodes, 0.0);
     gained_by_ = lost_to_;
 }
@@ -72,8 +77,13 @@ WindowEnergies::Pairs WindowEnergies::pairs_of(const TouchingSet& set) {
     if (P == 0) return p;
     const std::vector<double> rest(M, 0.0);
     std::vector<double> y(M), alone(M), u(M);
-    w.open(rest.data(), rest.data(), false, 0);  // the thread alone acts then: what it does is taken off
+    const int states = static_cast<int>(speed_.size());
+    w.open(rest.data(), rest.data(), false, 0,
+           std::vector<double>(states).data());  // the thread alone acts then: what it does is taken off
     w.state_at(1, p.moments.data(), rest.data(), rest.data(), y.data(), alone.data());
+    const std::vector<double> z_alone(w.series_state(), w.series_state() + states);
+    const double thread_alone = w.thread_force();
+    p.force.assign(static_cast<std::size_t>(P) * w.springs.points, 0.0);
     for (int k = 0; k < P; ++k) {
         for (std::size_t i = 0; i < set.points().size(); ++i) {
             Complex moment = set.pair_force(static_cast<int>(i), k);
@@ -84,18 +94,33 @@ WindowEnergies::Pairs WindowEnergies::pairs_of(const TouchingSet& set) {
                 m[row + n] = moment.imag();
             }
         }
-        for (int part = 2 * k; part < 2 * k + 2; ++part) {
-            w.state_at(1, p.moments.data() + part * row, rest.data(), rest.data(), y.data(), u.data());
+        std::vector<Complex> z(states);
+        Complex thread = 0, *force = p.force.data() + k * w.springs.points;
+        for (std::size_t i = 0; i < set.points().size(); ++i) force[set.points()[i]] = set.pair_force(static_cast<int>(i), k);
+        for (const Complex part : {Complex(1, 0), Complex(0, 1)}) {
+            const double* m = p.moments.data() + (2 * k + (part.imag() > 0 ? 1 : 0)) * row;
+            w.state_at(1, m, rest.data(), rest.data(), y.data(), u.data());
             for (int i = 0; i < M; ++i) u[i] -= alone[i];
             p.velocity.insert(p.velocity.end(), u.begin(), u.end());
-            p.thread.push_back(dot(w.osc, thread_.data(), u.data()));
+            thread += part * dot(w.osc, thread_.data(), u.data());
+            if (w.threaded()) force[w.contacts] += part * (w.thread_force() - thread_alone);
+            for (int j = 0; j < states; ++j) z[j] += part * (w.series_state()[j] - z_alone[j]);
         }
+        for (Complex& x : z) x *= p.rates[k];  // velocities
+        if (w.threaded() && states > 0) thread += z[w.contacts];
+        p.thread.push_back(thread);
+        p.series.insert(p.series.end(), z.begin(), z.end());
     }
     for (int k = 0; k < P; ++k) {
         const auto W = [&](int pair, int i) { return Complex(p.velocity[2 * pair * M + i], p.velocity[(2 * pair + 1) * M + i]); };
-        const auto Y = [&](int pair) { return Complex(p.thread[2 * pair], p.thread[2 * pair + 1]); };
         for (int l = 0; l < P; ++l) {
-            Complex product = thread_loss_ * Y(k) * Y(l), of_conjugate = thread_loss_ * Y(k) * std::conj(Y(l));
+            Complex product = thread_loss_ * p.thread[k] * p.thread[l], of_conjugate = thread_loss_ * p.thread[k] * std::conj(p.thread[l]);
+            for (int i = 0; i < states; ++i)
+                for (int j = 0; j < states; ++j) {
+                    const Complex lost = series_loss_[i * states + j] * p.series[k * states + i], other = p.series[l * states + j];
+                    product += lost * other;
+                    of_conjugate += lost * std::conj(other);
+                }
             for (int i = 0; i < M; ++i) {
                 product += loss_[i] * W(k, i) * W(l, i);
                 of_conjugate += loss_[i] * W(k, i) * std::conj(W(l, i));
@@ -136,23 +161,33 @@ void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) no
         const Complex z = s.touch->set.beta(k) * std::exp(s.touch->pairs.rates[k] * (at - s.from));
         const double *re = s.touch->pairs.moments.data() + 2 * k * row, *im = re + row;
         for (std::size_t n = 0; n < row; ++n) moments_[n] -= z.real() * re[n] - z.imag() * im[n];
+        for (int a = 0; a < w.contacts; ++a) force_[a] -= (z * s.touch->pairs.force[k * w.springs.points + a]).real();
     }
     w.state_near(at, moments_.data(), s.y, s.u, y_.data(), u_.data());
+    const int states = static_cast<int>(speed_.size());
+    if (w.threaded()) force_[w.contacts] = w.thread_force();
+    if (w.series()) w.series_speed(force_.data(), speed_.data());
     for (int i = 0; i < M; ++i) lost_[i] = loss_[i] * u_[i];
-    const double thread = thread_loss_ > 0 ? dot(w.osc, thread_.data(), u_.data()) : 0;
-    sums.dissipated += weight * (dot(w.osc, lost_.data(), u_.data()) + thread_loss_ * thread * thread);
     const MacroWindow::Push pluck = w.push_at(at);
+    double thread = thread_loss_ > 0 ? dot(w.osc, thread_.data(), u_.data()) : 0;
+    if (w.threaded() && states > 0) thread += speed_[w.contacts] + w.series()->plucked(w.contacts) * pluck.change;
+    sums.dissipated += weight * (dot(w.osc, lost_.data(), u_.data()) + thread_loss_ * thread * thread);
     if (pluck.force != 0) sums.supplied += weight * pluck.force * dot(w.osc, pluck_.data(), u_.data());
     for (int k = 0; k < P; ++k) {
         const Pairs& p = s.touch->pairs;
-        const Complex at_thread(p.thread[2 * k], p.thread[2 * k + 1]);
-        lost_to_[k * most_nodes + q] = 2.0 * (p.against(lost_, k, w.osc) + thread_loss_ * thread * at_thread);
+        lost_to_[k * most_nodes + q] = 2.0 * (p.against(lost_, k, w.osc) + thread_loss_ * thread * p.thread[k]);
         gained_by_[k * most_nodes + q] = pluck.force * p.pluck[k];
     }
-    if (w.series()) {
-        const auto p = w.series_power(y_.data(), pluck);
-        sums.supplied += weight * p.supplied;
-        sums.dissipated += weight * p.dissipated;
+    for (int i = 0; i < states; ++i)
+        for (int j = 0; j < states; ++j) {
+            const double lost = series_loss_[i * states + j] * speed_[i];
+            sums.dissipated += weight * lost * speed_[j];
+            for (int k = 0; k < P; ++k) lost_to_[k * most_nodes + q] += 2.0 * lost * s.touch->pairs.series[k * states + j];
+        }
+    for (int a = 0; states > 0 && a < w.springs.points; ++a) {  // the points move by C_ae F_e as well
+        const double per_force = -w.series()->plucked(a) * pluck.change;
+        sums.supplied += weight * per_force * force_[a];
+        for (int k = 0; k < P; ++k) gained_by_[k * most_nodes + q] += per_force * s.touch->pairs.force[k * w.springs.points + a];
     }
 }
 

@@ -1,10 +1,11 @@
 // Energy that a string gains and loses within a macro window (van Walstijn et al. 2016, eqs 1, 12 and 19):
 //
-//     dissipated = int sum_i 2 m sigma_i v_i^2 + r_c v_c^2 dt,      supplied = int F_e v_e dt
+//     dissipated = int sum_i 2 m sigma_i v_i^2 + r_c v_c^2 + z' Q z' dt,      supplied = int F_e v_e - F_e' sum_a C_ae F_a dt
 //
-// with v the velocities of modes, thread and pluck. Where stiff contacts touch, v = S + Re sum_k beta_k W_k e^(lambda_k t): S as slow as
-// the string, and one fast pair per contact (touching_set.hpp). Slow products are integrated by Gauss-Legendre, S against a pair as a
-// Legendre series against its exponential, two pairs in closed form: so the nodes follow the string, not the contact.
+// with v the velocities of modes, thread and pluck, z and C_ae of what is in series (in_series.hpp). Where stiff contacts touch, v = S + Re
+// sum_k beta_k W_k e^(lambda_k t): S as slow as the string, and one fast pair per contact (touching_set.hpp). Slow products are integrated
+// by Gauss-Legendre, S against a pair as a Legendre series against its exponential, two pairs in closed form: so the nodes follow the
+// string, not the contact.
 #pragma once
 
 #include <complex>
@@ -27,7 +28,9 @@ public:
     struct Pairs {
         std::vector<std::complex<double>> rates;                          // [1/window]
         std::vector<double> moments;                                      // [2 pair][contact x stride]: real and imaginary part
-        std::vector<double> velocity, thread;                             // W [2 pair][mode], and where the thread is [2 pair]
+        std::vector<double> velocity;                                     // W [2 pair][mode]
+        std::vector<std::complex<double>> thread, series;                 // where the thread is [pair], of z [pair][state]
+        std::vector<std::complex<double>> force;                          // of contacts and thread [pair][point]
         std::vector<std::complex<double>> product, product_of_conjugate;  // W' L W and W' L conj(W) [pair][pair], L the losses
         std::vector<std::complex<double>> pluck;                          // W_k where the pluck acts
         std::complex<double> against(const std::vector<double>& row, int pair, const Oscillators&) const;  // row' W_k
@@ -44,7 +47,7 @@ public:
         const double *y, *u;
         const Touch* touch = nullptr;  // solved at `from`; nullptr: no springs touch
     };
-    // moments(at, M) gives the contact forces' moments M[contact][stride].
+    // moments(at, M, F) gives the contact forces' moments M[contact][stride], and the forces.
     template <class Moments>
     void spend(const Stretch& s, Moments&& moments, Sums& sums) noexcept {
         const int pieces = plan(s);
@@ -52,7 +55,7 @@ public:
             const double start = s.from + length_ * i;
             for (int q = 0; q < rule_->nodes; ++q) {
                 const double at = start + length_ * rule_->node[q];
-                moments(at, moments_.data());
+                moments(at, moments_.data(), force_.data());
                 add_node(s, q, at, sums);
             }
             if (split_) add_pairs(s, start, sums);
@@ -71,13 +74,14 @@ private:
     void add_pairs(const Stretch&, double start, Sums&) noexcept;
 
     MacroWindow* window_;
-    std::vector<Rule> rules_;                     // the coarsest first
-    std::vector<double> loss_;                    // [mode]: J per squared displacement in a window
-    double thread_loss_ = 0;                      // and of the thread's point
-    std::vector<double> thread_, pluck_;          // per mode's displacement in a window, those of thread and pluck, this one per window
-    std::vector<double> legendre_;                // [degree][node]: values to a Legendre series
-    std::vector<double> moments_, y_, u_, lost_;  // of a node
-    std::vector<std::complex<double>> lost_to_, gained_by_;  // [pair][node]: S against W_k, and F_e
+    std::vector<Rule> rules_;             // the coarsest first
+    std::vector<double> loss_;            // [mode]: J per squared displacement in a window
+    double thread_loss_ = 0;              // and of the thread's point
+    std::vector<double> series_loss_;     // and of z [state][state]
+    std::vector<double> thread_, pluck_;  // per mode's displacement in a window, those of thread and pluck, this one per window
+    std::vector<double> legendre_;        // [degree][node]: values to a Legendre series
+    std::vector<double> moments_, y_, u_, lost_, force_, speed_;  // of a node
+    std::vector<std::complex<double>> lost_to_, gained_by_;       // [pair][node]: S against W_k, and F_e
     const Rule* rule_ = nullptr;
     double length_ = 0;  // of a piece [window]
     bool split_ = false;

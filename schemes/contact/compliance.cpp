@@ -243,11 +243,6 @@ MissingCompliance::MissingCompliance(const MissingMatrix& m) {
     }
 }
 
-MissingCompliance missing_compliance(const std::string& who, const String& s, const Sites& sites, std::size_t taps, int kept,
-                                     const OwnResponse& own) {
-    return MissingCompliance(missing_matrix(who, s, sites, taps, kept, own));
-}
-
 String with_profile_points(String s, const Settings& settings) {
     const double count = number_option(settings, profile_points_option);
     if (!(count >= 1 && count <= most_profile_points) || count != std::floor(count))

@@ -81,7 +81,8 @@ struct MissingMatrix {
         return sum;
     }
 };
-// `kept`: how many of the string's modes the scheme has.
+// `kept`: how many of the string's modes the scheme has. Refuses a string that is too soft already, since what is missing can stand in
+// series only where it is more than nothing; `who` opens the sentence.
 MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps, int kept, const OwnResponse& own);
 
 struct MissingCompliance {                          // of one contact at most [m/N]; 0 where a part is absent
@@ -95,11 +96,6 @@ struct MissingCompliance {                          // of one contact at most [m
     explicit MissingCompliance(const MissingMatrix&);
     MissingCompliance() = default;
 };
-// Refuses a string that is too soft already, since what is missing can stand in series only where it is more than nothing; `who` opens the
-// sentence.
-MissingCompliance missing_compliance(const std::string& who, const String&, const Sites&, std::size_t taps, int kept,
-                                     const OwnResponse& own);
-
 // Whether compliance=matched is asked for, of a scheme that leaves out contact loss and a moving body then: Refusal where the scene has
 // one.
 bool matched_without_loss(const Descriptor&, const Scene&, const Settings&);

@@ -9,6 +9,12 @@
 namespace jvari {
 
 // own: what the scheme makes of 1 N of steady modal force on each mode [m/N].
-MissingCompliance modal_compliance(const Descriptor&, const Scene&, const Modes&, std::span<const double> own);
+MissingMatrix modal_missing_matrix(const Descriptor&, const Scene&, const Modes&, std::span<const double> own);
+
+// The same of one lumped barrier at most.
+inline MissingCompliance modal_compliance(const Descriptor& descriptor, const Scene& scene, const Modes& modes,
+                                          std::span<const double> own) {
+    return MissingCompliance(modal_missing_matrix(descriptor, scene, modes, own));
+}
 
 }  // namespace jvari
