@@ -1,8 +1,15 @@
 #include "reference/agreement.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "reference/certificate.hpp"
 
 namespace jvari {
+
+namespace {
+constexpr double slowest = 0.70710678118654752, fastest = 0.25;  // ratios of a doubling to the one before: orders 1/2 and 2
+}
 
 double relative_difference(std::span<const double> a, std::span<const double> b, double rate, double until) {
     const auto within = [&](std::span<const double> x) {
@@ -18,6 +25,13 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
         result.relative_l2[w] = relative_difference(a, b, rate, agreement_windows[w]);
     for (std::size_t l = 0; l < agreement_levels.size(); ++l) result.until[l] = agree_until(a, b, rate, agreement_levels[l]);
     return result;
+}
+
+double left_after(double last, double before) {
+    const double ratio = last / before;
+    if (!(ratio <= slowest)) return (and_further_ones - 1) * std::fmax(last, before);
+    const double seen = std::max(ratio, fastest);
+    return last * seen / (1 - seen);
 }
 
 }  // namespace jvari

@@ -22,4 +22,9 @@ struct Agreement {                                               // of one tap
 };
 Agreement agreement(std::span<const double> a, std::span<const double> b, double rate);
 
+// What all further doublings change, by what the last one changed and the one before it (NaN: there was none). They are a geometric series
+// whose ratio is the one observed: at least a quarter, as of order two, since one pair can agree by chance. With one doubling, or where
+// they do not get smaller so fast, the order is one half, and the larger of the two counts.
+double left_after(double last, double before);
+
 }  // namespace jvari

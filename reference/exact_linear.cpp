@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "reference/gauss_legendre.hpp"
@@ -60,7 +61,9 @@ private:
     void push(State&, double from, double to) const noexcept;  // free flight and the pluck's force, one panel
     void ledger(double from, double to) noexcept;              // from state_, energies of one panel by quadrature
     double stored() const noexcept;
-    long panels(double length) const noexcept { return static_cast<long>(std::clamp(std::ceil(length * rate_ / 3), 1.0, 1e18)); }
+    long panels(double length) const noexcept {
+        return static_cast<long>(std::clamp(std::ceil(length * rate_ / 3), 1.0, 0.5 * std::numeric_limits<long>::max()));
+    }
 
     Modes modes_;
     Readout readout_;

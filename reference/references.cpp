@@ -6,7 +6,9 @@ std::span<const Descriptor> references() {
     static const Descriptor table[] = {
         exact_linear,
         exact_contact,
+#if !defined(JVARI_WITHOUT_SUNDIALS)  // the page's module
         sundials,
+#endif
     };
     return table;
 }

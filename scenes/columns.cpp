@@ -1,7 +1,6 @@
 #include "scenes/columns.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -55,11 +54,10 @@ struct ColumnLine {
 
     double number(const std::vector<std::string_view>& cells, std::size_t i, const Column& c) const {
         const std::string_view cell = i < cells.size() ? cells[i] : "";
-        double x = 0;
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
-        if (error != std::errc() || end != cell.data() + cell.size() || !c.range.holds(x))
+        const auto x = number_of(cell);
+        if (!x || !c.range.holds(*x))
             throw SceneFileError(place + ": " + c.name + ": found " + found_text(cell) + ", expected " + c.range.says);
-        return x;
+        return *x;
     }
 };
 }  // namespace

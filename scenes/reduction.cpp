@@ -119,7 +119,7 @@ void remove_idle_taps(Scene& scene, const std::string& kept) {
     std::erase_if(scene.taps, [&](const Tap& t) {
         if (t.name == kept) return false;
         if (t.string) return lacks(scene.strings[*t.string], t.quantity) != nullptr;
-        return std::ranges::all_of(scene.strings, [&t](const String& s) { return lacks(s, t.quantity) != nullptr; });
+        return std::all_of(scene.strings.begin(), scene.strings.end(), [&t](const String& s) { return lacks(s, t.quantity) != nullptr; });
     });
 }
 

@@ -1,18 +1,52 @@
 #include "scenes/wording.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
 namespace jvari {
 
+#if defined(__cpp_lib_to_chars)
 std::string number_text(double x) {
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, x).ptr;
     return {text, end};
 }
+
+std::optional<double> number_of(std::string_view text) {
+    double x = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(x) : std::nullopt;
+}
+#else  // a standard library that has both for whole numbers alone: Emscripten's
+std::string number_text(double x) {
+    char scientific[32], fixed[400];
+    if (!std::isfinite(x)) return std::isnan(x) ? "nan" : x < 0 ? "-inf" : "inf";
+    for (int digits = 0; digits < 17; ++digits) {
+        std::snprintf(scientific, sizeof scientific, "%.*e", digits, x);
+        if (std::strtod(scientific, nullptr) != x) continue;
+        const int after_the_point = digits - std::atoi(std::strchr(scientific, 'e') + 1);
+        std::snprintf(fixed, sizeof fixed, "%.*f", std::max(0, after_the_point), x);
+        break;
+    }
+    return std::strlen(fixed) <= std::strlen(scientific) ? fixed : scientific;
+}
+
+std::optional<double> number_of(std::string_view text) {
+    const std::string copy(text);
+    if (copy.find_first_not_of("+-.0123456789eEinfatyINFATY") != std::string::npos || copy.empty() || copy[0] == '+') return std::nullopt;
+    char* end = nullptr;
+    errno = 0;
+    const double x = std::strtod(copy.c_str(), &end);
+    return *end || (errno == ERANGE && std::abs(x) != 0) ? std::nullopt : std::optional(x);
+}
+#endif
 
 std::string quote(std::string_view s) {
     std::string text = "\"";

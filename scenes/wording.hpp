@@ -1,6 +1,7 @@
 // How messages name what was found: quoted texts, shortest numbers, the nearest known word.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,7 @@
 namespace jvari {
 
 std::string number_text(double);                             // the shortest decimal that reads back as the same double
+std::optional<double> number_of(std::string_view);           // of a text that is one number and nothing else, as std::from_chars reads it
 std::string quote(std::string_view);                         // a TOML basic string: quotes, backslashes and control characters escaped
 std::string found_text(std::string_view);                    // quoted, and cut where it is longer than a line of a message should be
 std::string list_of(const std::vector<std::string>& words);  // "a", "b", "c"

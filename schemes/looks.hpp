@@ -23,7 +23,7 @@ public:
         const auto row = [&](double seconds) { return static_cast<long>(std::clamp(seconds * tap_rate, 0.0, static_cast<double>(rows))); };
         for (const String& s : scene.strings)  // a row tells what was supplied since the row before
             if (s.pluck) plucks_.push_back({row(s.pluck->start) - 1, std::min(row(s.pluck->start + s.pluck->duration) + 3, rows)});
-        std::ranges::sort(plucks_, {}, &Pluck::from);
+        std::sort(plucks_.begin(), plucks_.end(), [](const Pluck& a, const Pluck& b) { return a.from < b.from; });
         for (std::size_t k = 1; k < plucks_.size();)
             if (plucks_[k].from > plucks_[k - 1].to) ++k;
             else plucks_[k - 1].to = std::max(plucks_[k - 1].to, plucks_[k].to), plucks_.erase(plucks_.begin() + static_cast<long>(k));

@@ -24,7 +24,7 @@ namespace jvari {
 
 // FNV-1a over whole numbers.
 constexpr std::uint32_t layout_hash(std::initializer_list<std::size_t> numbers, std::uint32_t hash = 2166136261u) {
-    for (std::size_t n : numbers)
+    for (std::uint64_t n : numbers)
         for (int byte = 0; byte < 8; ++byte) hash = (hash ^ static_cast<std::uint32_t>(n >> (8 * byte) & 0xff)) * 16777619u;
     return hash;
 }

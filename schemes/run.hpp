@@ -56,7 +56,7 @@ public:
     FlushDenormals& operator=(const FlushDenormals&) = delete;
 
 private:
-    unsigned saved_;
+    [[maybe_unused]] unsigned saved_;
 };
 
 }  // namespace jvari

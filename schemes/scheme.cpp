@@ -2,11 +2,11 @@
 #include "schemes/scheme.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "scenes/modes.hpp"
+#include "scenes/wording.hpp"
 #include "schemes/several_strings.hpp"
 
 namespace jvari {
@@ -46,7 +46,8 @@ void refuse_bad_options(const Descriptor& scheme, const Settings& settings) {
             const std::string known = listed(scheme.options, [](const Option& o) { return o.name; });
             throw BadOption("unknown option " + name + "; this scheme has " + (known.empty() ? "none" : known));
         }
-        if (std::ranges::count(settings.options, name, [](const auto& o) { return o.first; }) > 1)
+        const auto same = [&name = name](const auto& o) { return o.first == name; };
+        if (std::count_if(settings.options.begin(), settings.options.end(), same) > 1)
             throw BadOption("option " + name + ": found more than once, expected one value");
     }
     for (const Option& o : scheme.options)
@@ -113,7 +114,7 @@ int modes_for(const Scene& scene, const Settings& s) {
 Modes modes_of(const String& string, const Settings& s) {
     const int count = modes_for(string, s);
     if (count > 0 && count <= most_modes) return modes_of(string, count);
-    const std::string limit = std::to_string(std::lround(default_limit(s))) + " Hz";
+    const std::string limit = std::to_string(std::llround(default_limit(s))) + " Hz";
     if (count == 0) throw Refusal("the string has no mode below " + limit + ", where a scheme stops unasked: say how many it is to carry");
     throw Refusal("the string has " + (s.modes > 0 ? std::to_string(count) + " modes" : "too many modes below " + limit) +
                   "; no more than " + std::to_string(most_modes) + " are carried");
@@ -136,11 +137,9 @@ std::string choice_option(const Settings& s, const Option& o) {
 
 double number_option(const Settings& s, const Option& o) {
     const std::string text = option(s, o);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        throw Refusal("option " + std::string(o.name) + ": found \"" + text + "\", expected a number");
-    return value;
+    const auto value = number_of(text);
+    if (!value || !std::isfinite(*value)) throw Refusal("option " + std::string(o.name) + ": found \"" + text + "\", expected a number");
+    return *value;
 }
 
 double number_option(const Settings& s, const Option& o, double fallback) {

@@ -56,6 +56,11 @@ jvari_gate(Browser.EverySceneOfTheLibraryIsHeard browser/sounds.sh $<TARGET_FILE
 set_tests_properties(Browser.EverySceneOfTheLibraryIsHeard PROPERTIES LABELS browser)
 jvari_full(Browser.AReportIsDrawnSoundsAndFitsAPhone Browser.EverySceneOfTheLibraryIsHeard)
 
+# The module of the page, where the preset web has been built.
+jvari_gate(Web.EverySchemeGivesTheProgramsNumbersAndSentences web/check.sh agree.mjs $<TARGET_FILE:jvari> ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR})
+set_tests_properties(Web.EverySchemeGivesTheProgramsNumbersAndSentences PROPERTIES COST 100 LABELS web)
+jvari_full(Web.EverySchemeGivesTheProgramsNumbersAndSentences)
+
 jvari_gate(FirstMinutes.FromANewSceneToAnAnswerInFiveCommands first_minutes.sh $<TARGET_FILE:jvari>)
 jvari_gate(NewScheme.IsOneFileAndOneLine new_scheme.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(FirstMinutes.FromANewSceneToAnAnswerInFiveCommands NewScheme.IsOneFileAndOneLine PROPERTIES COST 100)

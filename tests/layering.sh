@@ -37,6 +37,8 @@ forbid "a comparison does not see how it is written down" '#include "bench/compa
 forbid "a section of the page is seen by the report alone" '#include "bench/report/sections/' $(ls bench/report/*.hpp bench/report/*.cpp | grep -v /report.cpp)
 forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
     $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/study bench/compare bench/diff bench/map bench/suite bench/check bench/report)
+forbid "the page's module sees the core and no room of bench" '#include "bench/' $(files web)
+forbid "nothing sees the page's module" '#include "web/' $(files scenes schemes reference analysis bench python)
 forbid "the Python module sees the engine, not the command line" '#include "bench/command/' $(files python)
 forbid "the engine sees no Python" '#include "python/' $(files scenes schemes reference analysis bench)
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)

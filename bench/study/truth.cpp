@@ -19,7 +19,6 @@ namespace jvari::bench::study {
 
 namespace {
 constexpr int most_modes_found = 4096;  // beyond, a stiff string's highest frequency makes the work grow faster than modes^2
-constexpr double slowest = 0.70710678118654752, fastest = 0.25;  // ratios of a doubling to the one before: orders 1/2 and 2
 
 struct Size {
     int modes, points;  // points of a profile; 0: none, or they were asked for
@@ -83,13 +82,6 @@ trust::Trust trust_of(const trust::Trust& solved, const Reference& last, const s
     return t;
 }
 }  // namespace
-
-double left_after(double last, double before) {
-    const double ratio = last / before;
-    if (!(ratio <= slowest)) return (and_further_ones - 1) * std::fmax(last, before);
-    const double seen = std::max(ratio, fastest);
-    return last * seen / (1 - seen);
-}
 
 Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes, int jobs, const store::Listener& listener,
                 double time_limit) {

@@ -18,11 +18,6 @@ constexpr double settled = 1e-4;  // a tenth of the finest accuracy that the tab
 constexpr double budget = 1.5e6;  // [s], of motion times modes^2 times 1 + 2.5 points (or barriers beyond the second) times how dear the
                                   // reference is: ten to twenty seconds
 
-// What all further doublings change, by what the last one changed and the one before it (NaN: there was none). They are a geometric series
-// whose ratio is the one observed: at least a quarter, as of order two, since one pair can agree by chance. With one doubling, or where
-// they do not get smaller so fast, the order is one half, and the larger of the two counts.
-double left_after(double last, double before);
-
 // The reference with the modes of the scene. `modes` 0: found by doubling. Else N: with N/4 and N/2 before it, to tell what N leaves out. A
 // stand-in is left as it is. `said` tells how far it went. Throws as run_reference.
 struct Truth {

@@ -178,7 +178,7 @@ void Judge::run_truth(int start) {
             return target_.measure->error(t.coarser[last - 1].run.trace.column(tap_), more.run.trace.column(tap_), of.run.trace.tap_rate);
         };
         const std::size_t n = t.coarser.size();
-        known.certificate = study::left_after(changed(n), n > 1 ? changed(n - 1) : store::nan);
+        known.certificate = left_after(changed(n), n > 1 ? changed(n - 1) : store::nan);
     }
     const double depth = study::fact(of.run.facts, facts::deepest_penetration);
     known.penetration = depth > 0 ? depth : 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "reference/exact/pluck_series.hpp"
@@ -32,7 +33,7 @@ void powers(double u, int count, double* e) noexcept {
 WindowChoice choose_window(double tolerance, double reach, bool split) {
     const auto of_windows = [&](double longest, int most) {
         WindowChoice c;
-        c.per_row = std::max(1L, static_cast<long>(std::ceil(std::min(1e18, reach / longest))));
+        c.per_row = std::max(1L, static_cast<long>(std::ceil(std::min(0.5 * std::numeric_limits<long>::max(), reach / longest))));
         c.terms = 6;
         while (c.terms < most && tail(reach / c.per_row, c.terms) > 0.1 * tolerance) ++c.terms;
         return c;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reference/gauss_legendre.hpp"
 
@@ -21,6 +22,11 @@ Complex mean_exponential(Complex z) {
     for (int n = 2; n < 20; ++n) sum += term *= z / double(n);
     return sum;
 }
+double legendre(int n, double x) {
+    double p = 1, before = 0;
+    for (int j = 0; j < n; ++j) before = std::exchange(p, ((2 * j + 1) * x * p - j * before) / (j + 1));
+    return p;
+}
 // f may grow by so much for the error of f^2 by n nodes, n!^4/((2n + 1)(2n)!^3) (2 growth)^2n, to be `allowed`.
 double growth_for(int n, double allowed) {
     return 0.5 * std::exp((std::log(allowed * (2 * n + 1)) - 4 * std::lgamma(n + 1) + 3 * std::lgamma(2 * n + 1)) / (2 * n));
@@ -38,7 +44,7 @@ WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolera
     }
     const Rule& finest = rules_.back();
     for (int j = 0; j < most_nodes; ++j)
-        for (int q = 0; q < most_nodes; ++q) legendre_.push_back((2 * j + 1) * finest.weight[q] * std::legendre(j, 2 * finest.node[q] - 1));
+        for (int q = 0; q < most_nodes; ++q) legendre_.push_back((2 * j + 1) * finest.weight[q] * legendre(j, 2 * finest.node[q] - 1));
 
     for (int i = 0; i < modes.count(); ++i) loss_.push_back(2 * modes.mass * modes.sigma[i] / seconds);
     loss_ = w.osc.pad(loss_);

@@ -506,7 +506,6 @@ TEST(Truth, AGivenNumberIsTakenWithItsHalfAndItsQuarterToTellWhatItLeavesOut) {
 }
 
 TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
-    using bench::study::left_after;
     EXPECT_NEAR(left_after(1e-3, 3e-3), 5e-4, 1e-12);      // 1/3 + 1/9 + ...
     EXPECT_NEAR(left_after(1e-6, 1e-1), 1e-6 / 3, 1e-18);  // no better than order two, since one pair can agree by chance
     EXPECT_NEAR(left_after(1e-3, nan), 2.5e-3, 1e-12);     // one doubling: order one half

@@ -1,0 +1,146 @@
+// The core behind plain C calls, for a page's worker: texts and numbers in, a run's handle or 0 out. After a 0 `jv_said` holds the sentence
+// of the refusal, which is that of the program; after a call that returns a text, the text stays valid until the next call.
+#include <emscripten.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/error.hpp"
+#include "reference/agreement.hpp"
+#include "reference/references.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/wording.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/run.hpp"
+#include "web/json.hpp"
+
+#define JV extern "C" EMSCRIPTEN_KEEPALIVE
+
+namespace jvari::web {
+namespace {
+constexpr double most_values = 3e7;  // a trace of a quarter of a gigabyte
+
+std::string said;
+
+template <class Do>
+auto tried(Do act) -> decltype(act()) {
+    try {
+        return act();
+    } catch (const std::bad_alloc&) {
+        said = "The page has no more memory for this: ask for a shorter run or fewer modes, or use the program `jvari run`.";
+    } catch (const std::exception& e) {
+        said = e.what();
+    }
+    return {};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> all;
+    for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1) {
+        end = std::min(text.find('\n', begin), text.size());
+        if (end > begin) all.push_back(text.substr(begin, end - begin));
+    }
+    return all;
+}
+
+const Descriptor& scheme_of(const std::string& name) {
+    for (const auto& list : {schemes(), references()})
+        for (const Descriptor& d : list)
+            if (name == d.name) return d;
+    throw Refusal("unknown scheme " + quote(name) +
+                  (name == "sundials" ? ": it is not part of the page; use the program `jvari run`" : ""));
+}
+
+Settings settings_of(const Descriptor& d, double rate, double tap_rate, int modes, const char* options) {
+    Settings s{.sample_rate = d.clock == Clock::continuous ? 0 : rate, .tap_rate = tap_rate, .modes = modes, .options = {}};
+    for (const std::string& o : lines_of(options)) {
+        const auto at = o.find('=');
+        if (at == std::string::npos) throw Refusal("option " + quote(o) + ": expected NAME=VALUE");
+        s.options.emplace_back(o.substr(0, at), o.substr(at + 1));
+    }
+    return s;
+}
+
+// Displacements at so many inner points, evenly spaced, of the first string: what a picture of it is drawn from.
+void add_shape(Scene& scene, int points) {
+    for (int k = 1; k <= points; ++k)
+        scene.taps.push_back({"shape" + std::to_string(k), Quantity::displacement, 0, scene.strings[0].length * k / (points + 1)});
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+}  // namespace
+
+struct Kept {
+    Run run;
+    Scene scene;
+    double making = 0;  // [s]
+};
+}  // namespace jvari::web
+
+using namespace jvari;
+using namespace jvari::web;
+
+JV const char* jv_said() {
+    return said.c_str();
+}
+
+JV const char* jv_list() {
+    return (said = list_text()).c_str();
+}
+
+// What the scene says once it is read, for those who draw it; nullptr: refused.
+JV const char* jv_scene(const char* text, const char* overrides) {
+    const bool done = tried([&] { return !(said = scene_text(parse_scene(text, "scene", lines_of(overrides)))).empty(); });
+    return done ? said.c_str() : nullptr;
+}
+
+// `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line NAME=VALUE each. `shape`: points of the first string that
+// are read beside the scene's taps, and after them.
+JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, double rate, double tap_rate, int modes, const char* options,
+                double duration, int shape, int energy) {
+    return tried([&]() -> Kept* {
+        const auto start = std::chrono::steady_clock::now();
+        auto kept = std::make_unique<Kept>();
+        Scene& scene = kept->scene = parse_scene(text, "scene", lines_of(overrides));
+        if (duration > 0) scene.duration = duration;
+        add_shape(scene, shape);
+        const Descriptor& d = scheme_of(scheme);
+        const Settings settings = settings_of(d, rate, tap_rate, modes, options);
+        if (static_cast<double>(rows_of(scene, settings)) * static_cast<double>(scene.taps.size() + 3) > most_values)
+            throw Refusal("A run of " + number_text(scene.duration) + " s is too long for the page: use the program, `jvari run " +
+                          scene.name + " --scheme " + d.name + "`.");
+        const auto made = make_scheme(d, scene, settings);
+        kept->making = seconds_since(start);
+        kept->run = run(*made, scene, settings, {.energy = energy != 0});
+        return kept.release();
+    });
+}
+
+JV const char* jv_about(const Kept* k) {
+    return (said = run_text(k->run, k->making)).c_str();
+}
+JV const double* jv_tap(const Kept* k, int tap) {
+    return k->run.trace.column(tap).data();
+}
+JV const double* jv_energy(const Kept* k, int column) {  // stored, supplied, dissipated
+    return k->run.trace.energy.empty() ? nullptr : k->run.trace.energy_column(column).data();
+}
+JV void jv_free(Kept* k) {
+    delete k;
+}
+
+// How far two runs of one scene are apart on a tap: ||a - b||/||b|| from `from` up to `to` [s], and for how long the two agree within 10 %.
+JV double jv_error(const Kept* a, const Kept* b, int tap, double from, double to) {
+    return relative_l2(a->run.trace.column(tap), b->run.trace.column(tap), b->run.trace.tap_rate, {from, to});
+}
+JV double jv_horizon(const Kept* a, const Kept* b, int tap) {
+    return horizon(a->run.trace.column(tap), b->run.trace.column(tap), b->run.trace.tap_rate);
+}
+JV double jv_left_after(double last, double before) {
+    return left_after(last, before);
+}

@@ -1,0 +1,171 @@
+#include "web/json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+#include "reference/references.hpp"
+#include "scenes/barrier.hpp"
+#include "scenes/pitch.hpp"
+#include "scenes/wording.hpp"
+#include "schemes/controls.hpp"
+#include "schemes/registry.hpp"
+#include "schemes/vector_instructions.hpp"
+
+namespace jvari::web {
+
+namespace {
+std::string text_of(double x) {  // JSON has no infinity: a number too large to be one reads as such
+    return std::isnan(x) ? "null" : std::isinf(x) ? (x < 0 ? "-1e999" : "1e999") : number_text(x);
+}
+std::string text_of(const std::string& s) {
+    return quote(s);
+}
+std::string text_of(const char* s) {
+    return quote(s);
+}
+std::string text_of(bool b) {
+    return b ? "true" : "false";
+}
+
+class Object {  // {"name": value, ...}
+public:
+    template <class T>
+    Object& with(const char* name, const T& value) {
+        return raw(name, text_of(value));
+    }
+    Object& raw(const char* name, const std::string& json) {
+        inside_ += (inside_.empty() ? "" : ",") + quote(name) + ":" + json;
+        return *this;
+    }
+    std::string text() const { return "{" + inside_ + "}"; }
+
+private:
+    std::string inside_;
+};
+
+template <class List, class Of>
+std::string array(const List& list, Of of) {
+    std::string inside;
+    for (const auto& one : list) inside += (inside.empty() ? "" : ",") + of(one);
+    return "[" + inside + "]";
+}
+
+std::string scheme_text(const Descriptor& d, bool reference) {
+    const auto option = [](const Option& o) {
+        return Object()
+            .with("name", o.name)
+            .with("fallback", o.fallback)
+            .with("meaning", o.meaning)
+            .raw("words", array(o.words(), [](const char* w) { return quote(w); }))
+            .text();
+    };
+    return Object()
+        .with("name", d.name)
+        .with("source", d.source)
+        .with("note", d.note)
+        .with("reference", reference)
+        .with("control", is_control(d))
+        .with("stepped", d.clock == Clock::stepped)
+        .raw("options", array(d.options, option))
+        .text();
+}
+
+std::string barrier_text(const Barrier& b, double length) {
+    Object o;
+    if (const auto* point = std::get_if<LumpedBarrier>(&b))
+        return o.with("shape", "lumped")
+            .with("position", point->position)
+            .with("width", point->width)
+            .with("height", point->height)
+            .with("stiffness", point->stiffness.k)
+            .with("exponent", point->exponent)
+            .text();
+    const auto& profile = std::get<ProfileBarrier>(b);
+    std::vector<double> x;
+    for (int k = 0; k <= 64; ++k) x.push_back(profile.from + (std::min(profile.to, length) - profile.from) * k / 64);
+    const std::vector<double> h = heights(profile.curve, x);
+    return o.with("shape", "profile")
+        .with("from", profile.from)
+        .with("to", profile.to)
+        .with("stiffness", profile.stiffness.K)
+        .with("exponent", profile.exponent)
+        .raw("x", array(x, [](double v) { return text_of(v); }))
+        .raw("height", array(h, [](double v) { return text_of(v); }))
+        .text();
+}
+
+std::string initial_text(const ModeInitial& m) {
+    return Object().with("shape", "mode").with("number", static_cast<double>(m.number)).with("amplitude", m.amplitude).text();
+}
+std::string initial_text(const TriangleInitial& t) {
+    return Object().with("shape", "triangle").with("position", t.position).with("amplitude", t.amplitude).text();
+}
+
+std::string string_text(const String& s) {
+    Object o;
+    o.with("length", s.length)
+        .with("linear_density", s.linear_density)
+        .with("tension", s.tension)
+        .with("bending_stiffness", s.bending_stiffness);
+    o.with("pitch", pitch_of(s)).with("note", note_of(pitch_of(s)));
+    o.raw("barrier", array(s.barriers, [&s](const Barrier& b) { return barrier_text(b, s.length); }));
+    if (s.thread) o.raw("thread", Object().with("position", s.thread->position).with("height", s.thread->height).text());
+    if (s.initial) o.raw("initial", std::visit([](const auto& shape) { return initial_text(shape); }, *s.initial));
+    if (s.pluck)
+        o.raw("pluck", Object()
+                           .with("position", s.pluck->position)
+                           .with("amplitude", s.pluck->amplitude)
+                           .with("start", s.pluck->start)
+                           .with("duration", s.pluck->duration)
+                           .text());
+    return o.text();
+}
+}  // namespace
+
+std::string list_text() {
+    return Object()
+        .with("instructions", vector_instructions())
+        .raw("schemes", array(schemes(), [](const Descriptor& d) { return scheme_text(d, false); }))
+        .raw("references", array(references(), [](const Descriptor& d) { return scheme_text(d, true); }))
+        .text();
+}
+
+std::string scene_text(const Scene& scene) {
+    const Descriptor* reference = best_reference(scene);
+    const Features needed = needed_by(scene);
+    const auto tap = [](const Tap& t) {
+        return Object().with("name", t.name).with("quantity", name_of(t.quantity)).with("unit", unit_of(t.quantity)).text();
+    };
+    std::vector<std::string> able;
+    for (const Descriptor& d : schemes())
+        if ((needed - d.represents).empty()) able.emplace_back(d.name);
+    return Object()
+        .with("name", scene.name)
+        .with("source", scene.source)
+        .with("duration", scene.duration)
+        .raw("string", array(scene.strings, string_text))
+        .raw("tap", array(scene.taps, tap))
+        .raw("able", array(able, quote))
+        .with("reference", reference ? reference->name : "")
+        .text();
+}
+
+std::string run_text(const Run& r, double making) {
+    const auto fact = [](const Fact& f) { return Object().with("name", f.name).with("value", f.value).with("unit", f.unit).text(); };
+    return Object()
+        .with("outcome", name_of(r.status.outcome))
+        .with("step", static_cast<double>(r.status.step))
+        .with("steps", static_cast<double>(r.steps))
+        .with("rows", static_cast<double>(r.trace.rows))
+        .with("rate", r.trace.tap_rate)
+        .with("dofs", static_cast<double>(r.dofs))
+        .with("wall", r.wall_seconds)
+        .with("making", making)
+        .raw("taps", array(r.trace.names, [](const std::string& n) { return quote(n); }))
+        .raw("facts", array(r.facts, fact))
+        .text();
+}
+
+}  // namespace jvari::web

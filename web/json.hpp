@@ -1,0 +1,15 @@
+// What the page is told, as JSON.
+#pragma once
+
+#include <string>
+
+#include "scenes/scene.hpp"
+#include "schemes/run.hpp"
+
+namespace jvari::web {
+
+std::string list_text();                          // schemes and references with their options
+std::string scene_text(const Scene&);             // what is drawn and moved of it
+std::string run_text(const Run&, double making);  // how it ended, what it cost in this browser, its facts
+
+}  // namespace jvari::web
