@@ -1,7 +1,7 @@
-// Convolution with a long response, a block at a time: overlap-save over partitions of equal length (Stockham 1966; uniformly partitioned).
+// Convolution with a long response, one block at a time, by uniformly partitioned overlap-save (Stockham 1966).
 //
-// out[n] = sum_m response[m] in[n - m], in before the first row 0. Each block costs two transforms of 2 `block` rows and a product of
-// spectra per partition of the response. Nothing is allocated once it is made.
+// out[n] = sum_m response[m] in[n - m], where `in` is 0 before the first row. A block costs two transforms of 2 `block` rows, and a product
+// of spectra for each partition of the response. Only the constructor allocates memory.
 #pragma once
 
 #include <memory>
@@ -17,16 +17,16 @@ public:
     ~Convolution();
     Convolution(Convolution&&) noexcept;
 
-    int block() const;                                                // rows
-    void advance(std::span<const double> in, std::span<double> out);  // `block` rows each; they may be the same
-    void reset();                                                     // to silence
+    int block() const;                                                // rows of a block
+    void advance(std::span<const double> in, std::span<double> out);  // each has `block` rows; both may be the same memory
+    void reset();                                                     // starts again from silence
 
 private:
     struct State;
     std::unique_ptr<State> state_;
 };
 
-// Of a whole signal, as many rows as it has.
+// Convolves a whole signal; the result has as many rows as the signal.
 std::vector<double> convolved(std::span<const double> signal, std::span<const double> response);
 
 }  // namespace jvari

@@ -1,11 +1,10 @@
-// Is a sound statistically another's, where its waveform is not? Two ensembles of runs, each from starts that differ by less than anyone
-// can know, are compared trait by trait: third-octave level and decay of each band, spectral centroid of each quarter of the run.
+// Are two sounds statistically the same, although their waveforms differ? Each is an ensemble of runs from starts that differ too little
+// to be known. The ensembles are compared in traits: level and decay of each third octave, spectral centroid of each quarter of the run.
 //
-// Each trait by the two-sample test of Kolmogorov and Smirnov with Stephens' correction for short samples (Stephens 1970, J. R. Stat.
-// Soc. B 32, 115), all of them together by the false-discovery rate of Benjamini & Hochberg (1995, J. R. Stat. Soc. B 57, 289): where the
-// two ensembles are of one distribution, something is told apart in at most `false_alarms` of all comparisons. Leaves out: bands that are
-// no more than 100 dB below the strongest, medians that are closer than what is worth telling (`Trait::least`), and how traits depend
-// on each other.
+// Each trait is tested by Kolmogorov and Smirnov's two-sample test with Stephens' correction for short samples (Stephens 1970, J. R. Stat.
+// Soc. B 32, 115). The false-discovery rate of Benjamini & Hochberg (1995, J. R. Stat. Soc. B 57, 289) covers all traits together: for two
+// ensembles of one distribution at most a share of `false_alarms` of the comparisons finds a difference. Bands more than 100 dB below the
+// strongest are left out, and so are differences of medians below `Trait::least`. Dependence between traits is not modelled.
 #pragma once
 
 #include <span>
@@ -20,23 +19,23 @@ struct Trait {
     std::string kind;  // "third_octave_db", "decay_db_per_s", "centroid_hz"
     double where;      // centre of the band [Hz], or middle of the quarter [s]
     double value;      // [dB], [dB/s], [Hz]
-    double least;      // a difference of medians that is worth telling, in the same unit
+    double least;      // the smallest difference of medians that counts, in the same unit
 };
 std::vector<Trait> traits_of(std::span<const double> signal, double rate);
 
-// The probability that two samples of one distribution are as far apart as these.
+// The probability that two samples of one distribution differ as much as these.
 double two_sample_p(std::vector<double> a, std::vector<double> b);
 
-// Which of these probabilities are discoveries at this rate of false ones.
+// Which of these probabilities are discoveries at this false-discovery rate.
 std::vector<bool> discoveries(const std::vector<double>& p, double rate);
 
 struct Told {
-    Trait reference;   // its value: the reference's median
+    Trait reference;   // its value is the reference's median
     double candidate;  // median
     double p;          // of two_sample_p
     bool apart;
 };
-// One row of traits for each run, all of one scene. Traits that are missing (NaN) in a run are left out there.
+// Each run, all of one scene, has one row of traits. A trait that is missing (NaN) in a run is left out for that run.
 std::vector<Told> told_apart(const std::vector<std::vector<Trait>>& candidates, const std::vector<std::vector<Trait>>& references);
 
 }  // namespace jvari

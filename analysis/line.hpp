@@ -1,5 +1,5 @@
-// A straight line through points, with the confidence of its slope: weighted least squares (GSL), its scatter estimated from the residuals,
-// the interval from Student's t with two degrees of freedom fewer than points.
+// Fits a straight line by weighted least squares (GSL). The confidence interval of the slope follows from the scatter of the residuals and
+// Student's t, with two degrees of freedom fewer than there are points.
 #pragma once
 
 #include <span>
@@ -7,13 +7,13 @@
 namespace jvari {
 
 struct Line {
-    double slope, intercept;  // NaN where fewer than two values of x are there
-    double half_width;        // of the confidence interval: slope +- half_width; +inf with two points, which leave no scatter to judge by
+    double slope, intercept;  // NaN for fewer than two different x
+    double half_width;        // the confidence interval is slope +- half_width; +inf with two points, which have no scatter
     double scatter;           // weighted root mean square of the residuals
 };
 
-// weight: relative weight of each point, empty for equal ones; all > 0. Everything is finite.
-// Throws std::invalid_argument where the lengths differ.
+// weight is the relative weight (> 0) of each point; empty means equal weights. All numbers must be finite.
+// Throws std::invalid_argument if the lengths differ.
 Line fitted_line(std::span<const double> x, std::span<const double> y, std::span<const double> weight = {}, double confidence = 0.95);
 
 }  // namespace jvari

@@ -5,14 +5,14 @@
 
 namespace jvari {
 
-// g(x) [m] of a profile; between its rows a table is monotone cubics (Steffen 1990).
+// Height g(x) [m] of a profile. Between its rows a table is interpolated by monotone cubics (Steffen 1990).
 double height(const Curve&, double x);
 
-// The same for many positions at once (a table's spline is made once).
+// The same for many positions; the spline of a table is computed once.
 std::vector<double> heights(const Curve&, const std::vector<double>& x);
 
-// The nodes first, first + 1, ... of a grid of L/intervals that lie on a profile, the string's ends left out; x [m], on the profile. An end
-// of the profile that is a node to within near_node of the string's length is on it: both are rounded.
+// The nodes first, first + 1, ... of a grid of spacing L/intervals that lie on a profile, without the string's ends; x [m] is their place.
+// A node counts as on the end of the profile if both agree to within near_node of the string's length, because both are rounded.
 constexpr double near_node = 1e-9;
 struct ProfileNodes {
     int first;
@@ -20,10 +20,10 @@ struct ProfileNodes {
 };
 ProfileNodes nodes_on(const ProfileBarrier&, double length, int intervals);
 
-// The middles [m] of count equal parts of a profile.
+// The profile is cut into `count` equal parts; returns their middles [m].
 std::vector<double> middles(const ProfileBarrier&, int count);
 
-// A profile as point contacts: one at each x [m], of the stiffness that it has over the given spacing [m].
+// Replaces a profile by point contacts at each x [m], each with the stiffness of the profile over `spacing` [m].
 std::vector<LumpedBarrier> lumped(const ProfileBarrier&, const std::vector<double>& x, double spacing);
 
 // Contact modulus E* [Pa] from Young's moduli [Pa] and Poisson's ratios   (van Walstijn et al. 2016, eq 55)

@@ -1,4 +1,4 @@
-// CSV tables that a scene names: measured modes, profiles of a bridge.
+// Reads the CSV tables of a scene: measured modes and profiles of a bridge.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@ namespace jvari {
 
 struct Column;
 
-// At most `limit` bytes of a file; throws std::runtime_error that says why not ("cannot be read", "is larger than ...").
+// The text of a file of at most `limit` bytes. Throws std::runtime_error ("cannot be read", "is larger than ...").
 std::string text_of_file(const std::string& path, std::size_t limit);
 
-// Two columns found by their names (or aliases) in the header; lines that begin with # and other columns are skipped.
+// Reads two columns, found by their names or aliases in the header. Other columns and lines that begin with # are skipped.
 // Throws SceneFileError with the line of the CSV file.
 void read_columns(const std::string& path, const std::string& text, const Column& first, std::vector<double>& a, const Column& second,
                   std::vector<double>& b);

@@ -149,7 +149,7 @@ struct Reading {
             const toml::table table = toml::parse(text);
             return value(table, 0);
         } catch (const toml::parse_error& e) {
-            throw SceneFileError(at(static_cast<int>(e.source().begin.line)) + ": no TOML: " + std::string(e.description()));
+            throw SceneFileError(at(static_cast<int>(e.source().begin.line)) + ": not valid TOML: " + std::string(e.description()));
         }
     }
 };

@@ -1,4 +1,4 @@
-// A TOML document as plain values, each with the place it came from, so that no other file sees the TOML library.
+// A TOML document as plain values, each with its place in the file. No other file includes the TOML library.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ struct Value;
 struct Member;
 using Array = std::vector<Value>;
 using TomlTable = std::vector<Member>;
-struct Moment {};  // a date or a time: TOML has them, scenes do not
+struct Moment {};  // a date or a time, which scenes do not use
 
 struct Value {
     std::variant<bool, std::int64_t, double, std::string, Moment, Array, TomlTable> content;
-    int place = 1;  // line of the file, or -1 - i for the i-th override
+    int place = 1;  // line of the file; -1 - i for the i-th override
 
-    const Value* find(std::string_view key) const;  // nullptr: no table, or not in it
-    std::string found() const;                      // how a message names it: 3, "text", a table
+    const Value* find(std::string_view key) const;  // nullptr if this is no table or has no such key
+    std::string found() const;                      // for messages: 3, "text", a table
 };
 struct Member {
     std::string key;
@@ -33,10 +33,10 @@ struct Document {
     std::vector<std::string> overrides;  // "key.path=value"
 
     std::string place(int) const;                       // "scene.toml:12" or "--set string.0.tension=30"
-    const Value& nearest(std::string_view path) const;  // the value at "string.0.tension", or what of the way to it exists
+    const Value& nearest(std::string_view path) const;  // the value at "string.0.tension", or its nearest existing parent
 };
 
-// Applies the overrides. Throws SceneFileError for text that is no TOML and for overrides that lead nowhere.
+// Parses the text and applies the overrides. Throws SceneFileError for invalid TOML and for overrides of keys that cannot exist.
 Document parse_document(std::string_view text, const std::string& file, const std::vector<std::string>& overrides);
 
 }  // namespace jvari

@@ -1,4 +1,4 @@
-// What sets the string in motion: the pluck's force and the spectrum of initial shapes.
+// The force of a pluck, and the modal amplitudes of initial shapes.
 #pragma once
 
 #include "scenes/scene.hpp"

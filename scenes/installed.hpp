@@ -1,5 +1,5 @@
-// Where what was installed lies, wherever a package put it: the nearest share/jvari above the file that this code is in, be that bin/jvari
-// or a Python module.
+// Finds installed files wherever a package put them: in the nearest share/jvari above the file with this code, which is bin/jvari or a
+// Python module.
 #pragma once
 
 #include <dlfcn.h>
@@ -12,7 +12,7 @@
 
 namespace jvari {
 
-// share/jvari/WHAT; a path that is none where nothing was installed, as in a build tree.
+// share/jvari/WHAT; an empty path if nothing was installed, as in a build tree.
 inline std::filesystem::path installed(const char* what) {
     std::error_code error;
     Dl_info in{};
@@ -24,7 +24,7 @@ inline std::filesystem::path installed(const char* what) {
     return {};
 }
 
-// What a library has: the names of its .toml files, sorted. None where there is no such folder.
+// The names of the .toml files in a folder, sorted; none if there is no such folder.
 inline std::vector<std::string> toml_names(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     std::error_code error;

@@ -16,32 +16,32 @@ struct Modes {
     int count() const { return static_cast<int>(beta.size()); }
 };
 
-constexpr int most_modes = 1 << 20;  // of a string
+constexpr int most_modes = 1 << 20;  // no string has more
 
-// The first `count` modes. Throws BadScene where a table of measured modes has fewer rows, or no string has as many.
+// The first `count` modes. Throws BadScene if a table of measured modes has fewer rows, or if count > most_modes.
 Modes modes_of(const String&, int count);
 
-// How many modes a table of measured modes has; absent: there is no table.
+// The number of measured modes; nothing if the string has no table of them.
 std::optional<int> modes_measured(const String&);
 
-// How many modes have an undamped frequency below `hertz`, so that the number does not depend on the losses; it ends at most_modes + 1.
+// The number of modes whose undamped frequency is below `hertz`, at most most_modes + 1. It does not depend on the losses.
 int modes_below(const String&, double hertz);
 
-double omega_squared_damped(double omega0, double sigma);  // omega^2 = omega0^2 - sigma^2, negative where overdamped [rad^2/s^2]
+double omega_squared_damped(double omega0, double sigma);  // omega0^2 - sigma^2 [rad^2/s^2], negative if the mode is overdamped
 
-// Weights w_i: a quantity is sum_i w_i y_i over the modal displacements y_i.
+// Weights w_i of a quantity: it is sum_i w_i y_i, with the modal displacements y_i.
 std::vector<double> displacement_weights(const Modes&, double position);             // v_i(x)
 std::vector<double> footprint_weights(const Modes&, double position, double width);  // g_i, eq 20, limit at beta_i w = pi
 std::vector<double> nut_force_weights(const Modes&, const String&);                  // -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
 
-// Integral of linear density x v_i (1 - x/L): what a mode with both ends at rest feels of the acceleration of the end at x = 0, and that
-// end of its own [kg].
+// The coupled mass of each mode and the end at x = 0 [kg], the integral of mu v_i (1 - x/L): it multiplies the end's acceleration in the
+// equation of the mode, and the mode's in that of the end.
 std::vector<double> end_inertia(const Modes&, const String&);
 
-// What a steady force of 1 N through these weights makes of the quantity they read [m/N]: sum_i w_i^2/(m omega0_i^2).
+// The quantity of these weights under a steady force of 1 N through the same weights [m/N]: sum_i w_i^2/(m omega0_i^2).
 double static_compliance(const Modes&, const std::vector<double>& weights);
 
-// Modal displacements at t = 0 [m]; zeros where the string has no initial shape.
+// Modal displacements at t = 0 [m]; zeros if the string has no initial shape.
 std::vector<double> initial_displacement(const Modes&, const String&);
 
 }  // namespace jvari

@@ -1,6 +1,6 @@
-// Scene files: TOML <-> Scene. The keys, units, ranges and defaults are in schema.hpp; README.md beside it says them for readers of scenes.
+// Reads and writes scene files (TOML). schema.hpp has the keys, units, ranges and defaults, README.md explains them.
 //
-// Leaves out: files larger than 1 MiB, lines with more than 64 dots, tables nested deeper than 16. They are refused, not read in part.
+// Files larger than 1 MiB, keys of more than 64 parts and tables nested deeper than 16 are refused.
 #pragma once
 
 #include <stdexcept>
@@ -17,25 +17,24 @@ struct SceneFileError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// A file, or a scene of the library by its name ("tanpura_c3"). An override is "key.path=value", applied before reading: arrays by index
-// ("string.0.barrier.0.stiffness=1e9"), the value in TOML syntax or a bare word; it sets keys, also absent ones, and removes nothing. One
-// that chooses another law or shape ("string.0.damping.law=none") leaves the file's keys of the former one unread. The scene returned has
-// passed validate(). Throws SceneFileError.
+// Reads a file, or a scene of the library by its name ("tanpura_c3"), and validates it. An override is "key.path=value", with the value in
+// TOML syntax or a bare word ("string.0.barrier.0.stiffness=1e9"). It sets a key or adds it. If it chooses another law or shape
+// ("string.0.damping.law=none"), the file's keys of the former one are not read. Throws SceneFileError.
 Scene read_scene(const std::string& file_or_library_name, const std::vector<std::string>& overrides = {});
 
-// The same from a text; `file_name` is what messages call it, and tables are looked for beside it.
+// The same from a text. Messages call it `file_name`, and tables are looked for beside that.
 Scene parse_scene(std::string_view text, const std::string& file_name, const std::vector<std::string>& overrides = {});
 
-// TOML that reads back as the same scene, provided its tables still lie beside the file.
+// TOML that reads back as the same scene, if its tables lie beside the file.
 std::string write_scene(const Scene&);
 
-// 16 hexadecimal digits (FNV-1a) over write_scene and the contents of the tables.
+// 16 hexadecimal digits: FNV-1a of write_scene() and the contents of the tables.
 std::string scene_hash(const Scene&);
 
-// Names of the scenes in the library, sorted. The library is the directory $JVARI_SCENES, else that of the sources, else the installed one.
+// Sorted names of the library's scenes. The library is $JVARI_SCENES, else the folder of the sources, else the installed one.
 std::vector<std::string> library_scenes();
 
-// The file of a scene of the library as text, comments and all. Throws SceneFileError.
+// The text of a library scene's file, with its comments. Throws SceneFileError.
 std::string library_text(const std::string& name);
 
 }  // namespace jvari

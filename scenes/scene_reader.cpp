@@ -105,7 +105,7 @@ public:
             if (!v) continue;
             const bool overridden = v->place < 0, before = chosen && table_.find(chosen)->place < 0;
             if (chosen && overridden == before)
-                fail(*v, at(key), v->found(), "nothing beside " + std::string(chosen) + ", which says as much");
+                fail(*v, at(key), v->found(), "nothing beside " + std::string(chosen) + ": give one of tension, frequency and note");
             if (!chosen || overridden) chosen = key;
         }
         if (!chosen || chosen == tension_keys[0]) return number(tension_keys[0], s.tension, positive, "N");
@@ -164,7 +164,7 @@ public:
         const std::string expected = "a CSV file with the columns " + list_of({first.name, second.name});
         std::error_code error;
         if (file.find('\0') != std::string::npos || !std::filesystem::is_regular_file(path, error))
-            fail(*table_.find(key), at(key), found_text(file) + ", which is no file", expected);
+            fail(*table_.find(key), at(key), found_text(file) + ", which is not a file", expected);
         std::string contents;
         try {
             contents = text_of_file(path, largest_table);

@@ -1,4 +1,4 @@
-// A parsed document read as a scene; what is left to validate() is not looked at.
+// Reads a parsed document as a scene. validate() checks what depends on several values.
 #pragma once
 
 #include "scenes/document.hpp"

@@ -1,10 +1,10 @@
-// The schema of a scene file, written once: the keys of every part of a scene, in the order in which they are written, each with its unit,
-// its range and, where it may be absent, the value it then has. Four passes walk it: naming the keys, reading, writing, and checking
-// ranges. What no single value can tell (a bridge beyond the end of the string) is checked in validate.cpp.
+// The schema of a scene file: the keys of every part in the order in which they are written, each with its unit, its range and its default.
+// Four passes use it: naming the keys, reading, writing, and checking ranges. validate.cpp checks what depends on several values, such as a
+// bridge beyond the end of the string.
 //
-// A pass has: number, count, optional_count (0 where it is absent), text, optional_text, file (a text, beside the scene), choice,
-// string_index, refused (a key that has no meaning here), columns (a CSV file), one_of (a variant and the key that chooses), tension (or
-// the pitch that it gives), part (a table), parts (an array of tables).
+// A pass has number, count, optional_count (0 if absent), text, optional_text, file (beside the scene), choice, string_index, refused (a
+// key without meaning here), columns (a CSV file), one_of (a variant and the key that chooses it), tension (or a pitch), part (a table) and
+// parts (an array of tables).
 #pragma once
 
 #include <concepts>

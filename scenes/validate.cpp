@@ -156,7 +156,7 @@ void validate(const Scene& scene) {
         const std::string path = "tap." + std::to_string(i) + ".";
         check(scene.taps[i], scene, path);
         if (!names.insert(scene.taps[i].name).second)
-            throw BadScene(path + "name", quote(scene.taps[i].name) + " a second time", "a name of its own");
+            throw BadScene(path + "name", quote(scene.taps[i].name) + " a second time", "a unique name");
     }
     if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty() && scene.body->modes.empty())
         throw BadScene("body", "neither bridge nor nut nor mode", "at least one of them");

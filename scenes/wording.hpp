@@ -1,4 +1,4 @@
-// How messages name what was found: quoted texts, shortest numbers, the nearest known word.
+// How messages quote texts and numbers, and find the nearest known word.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@ namespace jvari {
 std::string number_text(double);                             // the shortest decimal that reads back as the same double
 std::optional<double> number_of(std::string_view);           // of a text that is one number and nothing else, as std::from_chars reads it
 std::string quote(std::string_view);                         // a TOML basic string: quotes, backslashes and control characters escaped
-std::string found_text(std::string_view);                    // quoted, and cut where it is longer than a line of a message should be
+std::string found_text(std::string_view);                    // quoted, and cut to the length of a line
 std::string list_of(const std::vector<std::string>& words);  // "a", "b", "c"
 
-// The known word at the smallest edit distance, empty where half of the letters would have to change.
+// The known word at the smallest edit distance; empty if half of the letters would have to change.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace jvari

@@ -1,4 +1,4 @@
-// The built program as its users meet it: arguments in; exit code, standard output and standard error out.
+// Runs the built program: arguments in; exit code, standard output and standard error out.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ inline Outcome jvari(const Scratch& scratch, const std::string& arguments, const
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
 
-// Lines of bash in the folder of the test; $J is the program. Without charts and without kept runs.
+// Runs lines of bash in the folder of the test, without charts and without kept runs; $J is the program.
 inline Outcome shell(const Scratch& scratch, const std::string& lines) {
     const std::string script = scratch / "script";
     std::ofstream(script) << "export J=" JVARI_PROGRAM " JVARI_CACHE= JVARI_NODE_MODULES=/nowhere\nulimit -c 0\ncd "

@@ -1,4 +1,4 @@
-// How far the energy columns of a trace are from balance, row by row and summed; written apart from analysis/energy, which is tested too.
+// How far the energy columns of a trace are from balance, row by row and summed. Independent of analysis/energy, which is tested as well.
 #pragma once
 
 #include <algorithm>

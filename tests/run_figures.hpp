@@ -1,4 +1,4 @@
-// What tests ask of runs of references: how far one column is from another, and a fact by its name.
+// Helpers for tests of references: the distance between two columns, and a fact by its name.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What reading a suite says of it.
+// The message that reading a suite gives.
 #pragma once
 
 #include <string>

@@ -144,7 +144,7 @@ TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {
         {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"eror\"]", "unknown measure"},
         {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"cost\"]", "no speed without an error"},
         {"[[cells]]\nscenes = [\"b\"]\nreference_modes = 10000000", "from 0 to 9999999"},
-        {"[[cells]]\nscenes = [\"b\"", "no TOML"},
+        {"[[cells]]\nscenes = [\"b\"", "not valid TOML"},
     };
     for (const auto& [text, expected] : cases) EXPECT_NE(refusal_of(text).find(expected), std::string::npos) << refusal_of(text);
 }

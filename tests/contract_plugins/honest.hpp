@@ -1,6 +1,5 @@
-// A scheme that keeps the whole contract in sixty lines: each mode of a string alone is stepped by its exact solution from row to row. The
-// plugins of this folder derive from it, and each breaks one promise.
-// Leaves out: whatever touches the string, excites it or makes it more than one.
+// A scheme that keeps the whole contract: the exact solution of each mode of one free string, from row to row. The plugins of this folder
+// derive from it, and each breaks one promise. Leaves out contacts, thread, pluck and further strings.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// A scheme of the tree under another name, with a fault in the scene that it is given or in the rows that it writes. It has contacts and a
-// thread, which the honest scheme has not.
+// A scheme of the tree under another name, with a fault in its scene or in the rows that it writes. Unlike the honest scheme it has
+// contacts and a thread.
 #pragma once
 
 #include <algorithm>

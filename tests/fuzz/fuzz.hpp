@@ -1,4 +1,4 @@
-// What the targets share: what is to be done where an input breaks a promise, and where the files of a target lie.
+// Shared by the targets: what happens if an input breaks a promise, and where the files of a target are.
 #pragma once
 
 #include <unistd.h>
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace jvari::test {
 
-// Inputs that were read, not refused. The seeds called good_... are among them (driver.cpp looks): a target that refuses all tests nothing.
+// Counts the inputs that were accepted. driver.cpp checks that the seeds good_... are: a target that refuses all inputs tests nothing.
 inline long inputs_read = 0;
 
 inline std::string text_of(const std::uint8_t* data, std::size_t size) {
@@ -27,7 +27,7 @@ inline void promise(bool kept, const char* what, const std::string& of = {}) {
     std::abort();
 }
 
-// A file of this process alone, in memory where there is such a place. It stays one file: each input overwrites it.
+// A file that only this process uses, in memory if possible. Each input overwrites it.
 class OwnFile {
 public:
     explicit OwnFile(const std::string& name) {

@@ -1,4 +1,4 @@
-// What every run of every scheme owes, whatever the scene; and what a reference's certificate owes.
+// What every run of every scheme must keep on any scene, and what a certificate of a reference must keep.
 #pragma once
 
 #include <functional>
@@ -8,14 +8,14 @@
 
 namespace jvari::test {
 
-// What no run may exceed, ordinary and extreme scenes alike.
-constexpr double ledger_row = 1e-9;         // of the largest stored energy, in one row, where the balance is promised to rounding
+// Bounds for every run, on ordinary and extreme scenes.
+constexpr double ledger_row = 1e-9;         // of the largest stored energy, in one row, if the balance is exact
 constexpr double ledger_sum = 1e-8;         // the same, summed over the run
-constexpr double ledger_toleranced = 1e-5;  // both, where it is promised to a tolerance
+constexpr double ledger_toleranced = 1e-5;  // both, if the balance holds to a tolerance
 // True/claimed, where two references certify one another: a claim is the distance to another run, which errs as well, if less.
 constexpr double claim_allowed = 1.1;
 constexpr double claim_allowed_alone = 2;  // where one does so itself, at another accuracy
-constexpr double largest_value = 1e12;     // of a tap, in SI units: beyond it a run has blown up
+constexpr double largest_value = 1e12;     // of a tap, in SI units; beyond it the run has diverged
 constexpr double pull = 1e-6;              // of the largest contact force
 constexpr double sundials_seconds = 10;    // of CPU, for one run
 
@@ -41,13 +41,13 @@ using Finding = std::function<void(const std::string& scheme, const std::string&
 
 void check_schemes(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 void check_certificate(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
-// The certificate is of a string cut off and of a profile's points; what it claims is held against the string with eight times the modes
-// and four times the points.
+// The certificate is for a limited number of modes and points of a profile. What it claims about the scene is compared with eight times the
+// modes and four times the points.
 void check_certificate_about_scene(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 
-// Where modal_two_point with compliance=matched errs by more than 1.2 times what it does without, in a tap whose error is above 1e-3, a
-// fact of the run is above its limit (schemes/contact/matching_facts.hpp). The truth is exact_contact, matched, with 4 to 8 times the
-// modes; half of these say how certain it is.
+// If matched modal_two_point errs by more than 1.2 times as much as own, in a tap whose error is above 1e-3, a fact of the run must be
+// above its limit (schemes/contact/matching_facts.hpp). The truth is matched exact_contact with 4 to 8 times the modes; half of these give
+// its uncertainty.
 constexpr double harm = 1.2, harm_matters = 1e-3, matching_seconds = 10;  // seconds: of CPU, all runs of one scene
 void check_matching(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 

@@ -1,6 +1,6 @@
-// Where a polynomial first turns negative, by its Bernstein coefficients: on a piece of the unit interval the values lie between the
-// smallest and the largest coefficient, and one sign change means one root (variation diminishing). So nothing is sampled and nothing can
-// be missed, except dips that stay above -bound.
+// Finds where a polynomial first becomes negative, by its Bernstein coefficients: on a part of the unit interval its values lie between the
+// smallest and the largest coefficient, and one sign change means one root (variation diminishing). Nothing is sampled, so only dips that
+// stay above -bound can be missed.
 #pragma once
 
 #include "reference/exact/oscillators.hpp"

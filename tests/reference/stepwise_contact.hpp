@@ -1,4 +1,4 @@
-// exact_contact by another algorithm: what its numbers and its speed are held against. Option window: a factor on every window, at most 1.
+// exact_contact by another algorithm, to compare numbers and speed with. The option window is a factor on every window, at most 1.
 #pragma once
 
 #include "schemes/scheme.hpp"

@@ -335,7 +335,7 @@ TEST(Overrides, ErrorsNameTheOverride) {
         {"=1", "--set =1: expected key.path=value"},
         {"string..length=1", "--set string..length=1: string: found \"\", expected an index from 0 to 1"},
         {"a..b=1", "--set a..b=1: found an empty part in the key, expected key.path=value"},
-        {"name=[1", "--set name=[1: no TOML: Error while parsing array: encountered end-of-file"},
+        {"name=[1", "--set name=[1: not valid TOML: Error while parsing array: encountered end-of-file"},
         {"duration=1\nname=2", "--set duration=1\nname=2: duration: found \"1\\u000Aname=2\", expected a positive number [s]"},
         {"a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1", "--set a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1: found a key of 17 parts, expected at most 16"},
         {"string.0.length=0.005", "scene.toml:9: string.0.barrier.0.position: found 0.01, expected 0 < x < 0.005 [m], on the string"},
@@ -381,9 +381,9 @@ TEST(Pitch, ErrorsNameLineAndKey) {
     EXPECT_EQ(message(stiff + "frequency = 0\n"), "scene.toml:7: string.0.frequency: found 0, expected a positive number [Hz]");
     EXPECT_EQ(message(stiff + "frequency = \"A\"\n"), "scene.toml:7: string.0.frequency: found \"A\", expected a positive number [Hz]");
     EXPECT_EQ(message(one + "note = \"C3\"\n"),
-              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside tension, which says as much");
+              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside tension: give one of tension, frequency and note");
     EXPECT_EQ(message(stiff + "note = \"C3\"\nfrequency = 130.8\n"),
-              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside frequency, which says as much");
+              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside frequency: give one of tension, frequency and note");
     EXPECT_TRUE(
         message(stiff + "frequency = 0.1\n")
             .starts_with("scene.toml:7: string.0.frequency: found 0.1, expected a pitch that a tension gives: the bending stiffness "
@@ -401,14 +401,14 @@ const std::string laws = "\"none\", \"polynomial\", \"quality_factor\", \"table\
 
 const std::vector<Bad> bad_scenes{
     // no TOML
-    {"name = ", "scene.toml:1: no TOML: Error while parsing key-value pair: encountered end-of-file"},
+    {"name = ", "scene.toml:1: not valid TOML: Error while parsing key-value pair: encountered end-of-file"},
     {head + "duration = 2.0\n",
-     "scene.toml:3: no TOML: Error while parsing key-value pair: cannot redefine existing floating-point 'duration'"},
+     "scene.toml:3: not valid TOML: Error while parsing key-value pair: cannot redefine existing floating-point 'duration'"},
     {one + "[string.initial]\nshape = \"mode\"\nshape = \"triangle\"\n",
-     "scene.toml:9: no TOML: Error while parsing key-value pair: cannot redefine existing string 'shape'"},
-    {"\xff\xfe", "scene.toml:1: no TOML: Encountered invalid utf-8 sequence"},
+     "scene.toml:9: not valid TOML: Error while parsing key-value pair: cannot redefine existing string 'shape'"},
+    {"\xff\xfe", "scene.toml:1: not valid TOML: Encountered invalid utf-8 sequence"},
     {"x = " + std::string(5000, '['),
-     "scene.toml:1: no TOML: Error while parsing value: exceeded maximum nested value depth of 256 (TOML_MAX_NESTED_VALUES)"},
+     "scene.toml:1: not valid TOML: Error while parsing value: exceeded maximum nested value depth of 256 (TOML_MAX_NESTED_VALUES)"},
     {head + "x = [[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n", "scene.toml:3: found tables or arrays nested deeper than 16"},
     {"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
      "a = 1",
@@ -473,7 +473,7 @@ const std::vector<Bad> bad_scenes{
     {one + "[string.damping]\nlaw = \"per_period\"\nfactor = 0.0\n",
      "scene.toml:9: string.0.damping.factor: found 0, expected a number above 0 and at most 1"},
     {one + "[string.damping]\nlaw = \"table\"\nfile = \"none.csv\"\n",
-     "scene.toml:9: string.0.damping.file: found \"none.csv\", which is no file, expected a CSV file with the columns \"frequency_hz\", "
+     "scene.toml:9: string.0.damping.file: found \"none.csv\", which is not a file, expected a CSV file with the columns \"frequency_hz\", "
      "\"decay_rate_per_s\""},
     {lumped + "exponent = 0.5\n", "scene.toml:11: string.0.barrier.0.exponent: found 0.5, expected a number >= 1"},
     {lumped + "contact_loss = -0.5\n", "scene.toml:11: string.0.barrier.0.contact_loss: found -0.5, expected a number >= 0 [s/m]"},
@@ -529,7 +529,7 @@ const std::vector<Bad> bad_scenes{
      "scene.toml:9: tap.0.quantity: found \"driving_force\" of a string without a barrier or a thread, expected a quantity that the string "
      "has"},
     {tap + "quantity = \"nut_force\"\n[[tap]]\nname = \"a\"\nquantity = \"nut_force\"\n",
-     "scene.toml:11: tap.1.name: found \"a\" a second time, expected a name of its own"},
+     "scene.toml:11: tap.1.name: found \"a\" a second time, expected a unique name"},
     {one + "[[tap]]\nname = \"a,b\"\nquantity = \"nut_force\"\n",
      "scene.toml:8: tap.0.name: found \"a,b\", expected letters, digits, _ . and -, neither time_s nor energy_..."},
     {one + "[[tap]]\nname = \"time_s\"\nquantity = \"nut_force\"\n",
