@@ -96,7 +96,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
             const auto feature = static_cast<Feature>(1u << i);
             body += not_quite.has(feature) ? " ◐ |" : d->represents.has(feature) ? " ● |" : "  |";
         }
-        body += fmt::format(" {} | {} |\n", name_of(d->balance), d->source);
+        body += fmt::format(" {} |\n", name_of(d->balance));
         if (not_quite.empty() && note.empty()) continue;
         const std::string line = (not_quite.empty() ? "" : fmt::format(" ◐ {}.", fmt::join(approximations_of(*d, "`"), ", "))) +
                                  (note.empty() ? "" : " " + note);
@@ -106,7 +106,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
     }
     for (const auto& [line, names] : noted) notes += fmt::format("- {}:{}\n", names, line);
     return {std::move(json), text + (list.empty() ? "  none\n" : ""),
-            head + " energy balance | source |\n" + rule + "---|---|\n" + body +
+            head + " energy balance |\n" + rule + "---|\n" + body +
                 "\n● as in the scene; ◐ approximated, and a fact of the run says how. Every scheme takes several strings and a body.\n\n" +
                 notes};
 }
