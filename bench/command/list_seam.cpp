@@ -8,6 +8,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "schemes/controls.hpp"
+
 namespace jvari::bench::command {
 
 namespace {
@@ -91,6 +93,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
         if (!not_quite.empty()) text += fmt::format("  {:<{}}  approximates {}\n", "", width, fmt::join(approximations_of(*d, ""), ", "));
         if (!note.empty()) text += fmt::format("  {:<{}}  {}\n", "", width, note);
 
+        if (is_control(*d)) continue;  // the table is for those who choose a scheme
         body += fmt::format("| `{}` |", d->name);
         for (int i = 0; i < feature_count; ++i) {
             const auto feature = static_cast<Feature>(1u << i);
