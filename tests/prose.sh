@@ -1,5 +1,5 @@
 #!/bin/sh
-# The prose that a stranger reads: no sentence above 35 words, links that lead somewhere, and a glossary that has each term of the project's
+# The prose that a stranger reads: no sentence above 30 words, links that lead somewhere, and a glossary that has each term of the project's
 # own that is used, once. A cell of a table counts by itself, a link as its text, a span of code as one word. usage: prose.sh [TREE]
 here=$(cd "$(dirname "$0")" && pwd)
 cd "${1:-$here/..}" || exit 2
@@ -9,25 +9,29 @@ terms='tap cell certificate noise_floor horizon control fact headline_error thre
 status=0
 complain() { echo "$@" >&2; status=1; }
 
-long() {  # sentences of more than 35 words; a word has a letter or a digit in it
+long() {  # sentences of more than 30 words; a word has a letter or a digit in it
     awk -f "$here/sentences.awk" "$@" | awk -F '\t' '
         { words = 0; n = split($2, part, / +/); for (i = 1; i <= n; ++i) words += part[i] ~ /[A-Za-z0-9]/ }
-        words > 35 { print $1 ": " words " words: " $2 }'
+        words > 30 { print $1 ": " words " words: " $2 }'
 }
 
-# It finds what it is for: one sentence of 36 words among one of 35, a table of short cells, and code.
+# It finds what it is for: one sentence of 31 words among one of 30, a table of short cells, and code.
 planted=$(mktemp) && trap 'rm -f "$planted"' EXIT
-some="a b c d e f g h i j k l m n o p q r s t u v w x y z a b c d e f g h"
+some="a b c d e f g h i j k l m n o p q r s t u v w x y z a b c"
 printf '%s i.\n\n%s i\n[two words](of/a/link). One `span of code`.\n\n| %s | %s |\n\n    %s %s\n' "$some" "$some" "$some" "$some" "$some" "$some" >"$planted"
 [ "$(long "$planted" | wc -l)" = 1 ] || complain "prose.sh: does not find the one long sentence that was planted"
 
 found=$(long $texts)
 [ -z "$found" ] || complain "$found
-^ sentences above 35 words"
+^ sentences above 30 words"
 
+anchors() { sed -n 's/^##* //p' "$1" | tr 'A-Z ' 'a-z-' | sed 's/[^a-z0-9_-]//g'; }
 for text in $texts; do
-    for link in $(sed 's/`[^`]*`//g' "$text" | grep -oE '\]\([^)#: ]+[)#]' | tr -d '])(#'); do
-        [ -e "$(dirname "$text")/$link" ] || complain "$text: links to $link, which is not there"
+    for link in $(sed 's/`[^`]*`//g' "$text" | grep -oE '\]\([^): ]+\)' | tr -d '])('); do
+        file=${link%%#*} to=$text
+        [ -z "$file" ] || to=$(dirname "$text")/$file
+        [ -e "$to" ] || complain "$text: links to $link, which is not there"
+        [ "$file" = "$link" ] || anchors "$to" | grep -qxF -- "${link#*#}" || complain "$text: links to $link, which is no heading there"
     done
 done
 
