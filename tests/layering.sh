@@ -34,7 +34,6 @@ for room in command report trim check suite map diff compare study trust sound s
 done
 forbid "locks, signals and programs see nothing else of the store" '#include "bench/store/[a-z_0-9]+\.' $(files bench/store/system)
 forbid "a comparison does not see how it is written down" '#include "bench/compare/record/' bench/compare/*.hpp bench/compare/*.cpp
-forbid "a section of the page is seen by the report alone" '#include "bench/report/sections/' $(ls bench/report/*.hpp bench/report/*.cpp | grep -v /report.cpp)
 forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
     $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/study bench/compare bench/diff bench/map bench/suite bench/check bench/report)
 forbid "the page's module sees the core and no room of bench" '#include "bench/' $(files web)

@@ -10,7 +10,8 @@
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/scene_notes.hpp"
-#include "bench/report/run_chart.hpp"
+#include "bench/report/page.hpp"
+#include "bench/report/run_page.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/sound/audio_file.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -172,12 +173,11 @@ std::optional<report::Vega> vega_for(const RunRequest& r) {
 }
 
 void draw(const std::string& file, const report::DrawnRun& run, const report::Vega& vega) {
-    std::string why;
-    const bool page = file.ends_with(".html");
-    const auto text = page ? std::optional(report::run_page(run, report::vega_scripts(vega).value_or("")))
-                           : report::svg_of(vega, report::run_spec(run, report::Medium::print), why);
-    if (!text) throw store::Unwritable(file + ": " + why);
-    store::write_fresh(file, *text);
+    const Json data = report::run_data(run);
+    if (file.ends_with(".html")) return store::write_fresh(file, report::page_of(data, report::vega_scripts(vega).value_or("")));
+    const report::Drawn drawn = report::draw(vega, data);
+    if (drawn.svgs.empty()) throw store::Unwritable(file + ": " + (drawn.notes.empty() ? "nothing was drawn" : drawn.notes.front()));
+    store::write_fresh(file, drawn.svgs.front().second);
 }
 
 int run_command(const RunRequest& r) {

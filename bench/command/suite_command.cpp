@@ -19,7 +19,6 @@
 #include "bench/compare/record/scaling_table.hpp"
 #include "bench/compare/record/spread.hpp"
 #include "bench/map/map_report.hpp"
-#include "bench/report/figure_chart.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
@@ -148,7 +147,7 @@ int suite_command(const SuiteRequest& r) {
         if (const store::Table scaling = compare::scaling_of(cells, study::sets_of(plan)); !scaling.rows.empty())
             write("scaling.csv", store::csv(scaling));
         write("manifest.json", manifest + "\n");
-        for (const report::DrawnFigure& f : report::draw_figures(suite, plan, run.records, cells, console)) write(f.file.c_str(), f.svg);
+        if (!suite.figures.empty() && !suite.shelved) write(suite::figures_file, store::read_whole(suite.figures));
         if (!plan.jobs.empty() || !suite.maps.empty())
             for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
     }

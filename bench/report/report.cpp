@@ -4,137 +4,194 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <nlohmann/json.hpp>
 
-#include "bench/compare/bound.hpp"
-#include "bench/report/sections/page_sections.hpp"
+#include "bench/report/derived.hpp"
+#include "bench/report/page.hpp"
+#include "bench/report/samples.hpp"
 #include "bench/report/vega.hpp"
+#include "bench/store/base64.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/study/errors.hpp"
+#include "bench/study/record.hpp"
+#include "bench/suite/facet.hpp"
+#include "reference/references.hpp"
+#include "schemes/controls.hpp"
+#include "schemes/registry.hpp"
 
 namespace jvari::bench::report {
 
 namespace fs = std::filesystem;
 
-std::vector<Menu> problem_menu(const std::vector<std::string>& problems) {
-    if (problems.empty()) return {};
-    Menu m{"scene", "problem_field", {}};
-    for (const std::string& p : problems) m.choices.emplace_back(json_text(p), p);
-    return {m};
-}
+namespace {
+using Json = nlohmann::ordered_json;
 
-std::vector<Menu> error_menus(const std::vector<Axis>& axes) {
-    Menu measures{"error", "measure_field", {}}, taps{"tap", "tap_field", {}};
-    const auto add = [](Menu& m, const std::string& value, const std::string& text) {
-        const std::pair choice{json_text(value), text};
-        if (std::find(m.choices.begin(), m.choices.end(), choice) == m.choices.end()) m.choices.push_back(choice);
+// What parts of a page may weigh [bytes].
+constexpr std::size_t page_limit = 4'900'000, sounds_limit = 3'000'000, pictures_limit = 1'500'000, table_limit = 1'500'000;
+constexpr double longest_heard = 4;  // [s]
+
+}  // namespace
+
+store::Table fitting(store::Table t, Json& left_out) {
+    const auto size = [](const std::vector<std::string>& fields, std::size_t k) { return fields[k].size() + 1; };
+    std::vector<std::pair<std::size_t, std::size_t>> columns(t.columns.size());  // bytes, which
+    std::size_t all = 0;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        for (const auto& row : t.rows) columns[k].first += size(row, k);
+        columns[k].second = k;
+        all += columns[k].first;
+    }
+    if (all <= table_limit) return t;
+    std::sort(columns.rbegin(), columns.rend());
+    std::vector<bool> kept(columns.size(), true);
+    const auto needed = [&](const std::string& name) {
+        return std::ranges::any_of(std::initializer_list<const char*>{"problem", "series", "cell", "scene", "scheme", "options", "rate",
+                                                                      "modes", "status", "flags", "error_l2", "certificate_l2",
+                                                                      "third_octave", "cost", "ns_per", "map", "x", "y", "outcome"},
+                                   [&](const char* start) { return name.starts_with(start); });
     };
-    for (const Axis& a : axes) {
-        add(measures, a.measure, a.tap.empty() ? a.title : a.title.substr(0, a.title.rfind(", tap ")));
-        add(taps, a.tap, a.tap.empty() ? "headline" : a.tap);
+    for (const auto& [bytes, k] : columns)
+        if (all > table_limit && !needed(t.columns[k])) {
+            kept[k] = false;
+            all -= bytes;
+        }
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        if (kept[k]) names.push_back(t.columns[k]);
+    left_out.push_back("The table holds the most asked-for columns; all are in the csv file beside the page.");
+    return t.only(names);
+}
+
+namespace {
+Json measures() {
+    Json all = Json::array();
+    for (const study::Measure& m : study::measures())
+        if (m.less_is_better) all.push_back({m.column, m.title});
+    return all;
+}
+
+Json kept_levels(const Results& r) {  // of the cells that asked for spectrograms, and of the references that were heard
+    Json all = Json::array();
+    for (std::size_t i = 0; i < r.cells.rows.size(); ++i) {
+        if (r.cells.at(i, "cell").empty()) continue;
+        if (const auto kept = study::read_levels(r.folder / "cells" / (r.cells.at(i, "cell") + ".json"), "spectrogram"))
+            all.push_back(json_of(*kept)), all.back()["cell"] = i;
     }
-    return {measures, taps};
-}
-
-std::vector<std::pair<std::string, std::vector<std::string>>> offers_of(const WorkPrecision& w, const std::vector<std::string>& problems) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> offers;
-    for (const std::string& problem : problems) {
-        const store::Table own = rows_where(w.cells, "problem", problem);
-        std::vector<std::string> columns;
-        const std::string headline = compare::headline_error(own, store::all_rows(own));
-        for (const Axis& a : w.errors)
-            for (std::size_t i = 0; i < own.rows.size(); ++i)
-                if (std::isfinite(own.number(i, a.column))) {
-                    columns.insert(a.column == headline ? columns.begin() : columns.end(), a.column);
-                    break;
-                }
-        offers.emplace_back(problem, columns);
+    if (all.empty()) return all;
+    for (std::size_t i = 0; i < r.sounds.rows.size(); ++i) {
+        if (r.sounds.at(i, "scheme") != "reference") continue;
+        const store::Sound sound = store::read_wav(sound_file(r, i), r.sounds.number(i, "peak"));
+        std::vector<double> signal;
+        for (const int x : sound.samples) signal.push_back(x * sound.peak / 32767);
+        all.push_back(json_of(study::levels_of(signal, sound.rate)));
+        all.back()["problem"] = r.sounds.at(i, "problem");
     }
-    return offers;
+    return all;
 }
 
-std::string twin_file(const std::string& chart, const std::string& problem, const std::vector<std::string>& problems) {
-    return chart + (problems.size() > 1 ? "-" + file_part(problem, problems) : "") + ".svg";
+Json data_of(const Results& r) {
+    Json data{{"title", r.name},
+              {"source", r.source},
+              {"about", r.source + (r.source.empty() ? "" : " \u2014 ") + r.about},
+              {"command", r.command},
+              {"missing", ""},
+              {"machines", store::machines_text(r.cells)},
+              {"schemes", known_schemes()},
+              {"measures", measures()}};
+    data["manifest"] = Json::parse(r.manifest, nullptr, false);
+    data["left_out"] = {{"cells", Json::array()}, {"sounds", Json::array()}, {"figures", Json::array()}};
+    for (const auto& [name, table] : r.tables)
+        if (!table.columns.empty()) data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
+    const auto derived = derived_tables(r);
+    for (const auto& [name, table] : derived) data["tables"][name] = store::csv(table);
+    data["sounds"] = heard(r, derived.contains("cheapest") ? derived.at("cheapest") : store::Table{}, longest_heard, sounds_limit,
+                           data["left_out"]["sounds"]);
+    data["levels"] = kept_levels(r);
+    data["pictures"] = Json::array();
+    return data;
 }
 
-std::string with_unit(const std::string& key) {
-    constexpr std::pair<const char*, const char*> units[] = {{"rate", "Hz"},
-                                                             {"stiffness", "N/m^exponent"},
-                                                             {"stiffness_density", "N/m^(exponent+1)"},
-                                                             {"tension", "N"},
-                                                             {"amplitude", "m"},
-                                                             {"coefficient", "1/m"},
-                                                             {"linear_density", "kg/m"},
-                                                             {"bending_stiffness", "N m^2"},
-                                                             {"length", "m"},
-                                                             {"position", "m"},
-                                                             {"height", "m"},
-                                                             {"width", "m"},
-                                                             {"damping", "kg/s"},
-                                                             {"duration", "s"},
-                                                             {"contact_loss", "s/m"},
-                                                             {"sigma0", "1/s"}};
-    const std::string last = key.substr(key.rfind('.') + 1);
-    std::string text = key.starts_with("string.0.") ? key.substr(9) : key;
-    std::replace(text.begin(), text.end(), '.', ' ');
-    for (const auto& [name, unit] : units)
-        if (last == name) text += std::string(" [") + unit + "]";
-    return text;
+// What node draws beyond the page: the suite's figures, and the tables that they are of.
+Json with_figures(Json data, const Results& r) {
+    const fs::path figures = suite::figures_of(r.folder, r.suite);
+    if (figures.empty()) return data;
+    const Json read = Json::parse(store::read_whole(figures), nullptr, false);
+    if (read.is_discarded()) throw store::UsageError(figures.string() + ": this is no JSON");
+    data["figures"] = read;
+    for (const suite::Facet& f : suite::facets())
+        if (const store::Table rows = read_table(r.folder / (std::string(f.name) + ".csv")); !rows.columns.empty())
+            data["tables"][f.name] = store::csv(rows);
+    return data;
 }
 
-std::string rate_text(double hz) {
-    return std::isnan(hz) ? "" : fmt::format("{:.5g} kHz", hz / 1000);
+void add_pictures(Json& data, const fs::path& folder, const std::vector<std::string>& own) {  // SVGs of the folder that are none of its own
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (entry.path().extension() == ".svg" && std::find(own.begin(), own.end(), entry.path().filename()) == own.end())
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::size_t size = 0;
+    std::string left_out;
+    for (const fs::path& file : files) {
+        const std::string svg = store::read_whole(file);
+        if (size + svg.size() > pictures_limit) {
+            left_out += " " + file.filename().string();
+            continue;
+        }
+        size += svg.size();
+        data["pictures"].push_back({{"name", file.stem().string()}, {"data", "data:image/svg+xml;base64," + store::base64(svg)}});
+    }
+    if (!left_out.empty()) data["left_out"]["figures"].push_back("Left out for the page's size, they lie beside it:" + left_out + ".");
+}
+}  // namespace
+
+nlohmann::ordered_json known_schemes() {
+    Json all = Json::array();
+    for (const auto& list : {schemes(), references()})
+        for (const Descriptor& d : list) all.push_back({d.name, is_control(d)});
+    return all;
 }
 
-store::Table rows_where(const store::Table& t, const std::string& column, const std::string& text) {
-    store::Table rows{t.columns, {}};
-    for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (t.at(i, column) == text) rows.rows.push_back(t.rows[i]);
-    return rows;
-}
-
-store::Table without_names(const store::Table& t) {
-    return t.only({t.columns.begin() + 2, t.columns.end()});
+std::string fitting_page_of(Json data, const std::string& scripts, std::size_t limit) {
+    const std::string html = page_of(data, scripts);
+    std::size_t excess = html.size() > limit ? html.size() - limit + 2000 : 0;
+    if (excess == 0) return html;
+    for (const auto& [list, field, said, what] :
+         {std::tuple("pictures", "data", "figures", "pictures"), std::tuple("sounds", "samples", "sounds", "more sounds")}) {
+        std::size_t count = 0;
+        for (Json& parts = data[list]; excess > 0 && !parts.empty(); ++count) {
+            excess -= std::min(excess, parts.back().at(field).get_ref<const std::string&>().size());
+            parts.erase(parts.size() - 1);
+        }
+        if (count > 0)
+            data["left_out"][said].push_back(fmt::format("{} {} are left out for the page's size; they lie beside it.", count, what));
+    }
+    return page_of(data, scripts);
 }
 
 std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener) {
     const Results results = read_results(folder);
     store::must_be_writable(folder / "report.html");
-    Page page;
-    page.title = results.name;
-    page.about = results.source + (results.source.empty() ? "" : " \u2014 ") + results.about;
-    page.manifest = results.manifest;
-    page.command = results.command;
-    page.verdicts = verdicts_of(results);
-    page.finding = results.maps.rows.empty() ? finding_of_trim(results) : finding_of_maps(results);
-    page.sections = {path_section(results),       needs_section(results),       work_precision_section(results), sweep_section(results),
-                     dispersion_section(results), convergence_section(results), cost_section(results),           overview_section(results),
-                     map_section(results),        spectrogram_section(results), waveform_section(results)};
-
-    std::vector<std::string> written, own;
+    Json data = data_of(results);
     const Vega vega = find_vega();
-    page.missing = vega.missing;
-    if (vega.missing.empty()) page.scripts = vega_scripts(vega).value_or("");
-    else listener.note(vega.missing);
-    std::vector<std::string> specs;
-    for (const Section& s : page.sections)
-        for (const Chart& c : s.charts)
-            for (const Twin& t : c.twins) {
-                own.push_back(t.file);
-                specs.push_back(t.spec);
-            }
+    std::vector<std::string> written, own;
+    std::string scripts;
     if (vega.missing.empty()) {
-        std::string why;
-        const auto svgs = svgs_of(vega, specs, why);
-        for (std::size_t k = 0; k < svgs.size(); ++k) {
-            if (!svgs[k]) continue;
-            store::write_fresh(folder / own[k], *svgs[k]);
-            written.push_back(own[k]);
+        scripts = vega_scripts(vega).value_or("");
+        const Drawn drawn = draw(vega, with_figures(data, results));
+        for (const auto& [name, svg] : drawn.svgs) {
+            store::write_fresh(folder / name, svg);
+            written.push_back(name);
+            if (!name.starts_with("figure-")) own.push_back(name);
         }
-        if (!why.empty()) listener.note(why);
+        for (const std::string& note : drawn.notes) listener.note(note);
+    } else {
+        listener.note(vega.missing);
+        data["missing"] = vega.missing;
     }
-    page.sections.push_back(picture_section(results, own));
-    page.sections.push_back(cell_section(results));
-    store::write_fresh(folder / "report.html", fitting_page_of(std::move(page)));
+    add_pictures(data, folder, own);
+    store::write_fresh(folder / "report.html", fitting_page_of(std::move(data), scripts, page_limit));
     written.emplace_back("report.html");
     return written;
 }

@@ -1,10 +1,12 @@
-// From what lies in a folder of compare or of suite: report.html beside it, and each of its charts as a picture.
+// From what lies in a folder of compare, suite or trim: report.html beside it, and each of its charts and figures as a picture.
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "bench/store/records.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
 
@@ -13,5 +15,12 @@ namespace jvari::bench::report {
 // Returns the names of the files written. Without node or its packages the page comes with tables and sounds alone, the pictures not at
 // all, and a note says what is missing. Throws UsageError where the folder does not hold results or they cannot be read.
 std::vector<std::string> write_report(const std::filesystem::path& folder, const store::Listener&);
+
+// A table that is too large goes without the columns that take most room, those that charts need excepted.
+store::Table fitting(store::Table, nlohmann::ordered_json& left_out);
+// The page in less than `limit` bytes: pictures, then sounds are left out from the last on, and the page says so.
+std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scripts, std::size_t limit);
+
+nlohmann::ordered_json known_schemes();  // of schemes and references: name, is it a control; in the order of their registry
 
 }  // namespace jvari::bench::report

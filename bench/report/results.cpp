@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string_view>
 
 #include "bench/store/cell_rows.hpp"
 #include "bench/store/checksum.hpp"
@@ -20,12 +18,13 @@ namespace jvari::bench::report {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr std::size_t longest_part = 100;  // of a file's name
 using Json = nlohmann::ordered_json;
 
 std::string as_utf8(const std::string& bytes) {  // what is none becomes U+FFFD
     return Json::parse(Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
+
+}  // namespace
 
 store::Table read_table(const fs::path& path) {
     std::error_code error;
@@ -39,6 +38,7 @@ store::Table read_table(const fs::path& path) {
     }
 }
 
+namespace {
 void must_have_rows(const store::Table& t, const fs::path& path) {
     if (!t.columns.empty() && t.rows.empty())
         throw store::UsageError(fmt::format("{}: it has no row below its header; make the results again", path.string()));
@@ -121,9 +121,6 @@ void read_manifest(Results& r) {
                               headline.at("bridge").get<std::string>(), r.about);
         if (scene.contains("strings") && !scene.at("strings").empty())
             r.about = scene.at("strings").at(0).get<std::string>() + "; " + r.about;
-        for (const Json& tap : scene.at("taps")) r.taps.push_back(tap.at("name"));
-        for (const auto& [name, value] : m.at("noise_floor").items())
-            if (value.is_number()) r.floors.emplace_back(name, value.get<double>());
     } catch (const std::exception& e) {  // Json::exception, what refuse_deep() throws
         throw store::UsageError(fmt::format("{}: {}", path.string(), e.what()));
     }
@@ -138,50 +135,14 @@ Results read_results(const fs::path& folder) {
                              [&](const char* n) { return fs::is_regular_file(folder / n, error); }))
         throw store::UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
     read_manifest(r);
-    r.cells = read_cells(folder);
-    if (!r.cells.columns.empty()) name_rows(r.cells, r.name);
-    const std::pair<const char*, store::Table*> files[] = {{"dispersion.csv", &r.dispersion}, {"convergence.csv", &r.convergence},
-                                                           {"scaling.csv", &r.scaling},       {"maps.csv", &r.maps},
-                                                           {"boundaries.csv", &r.boundaries}, {"sounds.csv", &r.sounds}};
-    for (const auto& [name, table] : files) {
-        *table = read_table(folder / name);
-        if (!table->columns.empty()) name_rows(*table, r.name);
-    }
-    r.path = read_table(folder / "path.csv");
-    r.needs = read_table(folder / "needs.csv");
+    r.tables["cells"] = read_cells(folder);
+    for (const char* name : {"dispersion", "convergence", "scaling", "maps", "boundaries", "sounds", "path", "needs"})
+        r.tables[name] = read_table(folder / (std::string(name) + ".csv"));
+    for (auto& [name, table] : r.tables)
+        if (name != "path" && name != "needs" && !table.columns.empty()) name_rows(table, r.name);
+    r.cells = r.tables["cells"];
+    r.sounds = r.tables["sounds"];
     return r;
-}
-
-store::Table table_of(const fs::path& folder, const std::string& name) {
-    return name == "cells" ? read_cells(folder) : read_table(folder / (name + ".csv"));
-}
-
-std::vector<std::string> distinct(const store::Table& t, const std::string& column) {
-    std::vector<std::string> texts;
-    for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (std::find(texts.begin(), texts.end(), t.at(i, column)) == texts.end()) texts.push_back(t.at(i, column));
-    return texts;
-}
-
-namespace {
-std::string plain_part(const std::string& text) {
-    std::string part;
-    bool between = false;
-    for (const char c : text) {
-        const bool kept = std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_.+-").find(c) != std::string_view::npos;
-        if (kept && between && !part.empty()) part += '-';
-        between = !kept;
-        if (kept) part += c;
-    }
-    return part.substr(0, longest_part);
-}
-}  // namespace
-
-std::string file_part(const std::string& text, const std::vector<std::string>& all) {
-    const std::string part = plain_part(text);
-    const auto meets = [&](const std::string& other) { return other != text && plain_part(other) == part; };
-    if (std::none_of(all.begin(), all.end(), meets)) return part;
-    return part.substr(0, longest_part - 17) + "-" + store::hash_of(text).substr(0, 16);
 }
 
 }  // namespace jvari::bench::report

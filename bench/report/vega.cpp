@@ -7,10 +7,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
-#include <utility>
-#include <vector>
 
+#include "bench/report/page.hpp"
 #include "bench/report/page_text.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/program.hpp"
@@ -20,6 +20,7 @@ namespace jvari::bench::report {
 namespace fs = std::filesystem;
 
 namespace {
+using Json = nlohmann::ordered_json;
 constexpr const char* libraries[] = {"vega/build/vega.min.js", "vega-lite/build/vega-lite.min.js", "vega-embed/build/vega-embed.min.js"};
 
 std::optional<std::string> whole(const fs::path& path) {
@@ -81,35 +82,34 @@ std::string inside_script(std::string text) {
     return text;
 }
 
-std::vector<std::optional<std::string>> svgs_of(const Vega& v, const std::vector<std::string>& specs, std::string& why) {
-    std::vector<std::optional<std::string>> svgs(specs.size());
-    if (specs.empty()) return svgs;
+Drawn draw(const Vega& v, const Json& data) {
+    Drawn drawn;
     const Scratch scratch;
-    const auto file = [&scratch](const std::string& name) { return scratch.path / name; };
-    bool written = !scratch.path.empty() && (std::ofstream(file("draw.js"), std::ios::binary) << page_text("draw.js"));
-    for (std::size_t k = 0; written && k < specs.size(); ++k)
-        written = static_cast<bool>(std::ofstream(file("spec." + std::to_string(k) + ".json"), std::ios::binary) << specs[k]);
-    if (!written) {
-        why = "no picture: cannot write to " + temporary().string();
-        return svgs;
+    const auto file = [&scratch](const char* name) { return scratch.path / name; };
+    const auto write = [](const fs::path& path, const std::string& text) {
+        return static_cast<bool>(std::ofstream(path, std::ios::binary) << text);
+    };
+    const std::string program = "const page = JSON.parse(require(\"fs\").readFileSync(\"page.json\", \"utf8\"));\n" + shared_program() +
+                                page_text("figures.js") + page_text("draw.js") + "draw_all();\n";
+    if (scratch.path.empty() || !write(file("draw.js"), program) ||
+        !write(file("page.json"), data.dump(-1, ' ', false, Json::error_handler_t::replace))) {
+        drawn.notes.push_back("no picture: cannot write to " + temporary().string());
+        return drawn;
     }
     std::error_code error;
     const fs::path modules = fs::absolute(v.folder, error);
-    const store::Said drawn = store::run_program(
-        {"env", "--chdir=" + scratch.path.string(), "NODE_PATH=" + modules.string(), "node", "draw.js", std::to_string(specs.size())},
-        store::Errors::with_the_rest);
-    for (std::size_t k = 0; k < specs.size(); ++k) {
-        const auto svg = whole(file(std::to_string(k) + ".svg"));
-        if (svg && svg->rfind("<svg", 0) == 0) svgs[k] = svg;
-        else if (why.empty() && drawn.code == 127) why = "no picture: node is missing (Debian: apt-get install nodejs npm)";
-        else if (why.empty())
-            why = "no picture: vega failed: " + whole(file(std::to_string(k) + ".said")).value_or(drawn.text).substr(0, 400);
+    const store::Said said = store::run_program(
+        {"env", "--chdir=" + scratch.path.string(), "NODE_PATH=" + modules.string(), "node", "draw.js"}, store::Errors::with_the_rest);
+    const auto list = whole(file("drawn.json"));
+    if (!list) {
+        drawn.notes.push_back(said.code == 127 ? "no picture: node is missing (Debian: apt-get install nodejs npm)"
+                                               : "no picture: vega failed: " + said.text.substr(0, 400));
+        return drawn;
     }
-    return svgs;
-}
-
-std::optional<std::string> svg_of(const Vega& v, const std::string& spec, std::string& why) {
-    return svgs_of(v, {spec}, why).front();
+    const Json told = Json::parse(*list);
+    for (const std::string name : told.at("drawn")) drawn.svgs.emplace_back(name, whole(file(name.c_str())).value_or(""));
+    for (const Json& one : told.at("failed")) drawn.notes.push_back(one.at(0).get<std::string>() + ": " + one.at(1).get<std::string>());
+    return drawn;
 }
 
 }  // namespace jvari::bench::report

@@ -1,8 +1,10 @@
 // The npm packages that draw: vega, vega-lite, vega-embed, installed by `npm ci` at the root of the sources.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace jvari::bench::report {
@@ -17,10 +19,12 @@ Vega find_vega();
 // The three minified libraries, fit to stand inside <script>; nothing where one is missing.
 std::optional<std::string> vega_scripts(const Vega&);
 
-// Vega-Lite specifications as SVG, all by one process; nothing for one that cannot be drawn, or where node is missing. `why` says what was
-// the first.
-std::vector<std::optional<std::string>> svgs_of(const Vega&, const std::vector<std::string>& specs, std::string& why);
-std::optional<std::string> svg_of(const Vega&, const std::string& spec, std::string& why);
+// The charts of `data` (page.hpp) as SVG files, drawn by one node with the page's own JavaScript.
+struct Drawn {
+    std::vector<std::pair<std::string, std::string>> svgs;  // name of the file, content
+    std::vector<std::string> notes;                         // what could not be drawn, and why
+};
+Drawn draw(const Vega&, const nlohmann::ordered_json& data);
 
 // Text that stands inside <script> without ending it: within a string or a regular expression "<\/script" says the same as "</script".
 std::string inside_script(std::string);

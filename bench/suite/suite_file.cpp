@@ -123,7 +123,6 @@ std::vector<store::Key<Suite>> keys_of_suite() {
     return {key("name", &Suite::name, store::text(), "what it is called", "the file's"),
             key("source", &Suite::source, store::text(), "what it follows", "none"),
             key("map", &Suite::maps, map::maps(), "maps of what becomes of each scheme"),
-            key("figure", &Suite::figures, figures(), "pictures of what was measured"),
             key("cells", &Suite::sets, store::tables("cells", store::table(set_keys(), hold_together)),
                 "sets of cells: each the product of what it lists")};
 }
@@ -155,6 +154,8 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     const store::Entry root(document, document.root, "");
     Suite suite;
     suite.name = fs::path(file_name).stem().string();
+    if (const auto figure = root.at("figure"))
+        figure->refuse("no figures here: they stand beside it in " + suite.name + ".vl.json, as Vega-Lite");
     store::read_keys(root, keys, suite);
     if (suite.sets.empty() && (suite.maps.empty() || root.at("cells")))
         root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") + "expected at least one [[cells]]");
@@ -172,6 +173,7 @@ Suite read_suite(const std::string& name) {
     const std::string path = file ? name : shelved.string();
     Suite suite = parse_suite(store::read_whole(path), path);
     suite.shelved = known;
+    if (const fs::path beside = fs::path(path).replace_extension(".vl.json"); fs::is_regular_file(beside, error)) suite.figures = beside;
     // a scene's file is looked for beside the suite's, then where the program runs; a name of the library is neither
     const auto find = [&](std::string& scene) {
         if (const fs::path beside = fs::path(path).parent_path() / scene;
@@ -182,6 +184,13 @@ Suite read_suite(const std::string& name) {
         for (std::string& scene : set.scenes) find(scene);
     for (map::Map& m : suite.maps) find(m.scene);
     return suite;
+}
+
+fs::path figures_of(const fs::path& folder, const std::string& suite) {
+    std::error_code error;
+    for (const fs::path& file : {folder / figures_file, library() / (suite + ".vl.json")})
+        if (fs::is_regular_file(file, error)) return file;
+    return {};
 }
 
 std::vector<std::string> library_suites() {

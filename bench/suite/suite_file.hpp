@@ -2,6 +2,7 @@
 // and bench/suites/README.md show them.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,7 +13,6 @@
 #include "bench/map/map_file.hpp"
 #include "bench/study/elements.hpp"
 #include "bench/suite/figure_facets.hpp"
-#include "bench/suite/figure_file.hpp"
 
 namespace jvari::bench::suite {
 
@@ -51,7 +51,7 @@ struct Suite {
     std::string name, source;
     bool shelved = false;  // it is the library's, found by its name
     std::vector<CellSet> sets;
-    std::vector<Figure> figures;
+    std::filesystem::path figures;  // the file of its figures beside it, NAME.vl.json; empty: none
     std::vector<map::Map> maps;
 };
 
@@ -65,6 +65,11 @@ struct TableWords {
     std::vector<store::KeyWords> keys;
 };
 std::vector<TableWords> suite_keys();
+
+// Figures as Vega-Lite, by their names: figures.vl.json of a folder of results, else those of the library's suite of this name; empty:
+// none.
+inline constexpr const char* figures_file = "figures.vl.json";
+std::filesystem::path figures_of(const std::filesystem::path& folder, const std::string& suite);
 
 // Names of the suites in the library, sorted: the directory $JVARI_SUITES, else that of the sources, else the installed one.
 std::vector<std::string> library_suites();

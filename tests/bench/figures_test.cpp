@@ -1,10 +1,7 @@
-// Figures of a suite: what the file may say, the rows that facets make, and the specification that draws them.
+// Figures of a suite: what the file may say, the rows that facets make, and the pictures that Vega-Lite makes of them.
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "bench/report/figure_chart.hpp"
-#include "bench/report/identity.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/sound/radiation.hpp"
 #include "bench/study/columns.hpp"
@@ -25,30 +22,9 @@ const std::string cells = "[[cells]]\nscenes = [\"free_string\"]\n";  // two lin
 
 // ---- The file
 
-TEST(FigureFile, WhatIsWrongWithAFigureIsSaidWithFileLineAndKey) {
-    const std::string figure = cells + "[[figure]]\nname = \"1\"\ntitle = \"\"\nkind = \"lines\"\ntable = \"trace\"\nx = \"time_s\"\n";
-    const std::string y = "y = \"value\"\n";
-    EXPECT_EQ(refusal_of(figure + y), "read");
-    const std::pair<std::string, const char*> cases[] = {
-        {figure, "a.toml:3: figure.0: the key y is missing"},
-        {figure + y + "knid = 1", "a.toml:10: figure.0: unknown key \"knid\"; did you mean \"kind\"?"},
-        {figure + "y = { column = \"value\", tittle = \"\" }", "a.toml:9: figure.0.y: unknown key \"tittle\"; did you mean \"title\"?"},
-        {figure + "y = { column = \"low\", to = \"high\" }", "a.toml:9: figure.0.y: found a table, expected no column `to`"},
-        {figure + "y = { column = \"low\", domain = [2, 1] }",
-         "a.toml:9: figure.0.y.domain: found an array, expected [from, to] with from < to"},
-        {figure + y + "beside = \"2\"",
-         "a.toml:10: figure.0.beside: found \"2\", expected the name of a figure of this file, no spectrogram, with nothing beside it"},
-        {figure + y + "where = { tap = [] }", "a.toml:10: figure.0.where.tap: found an array, expected at least one value"},
-        {figure + y + "across = 0", "a.toml:10: figure.0.across: found 0, expected a whole number from 1 to 20"},
-        {cells + "[[figure]]\nname = \"a/b\"\ntitle = \"\"", "a.toml:4: figure.0.name: found \"a/b\", expected lower-case letters"},
-        {cells + "[[figure]]\nname = \"1\"\ntitle = \"\"\nkind = \"line\"",
-         "a.toml:6: figure.0.kind: unknown kind \"line\"; did you mean \"lines\"?"},
-        {cells + "[[figure]]\nname = \"1\"\ntitle = \"\"\nkind = \"lines\"\ntable = \"trac\"", "a.toml:7: figure.0.table: unknown table"},
-        {cells + "[[figure]]\nname = \"1\"\ntitle = \"\"\nkind = \"spectrogram\"\nx = \"a\"",
-         "a.toml:7: figure.0.x: found \"a\", expected nothing"},
-        {figure + y + figure.substr(cells.size()) + y, "figure.1.name: found \"1\", expected a name of its own"},
-    };
-    for (const auto& [text, expected] : cases) EXPECT_NE(refusal_of(text).find(expected), std::string::npos) << refusal_of(text);
+TEST(FigureFile, FiguresInTheSuiteAreRefusedWithWhereTheyStand) {
+    EXPECT_NE(refusal_of(cells + "[[figure]]\nname = \"1\"").find("stand beside it in a.vl.json"), std::string::npos)
+        << refusal_of(cells + "[[figure]]\nname = \"1\"");
 }
 
 TEST(FigureFile, WhatIsWrongWithAFacetIsSaidWithFileLineAndKey) {
@@ -276,111 +252,29 @@ TEST(FigureRows, ACellWithAnotherWindowIsAnotherCell) {
               plan_of(bench::suite::parse_suite(other, "a"), bench::compare::Catalogue(), {}).jobs[0].id);
 }
 
-// ---- The specification
-
-using Json = nlohmann::json;
-const bench::store::Table table{{"rate", "tap", "time_s", "low", "high"},
-                                {{"44100", "a", "1", "0.1", "0.2"},
-                                 {"44100", "b", "2", "-0.3", "0.4"},
-                                 {"88200.0", "b", "3", "", "1"},
-                                 {"88200.0", "b", "4", "5", "6"}}};
-bench::suite::Figure a_figure(bench::suite::FigureKind kind) {
-    bench::suite::Figure f;
-    f.title = "title";
-    f.paper = "fig. 1";
-    f.statement = "statement";
-    f.table = "extent";
-    f.kind = kind;
-    f.x = {"time_s", "", "time [ms]", 1e3, false, {}};
-    f.y = {"low", "", "force", 1, false, {}};
-    return f;
-}
-std::string complaint(const bench::suite::Figure& f) {
-    try {
-        bench::report::figure_spec(f, table);
-    } catch (const bench::store::UsageError& e) {
-        return e.what();
-    }
-    return "drawn";
-}
-
-TEST(FigureSpec, DrawsTheRowsThatAreChosenInTheirUnitsUnderTheirNames) {
-    bench::suite::Figure f = a_figure(bench::suite::FigureKind::lines);
-    f.where = {{"tap", {"b", "c"}}, {"rate", {"88200", "44100"}}};
-    f.colour = {"rate", "tap"};
-    f.labels = {{"44100, b", "single"}};
-    const Json spec = Json::parse(bench::report::figure_spec(f, table));
-    const Json expected = Json::array({{{"x", 2000}, {"y", -0.3}, {"c", "single"}}, {{"x", 4000}, {"y", 5}, {"c", "88200.0, b"}}});
-    EXPECT_EQ(spec["data"]["values"], expected);  // the empty field is no zero
-    EXPECT_EQ(spec["encoding"]["color"]["scale"]["domain"], Json::array({"single", "88200.0, b"}));
-    EXPECT_EQ(spec["encoding"]["x"]["title"], "time [ms]");
-    EXPECT_EQ(spec["title"]["subtitle"], Json::array({"fig. 1: statement"}));
-}
-
-TEST(FigureSpec, ASchemesPointsHaveItsColourAndItsMarker) {
-    const bench::store::Table schemes{{"time_s", "low", "scheme"}, {{"1", "2", "modal_two_point"}, {"1", "3", "modal_explicit_penalty"}}};
-    bench::suite::Figure f = a_figure(bench::suite::FigureKind::points);
-    f.colour = {"scheme"};
-    const Json encoding = Json::parse(bench::report::figure_spec(f, schemes))["encoding"];
-    const auto looks = bench::report::identities_of({"modal_two_point", "modal_explicit_penalty"});
-    ASSERT_NE(looks[0].shape, looks[1].shape);
-    for (std::size_t k = 0; k < looks.size(); ++k) {
-        EXPECT_EQ(encoding["color"]["scale"]["range"][k], looks[k].colour);
-        EXPECT_EQ(encoding["shape"]["scale"]["range"][k], looks[k].shape);
-    }
-}
-
-TEST(FigureSpec, ALogarithmicAxisLeavesOutWhatItCannotShowAndADomainWhatLiesOutside) {
-    bench::suite::Figure f = a_figure(bench::suite::FigureKind::lines);
-    f.y.log = true;
-    EXPECT_EQ(Json::parse(bench::report::figure_spec(f, table))["data"]["values"].size(), 2u);
-    f.x.domain = {{1500, 4000}};
-    const Json spec = Json::parse(bench::report::figure_spec(f, table));
-    EXPECT_EQ(spec["data"]["values"].size(), 1u);
-    EXPECT_EQ(spec["encoding"]["y"]["scale"]["type"], "log");
-}
-
-TEST(FigureSpec, ABandReachesFromLowToHighInAPanelForEachName) {
-    bench::suite::Figure f = a_figure(bench::suite::FigureKind::band);
-    f.y.to = "high";
-    f.panels = {"tap"};
-    f.across = 2;
-    const Json spec = Json::parse(bench::report::figure_spec(f, table));
-    EXPECT_EQ(spec["spec"]["mark"]["type"], "area");
-    EXPECT_EQ(spec["spec"]["encoding"]["y2"]["field"], "z");
-    EXPECT_EQ(spec["facet"]["sort"], Json::array({"a", "b"}));
-    EXPECT_EQ(spec["columns"], 2);
-    EXPECT_EQ(spec["data"]["values"][0]["z"], 0.2);
-}
-
-TEST(FigureSpec, AColumnThatIsNotThereAndAnEmptyChoiceAreRefusedByName) {
-    bench::suite::Figure f = a_figure(bench::suite::FigureKind::lines);
-    f.y.column = "lo";
-    EXPECT_EQ(complaint(f).rfind("table extent: unknown column \"lo\"; did you mean \"low\"?", 0), 0u) << complaint(f);
-    f = a_figure(bench::suite::FigureKind::lines);
-    f.where = {{"tap", {"z"}}};
-    EXPECT_EQ(complaint(f), "table extent: no row is left to draw");
-}
+// ---- The pictures
 
 TEST(FigureCommand, ASuiteWritesItsPicturesAndSaysWhichItCouldNotDraw) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml")
-        << one_mode << "[[figure]]\nname = \"1\"\ntitle = \"t\"\nkind = \"lines\"\ntable = \"profile\"\n"
-        << "x = \"position_m\"\ny = \"displacement_m\"\ncolour = [\"time_s\"]\n"
-        << "[[figure]]\nname = \"2\"\ntitle = \"t\"\nkind = \"lines\"\ntable = \"profile\"\nx = \"postion\"\ny = \"time_s\"\n"
-        << "[[figure]]\nname = \"3\"\ntitle = \"left\"\nkind = \"lines\"\ntable = \"profile\"\nx = \"time_s\"\ny = \"displacement_m\"\n"
-        << "beside = \"4\"\n"
-        << "[[figure]]\nname = \"4\"\ntitle = \"right\"\nkind = \"lines\"\ntable = \"profile\"\nx = \"time_s\"\ny = \"displacement_m\"\n";
-    const Outcome o = jvari(scratch, "suite " + scratch / "a.toml" + " --out " + scratch / "out");
-    EXPECT_EQ(o.code, 0) << o.err;
-    if (bench::report::find_vega().missing.empty()) {
-        EXPECT_EQ(content(scratch.path / "out" / "figure-1.svg").rfind("<svg", 0), 0u);
-        for (const char* title : {">left<", ">right<"})
-            EXPECT_NE(content(scratch.path / "out" / "figure-3.svg").find(title), std::string::npos);
-        EXPECT_EQ(content(scratch.path / "out" / "figure-4.svg").find(">left<"), std::string::npos);
-        EXPECT_NE(o.err.find("figure-2.svg: table profile: unknown column \"postion\""), std::string::npos) << o.err;
-    } else {
-        EXPECT_NE(o.err.find("npm ci"), std::string::npos) << o.err;
+    std::ofstream(scratch / "a.toml") << one_mode;
+    const std::string plain =
+        R"("data": {"name": "profile"}, "mark": "line", "encoding": {"x": {"field": "position_m", "type": "quantitative"},)";
+    std::ofstream(scratch / "a.vl.json")
+        << R"({"1": {"title": {"text": "left"}, )" << plain << R"("y": {"field": "displacement_m", "type": "quantitative"}}}, "2": {)"
+        << plain << R"("y": {"field": "displacment", "type": "quantitative"}}}, "3": {"data": {"name": "trac"}, "mark": "line"}})";
+    for (const std::string& command : {"suite " + scratch / "a.toml" + " --out " + scratch / "out", "report " + scratch / "out"}) {
+        const Outcome o = jvari(scratch, command);
+        EXPECT_EQ(o.code, 0) << o.err;
+        if (!bench::report::find_vega().missing.empty()) {
+            EXPECT_NE(o.err.find("npm ci"), std::string::npos) << o.err;
+            continue;
+        }
+        const std::string svg = content(scratch.path / "out" / "figure-1.svg");
+        EXPECT_EQ(svg.rfind("<svg", 0), 0u);
+        EXPECT_NE(svg.find(">left<"), std::string::npos);
+        EXPECT_NE(o.err.find("figure-2.svg: table profile: there is no column displacment; it has"), std::string::npos) << o.err;
+        EXPECT_NE(o.err.find("figure-3.svg: there is no table trac"), std::string::npos) << o.err;
+        std::filesystem::remove(scratch.path / "out" / "figure-1.svg");  // the folder has what it takes to draw it again
     }
     EXPECT_FALSE(std::filesystem::exists(scratch.path / "out" / "figure-2.svg"));
     EXPECT_NE(content(scratch.path / "out" / "profile.csv").find("displacement_m"), std::string::npos);

@@ -4,7 +4,6 @@
 #include <set>
 #include <thread>
 
-#include "bench/report/spectrogram_chart.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/study/clock.hpp"
@@ -504,44 +503,6 @@ TEST(Spectrograms, ASineStandsInItsRowWithItsPower) {
         EXPECT_NEAR(frame[12], -448 - 7, 8);
         EXPECT_LT(frame[50], frame[12] - 800);
     }
-}
-
-TEST(Spectrograms, OneScaleForAllAndNoMoreRectanglesThanAsked) {
-    bench::study::Levels noise{60, 100, 0, 0.016, 80, {}};
-    for (int k = 0; k < 6000; ++k) noise.level.push_back(-437 - (k * 7919) % 600);
-    bench::study::Levels quiet = noise;
-    for (int& level : quiet.level) level -= 2000;
-    const auto spec = nlohmann::json::parse(
-        bench::report::spectrogram_spec("a", "b", {{"s", "x", "ok", noise}, {"t", "x", "ok", quiet}, {"t", "y", "refused", {}}}, 2000));
-    const auto& grid = spec.at("concat");
-    ASSERT_EQ(grid.size(), 4u);
-    const auto rectangles = [&grid](int k) { return grid[k].at("data").at("values").size(); };
-    EXPECT_GT(rectangles(0), 500u);
-    EXPECT_LE(rectangles(0), 2000u);
-    EXPECT_EQ(rectangles(1), 0u);  // 200 dB below: background alone, for the scale is common
-    EXPECT_EQ(grid[3].at("mark").at("text"), "refused");
-    EXPECT_EQ(grid[1].at("title").at("text"), "t");
-    double highest = -1e9;
-    for (const auto& r : grid[0].at("data").at("values")) highest = std::max(highest, r.at("l").get<double>());
-    EXPECT_EQ(highest, 0);
-}
-
-TEST(Spectrograms, ADifferenceIsThatOfTheLevelsWhereEitherIsHeard) {
-    const bench::study::Levels truth{2, 2, 0, 0.016, 80, {0, -100, -900, -200}};
-    bench::study::Levels louder = truth;
-    for (int& level : louder.level) level += 60;
-    bench::report::Panel compared{"s", "x", "ok", louder, truth};
-    const auto spec = nlohmann::json::parse(bench::report::spectrogram_spec("a", "b", {{"truth", "x", "ok", truth}, compared}));
-    EXPECT_EQ(spec.at("params").at(0).at("name"), "shown_field");
-    const auto& grid = spec.at("concat");
-    for (const auto& r : grid[0].at("data").at("values")) EXPECT_EQ(r.at("d"), 0);  // the truth differs from nothing
-    int differences = 0;
-    for (const auto& r : grid[1].at("data").at("values"))
-        if (r.at("d") == 1) {
-            ++differences;
-            EXPECT_EQ(r.at("l"), 6);
-        }
-    EXPECT_EQ(differences, 2);  // the rows of both frames; what is background in both is none
 }
 
 }  // namespace

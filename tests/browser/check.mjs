@@ -102,7 +102,7 @@ const in_page = {
         blind.checked = false;
         blind.onchange();
         return {first, second, took, goes_on, ended: player.playing === null, hidden, listen: document.querySelectorAll(".listen").length,
-                found: page.verdicts.find(v => v.scene === scene_shown()).answers.filter(a => player.sounds.some(s => s.scheme === a.scheme && s.detail === a.rate && s.problem === scene_shown())).length, shown: player.shown.length, length: player.shown.map(s => s.buffer?.duration)};
+                found: report.verdicts.find(v => v.scene === scene_shown()).answers.filter(a => player.sounds.some(s => s.name === a.scheme && s.detail === a.rate && s.problem === scene_shown())).length, shown: player.shown.length, length: player.shown.map(s => s.buffer?.duration)};
     })()`,
     table: `(async () => {
         const table = [...document.querySelectorAll("#cells table")].at(-1), heading = name => [...table.querySelectorAll("th")].find(th => th.textContent.startsWith(name));
@@ -119,22 +119,18 @@ const in_page = {
                 select.value = name;
                 await select.onchange();
             }
-            const section = page.sections.find(s => s.id === "work-precision");
-            if (name !== null && section && !section.charts[0].offers[name]) continue;  // it has other charts alone
-            const chart = document.querySelector("#work-precision .chart");
-            if (!chart) continue;
-            const data = section.charts[0], rows = data.spec.datasets.cells.filter(row => name === null || row.problem === name);
-            const [measure, tap] = ["measure_field", "tap_field"].map(signal => {
-                const menus = data.menus.filter(menu => menu.signal !== "problem_field" && menu.choices.length > 1), k = menus.findIndex(menu => menu.signal === signal);
-                return k < 0 ? data.menus.find(menu => menu.signal === signal).choices[0][0] : menus[k].choices[document.querySelectorAll("#work-precision .menus select")[k].selectedIndex][0];
-            });
-            const error = measure + (tap === "" ? "" : "_" + tap), offers = data.offers[name ?? Object.keys(data.offers)[0]] ?? [];
+            const data = report.sections.find(s => s.id === "work-precision")?.charts[0], chart = document.querySelector("#work-precision .chart");
+            if (!chart || (name !== null && !data.scenes.includes(name))) continue;  // it has other charts alone
+            const scene = name ?? data.scenes[0], rows = of_scene(cells(), scene).filter(c => c.line), menus = data.menus(scene).filter(menu => menu.choices.length > 1);
+            const chosen = key => { const k = menus.findIndex(menu => menu.key === key); return k < 0 ? undefined : menus[k].choices[document.querySelectorAll("#work-precision .menus select")[k].selectedIndex][0]; };
+            const offers = errors_in(of_scene(cells(), scene)).map(e => e.column), error = (chosen("measure_field") ?? offers[0]) + (chosen("tap_field") ? "_" + chosen("tap_field") : "");
+            const cost = c => number(c.cost_s_per_s);
             told.push({name, offered: offers.includes(error),
                        empty: [...document.querySelectorAll(".chart")].filter(c => !marks(c)).map(c => c.getAttribute("aria-label")),
                        crosses: [...chart.querySelectorAll("svg.marks text")].filter(t => t.textContent === "\u2715").length,
-                       failed: rows.filter(row => row.status !== "ok" && row.cost_s_per_s > 0).length,
+                       failed: rows.filter(c => !["ok", "refused"].includes(c.status) && cost(c) > 0).length,
                        points: chart.querySelectorAll(".mark-symbol.role-mark path[opacity='1']").length,
-                       drawable: rows.filter(row => row.status === "ok" && row[error] > 0 && row.cost_s_per_s > 0).length,
+                       drawable: rows.filter(c => c.status === "ok" && error_of(c, error) > 0 && cost(c) > 0).length,
                        title: document.querySelector("h1").textContent, verdict: document.querySelectorAll("#verdict .card").length,
                        heard: typeof player === "undefined" || player.shown.every(s => name === null || s.problem === name || !player.sounds.some(o => o.problem === name))});
         }
@@ -146,12 +142,14 @@ const in_page = {
     // The first chart as it is first seen: its names, in the legend and beside the lines.
     names: `(() => {
         const chart = document.querySelector("#work-precision .chart"), box = e => e.getBoundingClientRect();
-        const legend = [...chart.querySelectorAll(".role-legend-label text")].map(t => t.textContent);
+        const legend = [...document.querySelectorAll("#work-precision .legend button")].map(t => t.textContent);
+        const samples = [...document.querySelectorAll("#work-precision .legend svg")].filter(s => s.querySelector("line") && s.querySelector("path"));
         const labels = [...chart.querySelectorAll(".mark-text.role-mark text")].filter(t => legend.includes(t.textContent));
         const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-        const scene = document.getElementById("scene")?.value, rows = page.sections[0].charts[0].spec.datasets.cells.filter(r => !scene || r.problem === scene);
-        const drawn = new Set(rows.map(r => spoken(r.series)));
-        return {legend, labels: labels.length, idle: legend.filter(name => !drawn.has(name)), overlaps: labels.flatMap((a, k) => labels.slice(k + 1).filter(b => overlap(box(a), box(b))).map(b => a.textContent + " and " + b.textContent))};
+        const outline = new Set([...chart.querySelectorAll(".mark-symbol.role-mark path, .mark-text.role-mark text")].map(p => p.getAttribute("fill") + p.getAttribute("stroke")));
+        const drawn = name => { const colour = document.querySelector('#work-precision .legend button[data-series="' + CSS.escape(name) + '"] path').getAttribute("fill"); return [...outline].some(o => o.includes(colour)); };
+        const series = [...document.querySelectorAll("#work-precision .legend button")].map(b => b.dataset.series);
+        return {legend, samples: samples.length, labels: labels.length, idle: series.filter(name => !drawn(name)), overlaps: labels.flatMap((a, k) => labels.slice(k + 1).filter(b => overlap(box(a), box(b))).map(b => a.textContent + " and " + b.textContent))};
     })()`,
     fold: `(() => {
         scrollTo(0, 0);
@@ -192,7 +190,7 @@ const in_page = {
     })()`,
     // The table of cells: what the filter leaves, and what the button saves.
     filter: `(async () => {
-        const section = document.getElementById("cells"), table = page.sections.find(s => s.id === "cells").table, search = section.querySelector("input[type=search]");
+        const section = document.getElementById("cells"), table = report.sections.find(s => s.id === "cells").table, search = section.querySelector("input[type=search]");
         [...section.querySelectorAll("button")].find(b => b.textContent === "all rows" && !b.hidden)?.click();
         const rows = () => section.querySelectorAll("tbody tr").length, all = rows(), schemes = table.rows.map(row => row[table.columns.indexOf("scheme")]);
         const one = schemes.at(-1);
@@ -231,7 +229,7 @@ const in_page = {
     lines: `(async () => {
         const chart = document.querySelector("#sounds .chart"), scenes = document.getElementById("scene"), told = [];
         for (const name of scenes ? [...scenes.options].map(o => o.value) : [null]) {
-            if (name !== null && !page.sections.find(s => s.id === "sounds").charts[0].menus[0].scenes.includes(name)) continue;
+            if (name !== null && !report.sections.find(s => s.id === "sounds").charts[0].scenes.includes(name)) continue;
             if (name !== null) { scenes.value = name; await scenes.onchange(); }
             const names = [...chart.querySelectorAll(".role-legend-label text")].map(t => t.textContent);
             const colours = [...chart.querySelectorAll(".role-legend-symbol path")].map(p => p.getAttribute("stroke"));
@@ -245,42 +243,51 @@ const in_page = {
     })()`,
     // Spectrograms as they are seen: of each panel which part is not background, and which is warm or cold, beside what its tiles cover.
     panels: `(async () => {
-        const section = document.getElementById("spectrograms"), select = [...section.querySelectorAll(".menus select")].at(-1), canvas = section.querySelector("canvas");
-        const chart = page.sections.find(s => s.id === "spectrograms").charts[0].spec.concat, seen = {};
-        const covered = (panel, d, of) => {
+        const section = document.getElementById("spectrograms");
+        const data = report.sections.find(s => s.id === "spectrograms").charts[0], seen = {level: [], difference: []}, menu = document.getElementById("scene");
+        let chart, expected = 0;
+        const [steps, warmth] = [vega.scheme("purpleorange"), l => { const [r, , b] = steps((l + 24) / 48).match(/\\d+/g).map(Number); return r - b; }];
+        const covered = (panel, of) => {
             if (!panel.encoding) return 0;  // a run that has none
             const {x, y} = panel.encoding, whole = (x.scale.domain[1] - x.scale.domain[0]) * (y.scale.domain[1] - y.scale.domain[0]);
-            return panel.data.values.filter(v => v.d === d && of(v.l)).reduce((sum, v) => sum + (v.b - v.a) * (v.g - v.f), 0) / whole;
+            return panel.data.values.filter(v => of(v.l)).reduce((sum, v) => sum + (v.b - v.a) * (v.g - v.f), 0) / whole;
         };
-        for (const [shown, ground] of [["level", [0x44, 0x01, 0x54]], ["difference", [0xf7, 0xf7, 0xf7]]]) {
+        for (const scene of data.scenes)
+          for (const [shown, ground] of [["level", [0x44, 0x01, 0x54]], ["difference", [0xf7, 0xf7, 0xf7]]]) {
+            if (menu) { menu.value = scene; await menu.onchange(); }
+            const select = [...section.querySelectorAll(".menus select")].at(-1);
             select.selectedIndex = shown === "level" ? 0 : 1;
             await select.onchange();
-            const {width, height} = canvas, data = canvas.getContext("2d").getImageData(0, 0, width, height).data, at = (x, y) => 4 * (y * width + x);
+            chart = data.spec({scene: scene_shown(), shown_field: shown}, false).spec.concat;
+            const canvas = section.querySelector("canvas"), {width, height} = canvas, pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data, at = (x, y) => 4 * (y * width + x);
             const boxes = [], wide = chart[0].width, taken = (x, y) => boxes.some(b => x >= b.x - 2 && x < b.x + wide + 2 && y >= b.y && y < b.y + 204);
             for (let y = 0; y + 196 < height; ++y)
                 for (let x = 0, from = 0; x <= width; ++x) {
-                    if (x < width && data[at(x, y) + 3] === 255) continue;
-                    if (x - from >= wide - 2 && x - from <= wide + 2 && data[at(from + 5, y + 190) + 3] === 255 && !taken(from + 5, y)) boxes.push({x: from, y});
+                    if (x < width && pixels[at(x, y) + 3] === 255) continue;
+                    if (x - from >= wide - 2 && x - from <= wide + 2 && pixels[at(from + 5, y + 190) + 3] === 255 && !taken(from + 5, y)) boxes.push({x: from, y});
                     from = x + 1;
                 }
-            seen[shown] = boxes.map((box, k) => {
+            expected += shown === "level" ? chart.length : 0;
+            seen[shown].push(...boxes.map((box, k) => {
                 const count = {all: 0, painted: 0, warm: 0, cold: 0};
                 for (let y = box.y + 3; y < box.y + 197; ++y)
                     for (let x = box.x + 3; x < box.x + wide - 3; ++x) {
-                        const [r, g, b] = data.subarray(at(x, y), at(x, y) + 3);
+                        const [r, g, b] = pixels.subarray(at(x, y), at(x, y) + 3);
                         ++count.all;
                         count.painted += r !== ground[0] || g !== ground[1] || b !== ground[2];
                         count.warm += r > b + 4;
                         count.cold += b > r + 4;
                     }
-                const d = shown === "level" ? 0 : 1, part = n => n / count.all, panel = chart[k];
-                return {name: [panel.title.text].flat().join(" "), painted: part(count.painted), tiles: covered(panel, d, () => true),
-                        warm: part(count.warm), louder: covered(panel, d, l => l > 0), cold: part(count.cold), quieter: covered(panel, d, l => l < 0)};
-            });
+                const part = n => n / count.all, panel = chart[k];
+                return {name: [panel.title.text].flat().join(" "), painted: part(count.painted), tiles: covered(panel, () => true),
+                        warm: part(count.warm), louder: covered(panel, l => l > 0 && warmth(l) > 4), cold: part(count.cold), quieter: covered(panel, l => l < 0 && warmth(l) < -4)};
+            }));
         }
+        const select = [...section.querySelectorAll(".menus select")].at(-1);
         select.selectedIndex = 0;
         await select.onchange();
-        return {expected: chart.length, ...seen};
+        if (menu) { menu.selectedIndex = 0; await menu.onchange(); }
+        return {expected, ...seen};
     })()`,
     // The look of each name in the legends of the page's charts, then of the pictures beside it.
     looks: files => `(() => {
@@ -289,8 +296,9 @@ const in_page = {
             return labels.map((label, k) => ({where, name: label.textContent, look: [symbols[k]?.getAttribute("d"), symbols[k]?.getAttribute("fill"), symbols[k]?.getAttribute("stroke")].join(" ")}));
         });
         const pictures = ${JSON.stringify(files)};
-        return [...[...document.querySelectorAll(".chart svg.marks")].flatMap(svg => look("the page, " + svg.closest(".chart").getAttribute("aria-label"), svg)),
-                ...pictures.flatMap(([name, text]) => look(name, new DOMParser().parseFromString(text, "image/svg+xml")))];
+        const samples = [...document.querySelectorAll(".legend button")].map(b => ({where: "the page, " + b.closest("section, details").id, name: b.textContent,
+            look: [b.querySelector("path").getAttribute("d"), b.querySelector("path").getAttribute("fill")].join(" ")}));
+        return [...samples, ...pictures.flatMap(([name, text]) => look(name, new DOMParser().parseFromString(text, "image/svg+xml")))];
     })()`
 };
 const known = /^(modal|finite_difference|sitar)_/;
@@ -383,7 +391,7 @@ async function check(browser, name, file, charts) {
     expect(other.length === 0 && (name === "made-up" || schemes >= 2), `each of ${schemes} schemes looks the same everywhere: ${other.join("; ")}`);
     await browser.evaluate(axe + ";axe.configure({noHtml: true});0");
     const names = await browser.evaluate(in_page.names);
-    expect(names.legend.length >= (name === "made-up" ? 1 : 2) && names.legend.length <= 8 && names.idle.length === 0, `the legend has at most 8 names, all drawn: ${JSON.stringify(names)}`);
+    expect(names.legend.length >= (name === "made-up" ? 1 : 2) && names.legend.length <= 8 && names.samples === names.legend.length && names.idle.length === 0, `the legend has at most 8 names, all drawn: ${JSON.stringify(names)}`);
     expect(names.labels > 0 && names.overlaps.length === 0, `names beside the lines do not overlap: ${JSON.stringify(names)}`);
     await read_in(browser, "light, 1400 px");
     const lengths = await browser.evaluate(in_page.menu_lengths);

@@ -1,13 +1,20 @@
-// node draw.js N: spec.0.json ... beside it, Vega-Lite, become 0.svg ...; what cannot be drawn says why in 0.said. One process for all: node and its
-// libraries take longer to load than a picture takes to draw.
-const fs = require("fs"), vega = require("vega"), lite = require("vega-lite");
-(async () => {
-  for (let k = 0; k < Number(process.argv[2]); ++k) {
+// Under node, after the other files: node draw.js makes of page.json beside it every picture of the charts, and of figures.json those of the suite, each
+// a Vega-Lite specification that names a table of the folder as its data. What cannot be drawn says why. In drawn.json stand the pictures' names.
+async function draw_all() {
+  const fs = require("fs"), vega = require("vega"), lite = require("vega-lite"), drawn = [], failed = [];
+  const draw = async (file, make) => {
     try {
-      const view = new vega.View(vega.parse(lite.compile(JSON.parse(fs.readFileSync(`spec.${k}.json`, "utf8")), {logger: vega.logger(vega.Error)}).spec), {renderer: "none", logLevel: vega.Error});
-      fs.writeFileSync(`${k}.svg`, await view.toSVG());
+      const spec = make(), log = vega.logger(vega.Error);
+      const view = new vega.View(vega.parse(lite.compile(spec, {logger: log}).spec), {renderer: "none", logLevel: vega.Error});
+      fs.writeFileSync(file, await view.toSVG());
+      drawn.push(file);
     } catch (error) {
-      fs.writeFileSync(`${k}.said`, String(error));
+      failed.push([file, error.message ?? String(error)]);
     }
-  }
-})();
+  };
+  for (const section of sections_of())
+    for (const chart of section.charts)
+      for (const twin of chart.twins) await draw(twin.file, () => chart.spec(twin.choice, true).spec);
+  for (const [name, figure] of Object.entries(page.figures ?? {})) await draw(`figure-${name}.svg`, () => figure_spec(figure));
+  fs.writeFileSync("drawn.json", JSON.stringify({drawn, failed}));
+}

@@ -1,5 +1,5 @@
 # The files of the page as text in the program, so that it has no file to look for when it runs: -DFOLDER -DOUT, every file but this one.
-file(GLOB files "${FOLDER}/*.html" "${FOLDER}/*.css" "${FOLDER}/*.js" "${FOLDER}/*.json")
+file(GLOB files "${FOLDER}/*.html" "${FOLDER}/*.css" "${FOLDER}/*.js")
 list(SORT files)
 set(text "#include \"bench/report/page_text.hpp\"\n\nnamespace jvari::bench::report {\nnamespace {\nconstexpr PageText texts[] = {\n")
 foreach(file IN LISTS files)

@@ -1,15 +1,15 @@
 // The page from its data: sections in the order in which they came, what it was measured with at the foot.
-const page = JSON.parse(document.getElementById("data").textContent);
 const drawings = [];
+const report = {};  // what is made of the tables: {verdicts, sections, scenes}
 
 function pictures_of(pictures) {
-  return pictures.map(p => element("figure", {}, element("img", {src: p.data, alt: p.name, loading: "lazy"}), element("figcaption", {}, p.name)));
+  return (pictures ?? []).map(p => element("figure", {}, element("img", {src: p.data, alt: p.name, loading: "lazy"}), element("figcaption", {}, p.name)));
 }
 
 // What stands in a section below its heading.
 function parts_of(s) {
   const parts = [], notes = s.notes.map(text => element("p", {className: "soft"}, text));
-  const first = s.id === page.sections[0]?.id;
+  const first = s === report.sections[0];
   if (!first || !s.charts.length) parts.push(...notes);
   for (const chart of s.charts) {
     const {parts: drawn, draw} = chart_of(chart, s.id, first);
@@ -80,29 +80,34 @@ function entries_of(value, name = "") {
   return Object.entries(value).filter(([key]) => !scene_text(key)).flatMap(([key, x]) => entries_of(x, name ? `${name}.${key}` : key));
 }
 
-const main = document.querySelector("main"), nav = document.querySelector("nav");
-const scenes = [...new Set([...page.verdicts.map(v => v.scene), ...page.sections.flatMap(s => s.charts).flatMap(c => c.menus)
-  .filter(menu => menu.signal === "problem_field").flatMap(menu => menu.choices.map(([name]) => name))])];
-if (scenes.length > 1) nav.after(scene_menu(scenes));
-document.getElementById("about").textContent = [page.title, page.about].filter(Boolean).join(" \u00b7 ");
-document.querySelector("h1").textContent = page.finding || page.title;
-if (page.missing) main.append(element("p", {className: "soft"}, page.missing));
-const [first, ...rest] = page.sections;
-const beginning = element("div", {className: "first"}), sounds = player_of(page.sections.flatMap(s => s.sounds));
-if (first) beginning.append(element("section", {id: first.id, ariaLabel: first.heading}, ...parts_of(first)));
-if (page.verdicts.length) beginning.append(verdict_of(page.verdicts, page.command));
-main.append(beginning, ...sounds, ...rest.map(section_of), how_to_read());
-for (const [id, heading] of [...rest.map(s => [s.id, s.heading]), ["reading", "How to read it"], ["provenance", "Measured with"]]) {
-  const link = element("a", {href: "#" + id}, heading);
-  link.onclick = event => {
-    event.preventDefault();
-    show(id);
-    choose("at", id);
-  };
-  nav.append(link);
+function fill_page() {
+  const main = document.querySelector("main"), nav = document.querySelector("nav");
+  report.verdicts = verdicts();
+  report.sections = sections_of();
+  report.scenes = distinct([...report.verdicts.map(v => v.scene), ...report.sections.flatMap(s => s.charts).flatMap(c => c.scenes ?? [])]);
+  if (report.scenes.length > 1) nav.after(scene_menu(report.scenes));
+  document.getElementById("about").textContent = [page.title, page.about].filter(Boolean).join(" \u00b7 ");
+  document.querySelector("h1").textContent = finding_of_maps() || finding_of_trim() || page.title;
+  if (page.missing) main.append(element("p", {className: "soft"}, page.missing));
+  const [first, ...rest] = report.sections;
+  const beginning = element("div", {className: "first"}), playing = player_of(sounds());
+  if (first) beginning.append(element("section", {id: first.id, ariaLabel: first.heading}, ...parts_of(first)));
+  if (report.verdicts.length) beginning.append(verdict_of(report.verdicts, page.command));
+  main.append(beginning, ...playing, ...rest.map(section_of), how_to_read());
+  for (const [id, heading] of [...rest.map(s => [s.id, s.heading]), ["reading", "How to read it"], ["provenance", "Measured with"]]) {
+    const link = element("a", {href: "#" + id}, heading);
+    link.onclick = event => {
+      event.preventDefault();
+      show(id);
+      choose("at", id);
+    };
+    nav.append(link);
+  }
+  for (const [name, text] of entries_of(page.manifest)) document.querySelector("footer dl").append(element("dt", {}, name.replaceAll("_", " ")), element("dd", {}, text));
+  return first;
 }
-for (const [name, text] of entries_of(page.manifest)) document.querySelector("footer dl").append(element("dt", {}, name.replaceAll("_", " ")), element("dd", {}, text));
 (async () => {
+  const first = fill_page();
   if (first) await draw_in(first.id);
   const at = view.get("at") ?? location.hash.slice(1);
   if (at) show(at);

@@ -1,12 +1,11 @@
 // One player for all sounds of a scene. They run side by side from one clock and one of them is heard, so that another takes over in the middle
 // of the sound. Space plays and stops; keys 1 to 9 choose. A blind comparison hides the names and deals the keys anew until it is asked for them.
-const player = {sounds: [], shown: [], heard: null, context: null, playing: null, started: 0, buttons: [], play: null, blind: null};
+const player = {sounds: [], shown: [], heard: null, context: null, playing: null, started: 0, buttons: [], play: null, blind: null, level: null};
 
-const sound_like = (scheme, rate) => player.sounds.find(s => s.scheme === scheme && s.detail === rate && s.problem === scene_shown());
-const scene_shown = () => document.getElementById("scene")?.value ?? page.verdicts[0]?.scene ?? "";
+const sound_like = (scheme, rate, scene) => player.sounds.find(s => s.name === scheme && s.detail === rate && s.problem === scene);
 function listen_to(sound) {
   const button = element("button", {type: "button", className: "listen", onclick: () => listen(sound)}, "\u25b6 listen");
-  button.setAttribute("aria-label", `listen to ${sound.scheme}, ${sound.detail}`);
+  button.setAttribute("aria-label", `listen to ${sound.name}, ${sound.detail}`);
   return button;
 }
 
@@ -18,9 +17,25 @@ function listen(sound) {
   hear(sound, true);
 }
 
-async function decoded(sound) {
-  const bytes = Uint8Array.from(atob(sound.wav), c => c.charCodeAt(0));
-  sound.buffer ??= await player.context.decodeAudioData(bytes.buffer);
+// For ears: the mean taken away, the ends faded over 5 ms, all sounds at one root mean square, the loudest that leaves every peak within 0.9.
+const shapes_heard = new Map();
+function shape_of(sound) {
+  if (shapes_heard.has(sound)) return shapes_heard.get(sound);
+  const {samples} = wave_of(sound), mean = samples.reduce((sum, x) => sum + x, 0) / samples.length, centred = samples.map(x => (x - mean) / 32768);
+  const shape = {centred, rms: Math.sqrt(centred.reduce((sum, x) => sum + x * x, 0) / samples.length), peak: centred.reduce((most, x) => Math.max(most, Math.abs(x)), 0)};
+  shapes_heard.set(sound, shape);
+  return shape;
+}
+function levelled(sound, level) {
+  const {centred, rms} = shape_of(sound), fade = 0.005 * sound.rate, last = centred.length - 1;
+  return Float32Array.from(centred, (x, n) => (rms > 0 ? level / rms : 0) * Math.min(1, n / fade, (last - n) / fade) * x);
+}
+const level_of = sounds => Math.min(1, ...sounds.map(shape_of).filter(s => s.peak > 0).map(s => 0.9 * s.rms / s.peak));
+function buffer_of(sound) {
+  if (sound.buffer) return sound.buffer;
+  const signal = levelled(sound, player.level ??= level_of(player.sounds));
+  sound.buffer = player.context.createBuffer(1, signal.length, sound.rate);
+  sound.buffer.copyToChannel(signal, 0);
   return sound.buffer;
 }
 
@@ -33,7 +48,7 @@ function stop() {
 async function play() {
   player.context ??= new AudioContext();
   await player.context.resume();
-  const buffers = await Promise.all(player.shown.map(decoded));
+  const buffers = player.shown.map(buffer_of);
   stop();
   player.started = player.context.currentTime + 0.02;
   player.playing = buffers.map((buffer, k) => {
@@ -68,14 +83,14 @@ function player_of(sounds) {
   player.blind = element("input", {type: "checkbox"});
   const fill = () => {
     stop();
-    const own = sounds.filter(s => s.problem === scene_shown()), answers = page.verdicts.find(v => v.scene === scene_shown())?.answers ?? [];
-    const place = s => s.scheme.startsWith("reference") ? 0 : answers.some(a => a.scheme === s.scheme && a.rate === s.detail) ? 1 : 2;
+    const own = sounds.filter(s => s.problem === scene_shown()), answers = report.verdicts.find(v => v.scene === scene_shown())?.answers ?? [];
+    const place = s => s.reference ? 0 : answers.some(a => a.scheme === s.name && a.rate === s.detail) ? 1 : 2;
     player.shown = (own.length ? own : [...sounds]).sort((a, b) => place(a) - place(b));
     if (player.blind.checked)
       player.shown = player.shown.slice(0, 9).map(s => [Math.random(), s]).sort(([a], [b]) => a - b).map(([, s]) => s);
     player.heard = player.shown[0];
     player.buttons = player.shown.map((sound, k) => {
-      const name = player.blind.checked ? "sound" : spoken(sound.scheme), detail = player.blind.checked ? "" : sound.detail;
+      const name = player.blind.checked ? "sound" : spoken(sound.name), detail = player.blind.checked ? "" : sound.detail;
       return element("button", {type: "button", onclick: () => hear(sound)}, ...(k < 9 ? [element("kbd", {}, String(k + 1)), " "] : []), name, element("span", {className: "soft"}, " " + detail));
     });
     choices.replaceChildren(...player.buttons);

@@ -1,4 +1,3 @@
-"use strict";
 // Tables that sort and can be filtered: {columns, rows, first}; a button in each heading, its state in aria-sort. On a phone a row is a card.
 const element = (name, properties = {}, ...children) => {
   const e = Object.assign(document.createElement(name), properties);
@@ -8,7 +7,6 @@ const element = (name, properties = {}, ...children) => {
 
 function table_of(table, caption) {
   const at = Object.fromEntries(table.columns.map((name, k) => [name, k]));
-  const number = text => text === "inf" ? Infinity : text === "-inf" ? -Infinity : text === "" || text === undefined ? NaN : Number(text);
   const texts = new Set(table.columns.filter(name => table.rows.some(row => row[at[name]] !== "" && Number.isNaN(number(row[at[name]])))));
   const all = element("input", {type: "checkbox"});
   const head = element("thead"), body = element("tbody");
@@ -35,7 +33,7 @@ function table_of(table, caption) {
     return Number.isNaN(p) ? (Number.isNaN(q) ? 0 : 1) : Number.isNaN(q) ? -1 : p === q ? 0 : sign * (p < q ? -1 : 1);  // nothing goes last
   }
   function fill(focused) {
-    const names = all.checked || !table.first.length ? table.columns : table.first.filter(name => name in at);
+    const names = all.checked || !table.first?.length ? table.columns : table.first.filter(name => name in at);
     head.replaceChildren(element("tr", {}, ...names.map(name => {
       const direction = name === sorted ? (downward ? "descending" : "ascending") : "none";
       const button = element("button", {type: "button"}, name.replaceAll("_", " ") + {none: "", ascending: " \u2191", descending: " \u2193"}[direction]);
@@ -78,6 +76,6 @@ function table_of(table, caption) {
   frame.setAttribute("role", "region");
   frame.setAttribute("aria-label", caption + ", a table");
   const hint = element("div", {className: "menus"}, element("label", {}, "filter ", filter), save);
-  if (table.first.length && table.first.length < table.columns.length) hint.append(element("label", {}, all, " every column"));
+  if (table.first?.length && table.first?.length < table.columns.length) hint.append(element("label", {}, all, " every column"));
   return [hint, frame, element("p", {className: "soft"}, "The headings sort.", count, more)];
 }

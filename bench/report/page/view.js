@@ -9,6 +9,8 @@ function choose(key, value) {
   history.replaceState(null, "", "#" + new URLSearchParams([...view]));
 }
 
+const scene_shown = () => document.getElementById("scene")?.value ?? report.verdicts[0]?.scene ?? report.scenes[0] ?? "";
+
 function scene_menu(scenes) {
   const select = element("select", {id: "scene"}, ...scenes.map(name => new Option(name)));
   select.selectedIndex = Math.max(0, scenes.indexOf(view.get("scene")));
@@ -21,19 +23,16 @@ function scene_menu(scenes) {
   return element("label", {}, "scene ", select);
 }
 
-// How a scheme is called in a sentence; tables have its options as they are given.
-const spoken = name => name.replace(" compliance=matched", ", matched").replace(" compliance=own", ", as published");
-
 function card_of(answer) {
   const title = answer.within.replace(/^waveform /, ""), found = answer.rate !== "" || answer.modes !== "";
-  const sound = found ? sound_like(answer.scheme, answer.rate) : null;
+  const sound = found ? sound_like(answer.scheme, answer.rate, scene_shown()) : null;
   const head = element("p", {className: "card-scheme"}, element("strong", {}, spoken(answer.scheme)));
   if (sound) head.append(listen_to(sound));
   const facts = [answer.rate, answer.error, answer.cost && answer.cost + " per second"].filter(Boolean).join(" \u00b7 ");
   const card = element("article", {className: "card"}, element("p", {className: "soft"}, title), head);
   if (facts) card.append(element("p", {}, facts));
   card.append(element("p", {className: "soft small"}, [answer.modes && answer.modes + " modes", answer.certain].filter(Boolean).join("; ")));
-  if (answer.colour) card.style.borderLeftColor = (dark.matches && page.dark[answer.colour]) || answer.colour;
+  if (answer.colour) card.style.borderLeftColor = shade(answer.colour);
   return card;
 }
 
