@@ -1,5 +1,5 @@
 // The columns of cells.csv, each declared once: its name, its unit, what it means, what it says of a record, and how far it may move.
-// Tables, errors.csv and cost.csv, `jvari diff` and the table of bench/README.md follow from that.
+// Tables, errors.csv and cost.csv, `jvari diff` and `jvari list columns` follow from that.
 #pragma once
 
 #include <string>
