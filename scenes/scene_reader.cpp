@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <span>
 
 #include "scenes/columns.hpp"
+#include "scenes/material.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/schema.hpp"
@@ -44,6 +47,10 @@ struct Names {
         if (std::find(names.begin(), names.end(), key) == names.end()) names.emplace_back(key);
     }
     void number(const char* key, auto&&...) { add(key); }
+    void material() {
+        add("material");
+        add("diameter");
+    }
     void tension(auto&) {
         for (const char* key : tension_keys) add(key);
     }
@@ -90,12 +97,33 @@ public:
     }
 
     void number(const char* key, double& x, const Range& range, const char* unit, std::optional<double> absent = {}) {
+        if (const auto given = wire_.find(key); given != wire_.end()) {
+            x = given->second;
+            return;
+        }
         const std::string expected = range.says + (*unit ? " [" + std::string(unit) + "]" : "");
         const Value* v = absent ? table_.find(key) : required(key, expected);
         if (!v) x = *absent;
         else if (const auto* d = std::get_if<double>(&v->content)) x = *d;
         else if (const auto* i = std::get_if<std::int64_t>(&v->content)) x = static_cast<double>(*i);
         else fail(*v, at(key), v->found(), expected);
+    }
+    // A wire of a material, or its two numbers: where an override brings one of them, those of the file stay unread.
+    void material() {
+        const Value *name = table_.find("material"), *width = table_.find("diameter");
+        if (!name && !width) return;
+        const Material& m = materials[index_of("material", material_names)];
+        double diameter = 0;
+        number("diameter", diameter, positive, "m");
+        if (!positive.holds(diameter)) fail(*width, at("diameter"), width->found(), std::string(positive.says) + " [m]");
+        const bool overridden = name->place < 0 || width->place < 0;
+        for (const auto& [key, value] :
+             {std::pair{"linear_density", linear_density_of(m, diameter)}, {"bending_stiffness", bending_stiffness_of(m, diameter)}}) {
+            const Value* beside = table_.find(key);
+            if (beside && (beside->place < 0) == overridden)
+                fail(*beside, at(key), beside->found(), "nothing beside material and diameter, which say as much");
+            if (!beside || overridden) wire_[key] = value;
+        }
     }
     // Of the three keys one: where an override brings one, those of the file stay unread.
     void tension(String& s) {
@@ -240,6 +268,7 @@ private:
     const Document& document_;
     const Value& table_;
     std::string path_;
+    std::map<std::string, double, std::less<>> wire_;  // numbers that follow from material and diameter
 };
 }  // namespace
 

@@ -22,6 +22,7 @@ struct Writer {
     void number(const char* key, double x, const Range&, const char*, std::optional<double> absent = {}) {
         if (x != absent) line(key, number_value(x));
     }
+    void material() {}  // what follows from it is written
     void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) { line(key, std::to_string(n)); }
     void string_index(const char* key, const std::optional<int>& n) {
@@ -70,6 +71,7 @@ struct Writer {
 struct Tables {
     std::string& out;
     void number(auto&&...) {}
+    void material() {}
     void tension(auto&&...) {}
     void count(auto&&...) {}
     void string_index(auto&&...) {}

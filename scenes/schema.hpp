@@ -3,8 +3,8 @@
 // bridge beyond the end of the string.
 //
 // A pass has number, count, optional_count (0 if absent), text, optional_text, file (beside the scene), choice, string_index, refused (a
-// key without meaning here), columns (a CSV file), one_of (a variant and the key that chooses it), tension (or a pitch), part (a table) and
-// parts (an array of tables).
+// key without meaning here), columns (a CSV file), one_of (a variant and the key that chooses it), material (with a diameter, in place of
+// two numbers), tension (or a pitch), part (a table) and parts (an array of tables).
 #pragma once
 
 #include <concepts>
@@ -139,6 +139,7 @@ void fields(auto& pass, Is<Polarisation> auto& p) {
 
 void fields(auto& pass, Is<String> auto& s) {
     pass.number("length", s.length, positive, "m");
+    pass.material();
     pass.number("linear_density", s.linear_density, positive, "kg/m");
     pass.tension(s);
     pass.number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);

@@ -22,6 +22,7 @@ struct Ranges {
     void number(const char* key, double x, const Range& range, const char* unit, std::optional<double> = {}) {
         if (!range.holds(x)) throw BadScene(joined(path, key), number_text(x), range.says + (*unit ? " [" + std::string(unit) + "]" : ""));
     }
+    void material() {}
     void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) {
         if (n < 1) throw BadScene(joined(path, key), std::to_string(n), "a whole number >= 1");

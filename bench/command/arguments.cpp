@@ -39,7 +39,8 @@ CLI::Validator in_units(std::vector<std::pair<std::string, double>> units) {
 
 const CLI::Validator positive([](const std::string& text) { return a_number(text, false); }, "", "positive");
 const CLI::Validator counting([](const std::string& text) { return a_number(text, true); }, "", "counting");
-const CLI::Validator hertz = in_units({{"kHz", 1e3}, {"Hz", 1}, {"k", 1e3}}), seconds = in_units({{"ms", 1e-3}, {"us", 1e-6}, {"s", 1}});
+const CLI::Validator hertz = in_units({{"kHz", 1e3}, {"Hz", 1}, {"k", 1e3}}), seconds = in_units({{"ms", 1e-3}, {"us", 1e-6}, {"s", 1}}),
+                     metres = in_units({{"mm", 1e-3}, {"um", 1e-6}, {"m", 1}});
 
 void add_common(CLI::App& verb, Common& c) {
     verb.add_flag("--json", c.json, "one JSON object on standard output, nothing else there");

@@ -16,7 +16,8 @@ struct Common {
 
 std::string a_number(const std::string& text, bool whole);  // "" where it is one that is > 0; else what was expected
 extern const CLI::Validator positive, counting;             // a number > 0; a whole one
-extern const CLI::Validator hertz, seconds;  // a number > 0 that may have its unit behind it: the text becomes the number in SI units
+extern const CLI::Validator hertz, seconds,
+    metres;  // a number > 0 that may have its unit behind it: the text becomes the number in SI units
 
 void add_common(CLI::App& verb, Common&);
 void add_scene(CLI::App& verb, std::string& scene);

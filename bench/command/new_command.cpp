@@ -1,18 +1,22 @@
 // jvari new: a scene of one's own, from one of the library that is explained for it; below it what else a scene can say. Writes no file
 // over another.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <sstream>
 
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
+#include "bench/compare/scene_notes.hpp"
 #include "bench/sound/audio_file.hpp"
 #include "bench/sound/synthetic_body.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 #include "bench/store/usage.hpp"
+#include "scenes/material.hpp"
+#include "scenes/pitch.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/wording.hpp"
 
@@ -22,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct NewRequest : Common {
-    std::string instrument, name;
+    std::string instrument, name, material;
+    double diameter = 0;  // [m]; 0: the library's string
 };
 
 struct Template {
@@ -42,6 +47,9 @@ constexpr const char* what_else = R"(
 #
 # The barrier pushes with stiffness * penetration^exponent. A lumped one acts at one place (over `width`), a profile along `from` to `to`:
 #   shape = "profile", curve = "flat" (height 0), "line" (coefficient x), "parabola" (-coefficient x^2) or "table" (a file)
+#
+# A string's mass and stiffness are `linear_density` and `bending_stiffness`, or `material` and `diameter` of a plain wire: "steel", "nickel",
+# "brass", "bronze", "phosphor bronze", "nylon", "fluorocarbon", "gut". Its pitch is a `tension`, a `frequency` or a `note` ("E2").
 #
 # Losses: the amplitude of a mode falls as exp(-sigma t). Its wavenumber is b, its frequency f [Hz].
 #   law = "none"            sigma = 0
@@ -85,6 +93,26 @@ std::string renamed(std::string text, const std::string& name) {
     replace_line("\nsource = ", "");
     return text;
 }
+
+// The same scene with each string a wire of that material and diameter, at the pitch that it had.
+std::string strung(const std::string& text, const Scene& scene, const NewRequest& r) {
+    std::istringstream lines(text);
+    std::string strung;
+    std::size_t strings = 0;
+    bool of_string = false;  // in the table [[string]] itself, and in none below it
+    for (std::string line; std::getline(lines, line);) {
+        const auto is = [&](const char* key) { return of_string && line.starts_with(std::string(key) + " = "); };
+        if (line.starts_with("[")) of_string = line.starts_with("[[string]]"), strings += of_string;
+        if (is("bending_stiffness")) continue;
+        if (is("linear_density"))
+            line = fmt::format("material = \"{}\"  # a plain wire, in place of the string that is described above\ndiameter = {}  # m",
+                               r.material, r.diameter);
+        if (is("tension")) line = fmt::format("frequency = {:.6g}  # Hz, as of that string", pitch_of(scene.strings[strings - 1]));
+        strung += line + "\n";
+    }
+    return strung;
+}
+
 void must_be_free(const fs::path& file) {
     std::error_code error;
     if (fs::exists(file, error)) throw store::UsageError(fmt::format("{} is there already; choose another name", file.string()));
@@ -111,6 +139,8 @@ int new_command(const NewRequest& r) {
         throw store::UsageError(
             fmt::format("new: found the name {}, expected letters, digits, _ and -, the first of them no -: it becomes NAME.toml here",
                         found_text(r.name)));
+    if (r.material.empty() != (r.diameter == 0) || (r.instrument == "body" && r.diameter > 0))
+        throw store::UsageError("new: --material and --diameter go together, and with an instrument; expected both of them or none");
     if (r.instrument == "body") return new_body(r.name, console);
     const Template* chosen =
         std::find_if(std::begin(templates), std::end(templates), [&r](const Template& t) { return r.instrument == t.instrument; });
@@ -118,9 +148,11 @@ int new_command(const NewRequest& r) {
     const fs::path file = r.name + ".toml";
     must_be_free(file);
     const std::string end = replaced(replaced(what_else, "@FILE@", file.string()), "@NAME@", r.name);
-    const std::string text = renamed(library_text(chosen->scene), r.name) + end;
-    parse_scene(text, file.string());
+    std::string text = renamed(library_text(chosen->scene), r.name) + end;
+    if (r.diameter > 0) text = strung(text, parse_scene(text, file.string()), r);
+    const Scene scene = parse_scene(text, file.string());
     store::write_fresh(file, text);
+    for (const String& string : scene.strings) console.print("string: " + compare::tuning_text(string));
     console.print(
         fmt::format("written: {}, after the library's {}; it says what each key means, and what to try", file.string(), chosen->scene));
     console.print_json(store::indented({{"status", "ok"}, {"file", file.string()}, {"after", chosen->scene}}));
@@ -136,6 +168,13 @@ Act new_verb(CLI::App& program) {
         ->type_name("INSTRUMENT");
     verb->add_option("name", r->name, "of the scene and, with .toml, of its file")->required()->type_name("NAME");
     verb->footer("Example: jvari new guitar my_guitar");
+    const std::vector<std::string> materials(std::begin(material_names), std::end(material_names));
+    verb->add_option("--material", r->material,
+                     fmt::format("its strings are plain wires of it, at the same pitch: {}", fmt::join(materials, ", ")))
+        ->check(CLI::IsMember(materials))
+        ->type_name("MATERIAL")
+        ->option_text("MATERIAL");
+    verb->add_option("--diameter", r->diameter, "of these wires, as 0.7mm")->type_name("M")->transform(metres);
     add_common(*verb, *r);
     return [r] { return new_command(*r); };
 }

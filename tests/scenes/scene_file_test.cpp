@@ -343,13 +343,59 @@ TEST(Overrides, ErrorsNameTheOverride) {
     for (const auto& [override, expected] : rows) EXPECT_EQ(message(lumped, {override}), expected);
 }
 
-// ---- Pitch in place of tension
-
-const std::string stiff = head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\nbending_stiffness = 6.03e-5\n";  // 3-6
+// ---- A material and a diameter in place of two numbers
 
 double first_mode(const Scene& scene) {  // [Hz]
     return modes_of(scene.strings.at(0), 1).omega0[0] / (2 * std::numbers::pi);
 }
+
+const std::string wire = head + "[[string]]\nlength = 1.0\ntension = 33.1\n";  // 3-5
+
+TEST(Material, AWireOfItWeighsAndBendsAsTheLibrarysOwnStringsOfItDo) {
+    for (const auto& [scene, diameter] : {std::pair{"tanpura_c3", "0.28e-3"}, std::pair{"prepared_piano", "1e-3"}}) {  // steel, as printed
+        const String printed = read_scene(scene).strings[0],
+                     made = parse_scene(wire + "material = \"steel\"\ndiameter = " + diameter + "\n", "s.toml").strings[0];
+        EXPECT_NEAR(made.linear_density, printed.linear_density, 1e-3 * printed.linear_density) << scene;
+        EXPECT_NEAR(made.bending_stiffness, printed.bending_stiffness, 2e-3 * printed.bending_stiffness) << scene;
+    }
+    const String gut = parse_scene(wire + "material = \"gut\"\ndiameter = 1e-3\n", "s.toml").strings[0];
+    EXPECT_NEAR(gut.linear_density, 1.0210e-3, 1e-7);     // pi 1300 / 4 10^-6
+    EXPECT_NEAR(gut.bending_stiffness, 2.9452e-4, 1e-8);  // pi 6e9 / 64 10^-12
+}
+
+TEST(Material, APitchFollowsItAndAWrittenSceneSaysTheNumbers) {
+    const Scene scene =
+        parse_scene(head + "[[string]]\nlength = 1.0\nnote = \"C3\"\nmaterial = \"phosphor bronze\"\ndiameter = 0.3e-3\n", "s.toml");
+    EXPECT_NEAR(first_mode(scene), 130.8127826503, 1e-9);
+    EXPECT_EQ(write_scene(scene).find("material"), std::string::npos);
+    EXPECT_TRUE(parse_scene(write_scene(scene), "again.toml") == scene) << write_scene(scene);
+}
+
+TEST(Material, OfTwoFormsInOneFileIsAnErrorAndAnOverrideWins) {
+    const std::string steel = wire + "material = \"steel\"\ndiameter = 0.28e-3\n";  // 6, 7
+    const auto refused = [](const std::string& key, const std::string& found) {
+        return "scene.toml:8: string.0." + key + ": found " + found + ", expected nothing beside material and diameter, which say as much";
+    };
+    EXPECT_EQ(message(steel + "linear_density = 1e-3\n"), refused("linear_density", "0.001"));
+    EXPECT_EQ(message(steel + "bending_stiffness = 0\n"), refused("bending_stiffness", "0"));
+    EXPECT_EQ(message(wire + "material = \"steel\"\n"), "scene.toml:3: string.0.diameter: found nothing, expected a positive number [m]");
+    EXPECT_EQ(message(wire + "material = \"steel\"\ndiameter = 0\n"),
+              "scene.toml:7: string.0.diameter: found 0, expected a positive number [m]");
+    EXPECT_EQ(message(wire + "diameter = 1e-3\n").substr(0, 66), "scene.toml:3: string.0.material: found nothing, expected one of \"s");
+    EXPECT_NE(message(wire + "material = \"stel\"\ndiameter = 1e-3\n").find("did you mean \"steel\"?"), std::string::npos);
+    const auto of = [](const std::string& text, const std::vector<std::string>& set) {
+        return parse_scene(text, "s.toml", set).strings[0];
+    };
+    EXPECT_EQ(of(steel, {"string.0.bending_stiffness=0"}).bending_stiffness, 0);
+    EXPECT_EQ(of(steel, {"string.0.bending_stiffness=0"}).linear_density, of(steel, {}).linear_density);
+    EXPECT_GT(of(steel, {"string.0.diameter=1e-3"}).linear_density, of(steel, {}).linear_density);
+    const String nylon = read_scene("tanpura_c3", {"string.0.material=nylon", "string.0.diameter=1e-3"}).strings[0];
+    EXPECT_NEAR(nylon.linear_density, 8.9535e-4, 1e-8);
+}
+
+// ---- Pitch in place of tension
+
+const std::string stiff = head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\nbending_stiffness = 6.03e-5\n";  // 3-6
 
 TEST(Pitch, TheTensionIsThatAtWhichTheFirstModeHasIt) {
     EXPECT_NEAR(first_mode(parse_scene(stiff + "frequency = 130.5\n", "s.toml")), 130.5, 1e-11);
@@ -423,7 +469,8 @@ const std::vector<Bad> bad_scenes{
     {one + "[string.damping]\nlwa = \"none\"\n", "scene.toml:8: string.0.damping.lwa: unknown key; did you mean \"law\"?"},
     {one + "[string.damping]\nlaw = \"none\"\nsigma0 = 1\n", "scene.toml:9: string.0.damping.sigma0: unknown key; known here: \"law\""},
     {one + "\"a\\nb\" = 1\n",
-     "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"linear_density\", \"tension\", \"frequency\", \"note\", "
+     "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"material\", \"diameter\", \"linear_density\", "
+     "\"tension\", \"frequency\", \"note\", "
      "\"bending_stiffness\", "
      "\"damping\", "
      "\"barrier\", \"thread\", \"initial\", \"pluck\", \"polarisation\""},
