@@ -144,7 +144,7 @@ int compare_command(const CompareCall& r) {
                               c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene().duration,
                               c.reference.settings.tap_rate, c.scene().taps.at(c.headline.nut).name,
                               c.scene().taps.at(c.headline.bridge).name));
-    console.print(headline_text(cells) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
+    console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (const std::string note = compare::matching_note(cells); !note.empty()) console.print(note);
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);

@@ -7,6 +7,7 @@
 
 namespace jvari::bench::command {
 
-std::string headline_text(const store::Table& cells);  // the front marked, and what is not to be trusted
+// The front marked, and what is not to be trusted; in lines of that width, cost and headline error always.
+std::string headline_text(const store::Table& cells, std::size_t width);
 
 }  // namespace jvari::bench::command

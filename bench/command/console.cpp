@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -59,6 +60,12 @@ void put(const std::string& text) {
         throw store::Unwritable(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
 
+std::optional<std::size_t> columns_of(int terminal) {
+    winsize size{};
+    if (ioctl(terminal, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return {};
+    return size.ws_col;
+}
+
 class OnTerminal : public store::Progress {
 public:
     explicit OnTerminal(std::string job) : job_(std::move(job)) {}
@@ -71,15 +78,15 @@ public:
         last_ = now;
         const store::Undisturbed line;
         if (!shown_) shown_.emplace(clear_line);
-        std::fputs(("\r\033[K" + fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what).substr(0, width())).c_str(), stderr);
+        // a line that wraps could not be renewed
+        std::fputs(
+            ("\r\033[K" + fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what).substr(0, columns_of(STDERR_FILENO).value_or(80) - 1))
+                .c_str(),
+            stderr);
         std::fflush(stderr);
     }
 
 private:
-    static std::size_t width() {  // a line that wraps cannot be renewed
-        winsize size{};
-        return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
-    }
     std::string job_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
     std::optional<store::WhenInterrupted> shown_;  // the line is cleared at an interruption, too
@@ -122,6 +129,12 @@ void Console::print(const std::string& text) const {
 
 void Console::print_json(const std::string& text) const {
     if (json_) put(text);
+}
+
+std::size_t Console::width() {
+    const char* asked = std::getenv("COLUMNS");
+    if (const std::size_t columns = asked ? std::strtoul(asked, nullptr, 10) : 0; columns > 0) return columns;
+    return columns_of(STDOUT_FILENO).value_or(std::numeric_limits<std::size_t>::max());
 }
 
 std::unique_ptr<store::Progress> Console::begin(const std::string& job) const {

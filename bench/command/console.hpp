@@ -29,6 +29,9 @@ public:
     void print(const std::string&) const;          // standard output, unless --json or --quiet: the result as text; throws Unwritable
     void print_json(const std::string&) const;     // standard output, with --json only: one object; throws Unwritable
 
+    // Columns of standard output: $COLUMNS, else those of the terminal, else as many as are wanted.
+    static std::size_t width();
+
     // Once the job has taken 2 s: a line that renews itself on a terminal, elsewhere a line a minute. Nothing with --quiet.
     std::unique_ptr<store::Progress> begin(const std::string& job) const override;
 

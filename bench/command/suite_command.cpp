@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
 #include "bench/command/slurm_script.hpp"
+#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
@@ -64,7 +64,15 @@ std::string manifest_of(const suite::Suite& suite, const study::Plan& plan) {
 
 std::string table_text(const study::Plan& plan, const study::Study& run, const store::Table& cells) {
     const std::string headline = compare::headline_error(cells, store::all_rows(cells));
-    std::vector<std::array<std::string, 8>> rows{{"scene", "scheme", "rate", "modes", "status", headline.substr(6), "s per s", ""}};
+    TextTable table{{{"scene", true},
+                     {"scheme", true},
+                     {"rate"},
+                     {"modes", false, 2},
+                     {"status", true, 1},
+                     {headline.substr(6)},
+                     {"s per s"},
+                     {"", true, 3}},
+                    {}};
     std::map<std::string, int> statuses;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
         const study::Job& c = plan.jobs[i];
@@ -72,17 +80,13 @@ std::string table_text(const study::Plan& plan, const study::Study& run, const s
         std::string what = c.point->scene.name;
         for (const auto& [key, value] : c.point->swept) what += " " + key + "=" + value;
         const double cost = cells.number(i, "cost_s_per_s");
-        rows.push_back({what, store::variant_name(c.cell.scheme->name, store::options_text(c.cell.settings.options)), cells.at(i, "rate"),
-                        cells.at(i, "modes"), cells.at(i, "status"), compare::error_text(compare::bound_of(cells, i, headline), "{:.2e}"),
-                        std::isnan(cost) ? "" : fmt::format("{:.3g}", cost), cells.at(i, "reason")});
+        table.rows.push_back(
+            {' ',
+             {what, store::variant_name(c.cell.scheme->name, store::options_text(c.cell.settings.options)), cells.at(i, "rate"),
+              cells.at(i, "modes"), cells.at(i, "status"), compare::error_text(compare::bound_of(cells, i, headline), "{:.2e}"),
+              std::isnan(cost) ? "" : fmt::format("{:.3g}", cost), cells.at(i, "reason")}});
     }
-    std::array<std::size_t, 8> widths{};
-    for (const auto& row : rows)
-        for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-    std::string text;
-    for (const auto& r : rows)
-        text += fmt::format("  {:<{}} {:<{}} {:>{}} {:>{}}  {:<{}} {:>{}} {:>{}}  {}\n", r[0], widths[0], r[1], widths[1], r[2], widths[2],
-                            r[3], widths[3], r[4], widths[4], r[5], widths[5], r[6], widths[6], r[7]);
+    std::string text = table.text(Console::width());
     text += fmt::format("{} cells, {} run, {} timed, {} read back:", plan.jobs.size(), run.ran, run.timed, run.read_back);
     for (const auto& [status, count] : statuses) text += fmt::format(" {} {}", count, status);
     return text;

@@ -8,6 +8,7 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
+#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -24,22 +25,24 @@ namespace fs = std::filesystem;
 struct TrimCall : Common, trim::Request {};
 
 std::string needs_text(const trim::Trimmed& t, const trim::Judge& judge) {
-    std::string text = fmt::format("  {:<44} {:>10} {:>10} {:>7}  {}\n", "part", "error", "cost", "needed", "in the model");
+    TextTable table{{{"part", true}, {"error"}, {"cost"}, {"needed"}, {"in the model", true}}, {}};
     for (const trim::Need& n : t.needs)
-        text += fmt::format("  {:<44} {:>10} {:>10} {:>7}  {}\n", n.part + (n.becomes == "left out" ? "" : " = " + n.becomes),
-                            text_of(*judge.target().measure, n.error), std::isnan(n.saved) ? "-" : fmt::format("{:+.0f} %", -100 * n.saved),
-                            n.needed ? "yes" : "no", n.left_out ? "left out" : "kept");
-    return text;
+        table.rows.push_back({' ',
+                              {n.part + (n.becomes == "left out" ? "" : " = " + n.becomes), text_of(*judge.target().measure, n.error),
+                               std::isnan(n.saved) ? "-" : fmt::format("{:+.0f} %", -100 * n.saved), n.needed ? "yes" : "no",
+                               n.left_out ? "left out" : "kept"}});
+    return table.text(Console::width());
 }
 
 std::string path_text(const trim::Trimmed& t, const trim::Judge& judge) {
-    std::string text = fmt::format("  {:<44} {:>10} {:>10}  {}\n", "from the whole scene to the trimmed one", "error", "s per s", "model");
+    TextTable table{{{"from the whole scene to the trimmed one", true}, {"error"}, {"s per s"}, {"model", true, 1}}, {}};
     for (std::size_t k = 0; k < t.path.steps.size(); ++k) {
         const trim::Step& s = t.path.steps[k];
-        text += fmt::format("  {:<44} {:>10} {:>10.3g}  {}\n", s.change + (s.within ? "" : " (not within)"),
-                            text_of(*judge.target().measure, s.error), t.costs[k].median, s.model.settings_text());
+        table.rows.push_back({' ',
+                              {s.change + (s.within ? "" : " (not within)"), text_of(*judge.target().measure, s.error),
+                               fmt::format("{:.3g}", t.costs[k].median), s.model.settings_text()}});
     }
-    return text;
+    return table.text(Console::width());
 }
 
 std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "bench/report/vega.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/records.hpp"
+#include "scenes/scene_file.hpp"
 #include "scenes/schema.hpp"
 
 namespace jvari::test {
@@ -472,6 +474,20 @@ TEST(Body, ItsSectionsFitIsSaidInPerCentAndWhereItIsTooCoarse) {
     EXPECT_NE(o.out.find(" %: too coarse, take more sections"), std::string::npos) << o.out;
 }
 
+TEST(NewScene, AWireOfAnotherMaterialKeepsThePitch) {
+    const Scratch scratch;
+    const Outcome o = shell(scratch,
+                            "$J new guitar nylon --material nylon --diameter 1.1mm && $J run nylon.toml --scheme modal_two_point "
+                            "--duration 5ms && grep -cE '^(linear_density|bending_stiffness|tension)' nylon.toml");
+    EXPECT_NE(o.out.find("string: f1 = 82.41 Hz (E2), tension 12.4 N"), std::string::npos) << o.out << o.err;
+    EXPECT_NE(o.out.find("string                      f1 = 82.41 Hz (E2), tension 12.4 N"), std::string::npos) << o.out;
+    EXPECT_TRUE(o.out.ends_with("\n0\n")) << o.out;
+    for (const char* half : {"--material nylon", "--diameter 1mm", "--material wood --diameter 1mm", "--material gut --diameter 0"})
+        EXPECT_EQ(shell(scratch, std::string("$J new guitar other ") + half).code, 2) << half;
+    EXPECT_EQ(shell(scratch, "$J new body other --material gut --diameter 1mm").code, 2);
+    EXPECT_EQ(scratch.files(), 1);
+}
+
 TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {
     const Scratch scratch;
     std::ofstream(scratch / "mine.toml") << "mine";
@@ -563,6 +579,41 @@ TEST(Controls, TakePartWhereTheyAreAskedFor) {
     }
     EXPECT_EQ(with.size(), without.size() + 7);
     EXPECT_EQ(schemes(" --schemes modal_two_point_trapezoidal").size(), 1u);
+}
+
+TEST(Terminal, OfEightyColumnsShowsTheCost) {
+    const Scratch scratch;
+    const Outcome o = jvari(scratch,
+                            "compare free_string --schemes modal_two_point,finite_difference_explicit --rates 44100 --modes 20 "
+                            "--duration 0.01 --repeats 1",
+                            "COLUMNS=80");
+    ASSERT_EQ(o.code, 0) << o.err;
+    const auto table = o.out.find("  scheme ");
+    ASSERT_NE(table, std::string::npos) << o.out;
+    std::istringstream lines(o.out.substr(table, o.out.find("Not shown") - table));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+    const std::string head = o.out.substr(table, o.out.find('\n', table) - table);
+    EXPECT_NE(head.find("s per s"), std::string::npos) << head;
+    EXPECT_EQ(head.find("ns/step"), std::string::npos) << head;
+}
+
+TEST(Plot, ShowsEveryTapAndTheContactForceFirstWhateverIsWritten) {
+    if (!bench::report::find_vega().missing.empty()) GTEST_SKIP() << bench::report::find_vega().missing;
+    const Scratch scratch;
+    const std::string run = "run sitar_parabola --scheme modal_two_point --duration 0.005 --modes 20";
+    ASSERT_EQ(jvari(scratch, run + " --out " + (scratch / "alone.wav")).code, 0);
+    const Outcome both = jvari(scratch, run + " --plot " + (scratch / "a.svg") + " --out " + (scratch / "drawn.wav"));
+    ASSERT_EQ(both.code, 0) << both.err;
+    EXPECT_EQ(content(scratch / "drawn.wav"), content(scratch / "alone.wav"));
+    const std::string text = content(scratch / "a.svg");
+    for (const Tap& tap : read_scene("sitar_parabola").taps)
+        EXPECT_NE(text.find(tap.name + " (" + name_of(tap.quantity) + ")"), std::string::npos) << tap.name;
+    ASSERT_EQ(jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.01 --plot " + (scratch / "b.svg") + " --out " +
+                                 (scratch / "b.flac"))
+                  .code,
+              0);
+    const std::string bridge = content(scratch / "b.svg");
+    EXPECT_LT(bridge.find("bridge (bridge_force)"), bridge.find("nut (nut_force)"));
 }
 
 TEST(Plot, DrawsTheRunOnOnePicture) {

@@ -1,0 +1,29 @@
+// A table for the terminal: columns as wide as what stands in them.
+//
+// Where it is wider than the terminal, columns are left out, those of the highest rank first; one of rank 0 stays. Where that is not
+// enough, what the first column says stands on a line above those that it is the same for.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace jvari::bench::command {
+
+struct TextTable {
+    struct Column {
+        std::string head;
+        bool left = false;  // where its fields stand in it
+        int rank = 0;
+    };
+    struct Row {
+        char mark;  // in front of the line
+        std::vector<std::string> fields;
+    };
+    std::vector<Column> columns;
+    std::vector<Row> rows;
+
+    std::string text(std::size_t width) const;  // each line with its end; a last one says what was left out
+};
+
+}  // namespace jvari::bench::command

@@ -1,0 +1,52 @@
+// Tables for the terminal: what goes first where it is narrow, and what never goes.
+#include "bench/command/text_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace jvari::bench::command {
+namespace {
+
+const TextTable table{{{"scheme", true}, {"rate"}, {"modes", false, 1}, {"cost"}, {"ns/step", false, 2}},
+                      {{'*', {"modal_two_point", "44100", "133", "0.0069", "156.6"}},
+                       {' ', {"modal_two_point", "88200", "133", "\u2264 0.01", ""}},
+                       {'!', {"sitar_fdm", "44100", "", "1", "-"}}}};
+
+std::size_t longest_line(const std::string& text) {
+    std::istringstream lines(text);
+    std::size_t longest = 0;
+    for (std::string line; std::getline(lines, line) && !line.starts_with("Not shown");) longest = std::max(longest, line.size());
+    return longest;
+}
+
+TEST(TextTable, IsAsWideAsWhatStandsInIt) {
+    EXPECT_EQ(table.text(1000),
+              "  scheme            rate  modes    cost  ns/step\n"
+              "* modal_two_point  44100    133  0.0069    156.6\n"
+              "  modal_two_point  88200    133  \u2264 0.01\n"
+              "! sitar_fdm        44100              1        -\n");
+}
+
+TEST(TextTable, LosesTheHighestRankFirstAndSaysWhich) {
+    EXPECT_EQ(longest_line(table.text(48)), 48u);  // it fits to the last character
+    EXPECT_EQ(table.text(48).find("Not shown"), std::string::npos);
+    EXPECT_NE(table.text(47).find("narrow: ns/step. "), std::string::npos) << table.text(47);
+    EXPECT_NE(table.text(35).find("narrow: modes, ns/step. "), std::string::npos) << table.text(35);
+    for (std::size_t width = 32; width < 60; ++width) EXPECT_LE(longest_line(table.text(width)), width + 2) << width;
+    for (std::size_t width = 1; width < 60; ++width) EXPECT_NE(table.text(width).find("0.0069"), std::string::npos) << width;
+}
+
+TEST(TextTable, PutsItsFirstColumnOnALineAboveWhereNothingMoreCanGo) {
+    EXPECT_EQ(table.text(25).substr(0, table.text(25).find("Not shown")),
+              "  scheme\n"
+              "      rate    cost\n"
+              "  modal_two_point\n"
+              "*    44100  0.0069\n"
+              "     88200  \u2264 0.01\n"
+              "  sitar_fdm\n"
+              "!    44100       1\n");
+}
+
+}  // namespace
+}  // namespace jvari::bench::command
