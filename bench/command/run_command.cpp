@@ -160,6 +160,16 @@ std::optional<sound::Player> checked_output(const RunRequest& r, const store::Tr
     return std::nullopt;
 }
 
+// The taps of one scene in a trace of a scene that has more.
+Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
+    Trace part = all;
+    part.names.clear();
+    for (const Tap& tap : of.taps) part.names.push_back(tap.name);
+    const auto begin = all.tap.begin() + static_cast<long>(first) * all.stride;
+    part.tap.assign(begin, begin + static_cast<long>(of.taps.size()) * all.stride);
+    return part;
+}
+
 // Before a long run: that its picture can be drawn.
 std::optional<report::Vega> vega_for(const RunRequest& r) {
     if (r.plot.empty()) return std::nullopt;
@@ -172,8 +182,12 @@ std::optional<report::Vega> vega_for(const RunRequest& r) {
     return vega;
 }
 
-void draw(const std::string& file, const report::DrawnRun& run, const report::Vega& vega) {
-    const Json data = report::run_data(run);
+void draw(const std::string& file, const Descriptor& d, const study::Summary& s, const Scene& scene, const Trace& trace,
+          const report::Vega& vega) {
+    const std::string rate = std::isnan(s.rate) ? "continuous time" : fmt::format("{:g} kHz", s.rate / 1000);
+    const std::string flags = names_of(study::flags_of(s));
+    const std::string subtitle = fmt::format("{}, {}{}", rate, scene.source, flags.empty() ? "" : "; not to be trusted: " + flags);
+    const Json data = report::run_data({fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, trace});
     if (file.ends_with(".html")) return store::write_fresh(file, report::page_of(data, report::vega_scripts(vega).value_or("")));
     const report::Drawn drawn = report::draw(vega, data);
     if (drawn.svgs.empty()) throw store::Unwritable(file + ": " + (drawn.notes.empty() ? "nothing was drawn" : drawn.notes.front()));
@@ -186,12 +200,17 @@ int run_command(const RunRequest& r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
-    const Scene own = compare::load_scene(r.scene, r.set, r.duration), scene = sound::is_audio(r.out) ? sound::audible(own) : own;
+    // Drawn are the scene's own taps, played those that are heard: a run of both has the former first.
+    const bool played = sound::is_audio(r.out);
+    const Scene own = compare::load_scene(r.scene, r.set, r.duration), heard = played ? sound::audible(own) : own;
+    const std::size_t drawn = played && !r.plot.empty() ? own.taps.size() : 0;
+    Scene scene = heard;
+    scene.taps.insert(scene.taps.begin(), own.taps.begin(), own.taps.begin() + static_cast<long>(drawn));
     compare::note_scene(scene, console);
     const Settings settings = settings_for(r, d);
     store::TraceFile file = file_for(r, d, scene, settings);
     const std::optional<report::Vega> vega = vega_for(r);
-    const std::optional<sound::Player> player = checked_output(r, file, scene, settings.tap_rate);
+    const std::optional<sound::Player> player = checked_output(r, file, heard, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
@@ -213,17 +232,16 @@ int run_command(const RunRequest& r) {
     if (!r.out.empty()) {
         add_attributes(file, summary);
         std::string said;
-        if (player) said = player->write(result.trace);
+        if (player && drawn > 0) said = player->write(part_of(result.trace, drawn, heard));
+        else if (player) said = player->write(result.trace);
         else store::write(file, scene, result.trace);
         json["out"] = r.out;
         if (!said.empty()) json["level"] = said;
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
     }
     if (vega) {
-        const std::string rate = std::isnan(summary.rate) ? "continuous time" : fmt::format("{:g} kHz", summary.rate / 1000);
-        const std::string flags = names_of(study::flags_of(summary));
-        const std::string subtitle = fmt::format("{}, {}{}", rate, scene.source, flags.empty() ? "" : "; not to be trusted: " + flags);
-        draw(r.plot, {fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, result.trace}, *vega);
+        if (drawn > 0) draw(r.plot, d, summary, own, part_of(result.trace, 0, own), *vega);
+        else draw(r.plot, d, summary, own, result.trace, *vega);
         json["plot"] = r.plot;
         text += fmt::format("\n  {:<28}{}", "drawn", r.plot);
     }
