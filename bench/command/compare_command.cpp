@@ -140,10 +140,12 @@ int compare_command(const CompareCall& r) {
 
     const double rate = c.reference_summary.rate;
     for (const String& string : c.scene().strings) console.print("string: " + compare::tuning_text(string));
+    std::string rows;
+    for (const study::Point& p : c.plan.points)
+        rows += (rows.empty() ? "" : " and ") + store::text_of(p.references.front().settings.tap_rate);
     console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene().name,
-                              c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene().duration,
-                              c.reference.settings.tap_rate, c.scene().taps.at(c.headline.nut).name,
-                              c.scene().taps.at(c.headline.bridge).name));
+                              c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene().duration, rows,
+                              c.scene().taps.at(c.headline.nut).name, c.scene().taps.at(c.headline.bridge).name));
     console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (const std::string note = compare::matching_note(cells); !note.empty()) console.print(note);
@@ -183,7 +185,8 @@ Act compare_verb(CLI::App& program) {
         ->type_name("N|cell");
     verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);
     verb->add_option("--tap-rate", r->tap_rate,
-                     "rows per second that are compared; 44100 where all rates are multiples of it, else the lowest rate")
+                     "rows per second that are compared; absent: 44100 for its multiples, the lowest rate for others. 44100 and 48000 have "
+                     "each their own")
         ->type_name("HZ")
         ->transform(hertz);
     verb->add_option("--repeats", r->repeats, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent")

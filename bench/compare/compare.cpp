@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/needed_cells.hpp"
@@ -15,6 +16,8 @@
 namespace jvari::bench::compare {
 
 namespace {
+using KnownOf = std::map<const study::Point*, study::References::Of>;
+
 std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
     std::string text = "jvari certify " + r.scene;
     if (r.duration) text += fmt::format(" --duration {:.6g}", *r.duration);
@@ -53,7 +56,7 @@ study::Errors covered_by(study::Errors errors, double window) {
 }
 
 // Runs all cells over the headline's window and marks those that are needed.
-std::vector<study::Cell> search(const Comparison& c, const Trace& reference, int threads, const store::Listener& listener) {
+std::vector<study::Cell> search(const Comparison& c, const KnownOf& known, int threads, const store::Listener& listener) {
     Scene shown = c.scene();
     shown.duration = std::min(shown.duration, study::headline_window(shown.duration));
     const bool shorter = shown.duration < c.scene().duration;
@@ -67,6 +70,7 @@ std::vector<study::Cell> search(const Comparison& c, const Trace& reference, int
     store::side_by_side(
         sizes, threads, listener, "search",
         [&](std::size_t i, store::Done& done) {
+            const Trace& reference = known.at(c.plan.jobs[i].point).truth->reference.run.trace;
             try {
                 const Trace trace = study::run_cell(
                     tried[i], shown, [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); });
@@ -86,15 +90,17 @@ std::vector<study::Cell> search(const Comparison& c, const Trace& reference, int
 
 // Of the cells that were sought those that are needed run whole, and the others stay as the search left them. What was sought and cannot be
 // made goes.
-void run(Comparison& c, study::References& references, std::vector<study::Cell> tried, study::Kept& keep, int threads,
+void run(Comparison& c, study::References& references, const KnownOf& known, std::vector<study::Cell> tried, study::Kept& keep, int threads,
          const store::Listener& listener) {
+    std::map<const study::Point*, study::Against> against;  // references go with the last job that needs them
+    for (const auto& [point, of] : known) against[point] = of.against();
     study::Plan whole, all;
     std::vector<bool> needed;
     std::vector<study::Record> records;
     for (std::size_t i = 0; i < c.plan.jobs.size(); ++i) {
         const study::Cell& cell = tried[i];
         const bool run = cell.ran() && cell.needed;
-        if (!run) references.release(c.plan.points.front());
+        if (!run) references.release(*c.plan.jobs[i].point);
         if (!cell.ran() && cell.added) continue;
         needed.push_back(run);
         all.jobs.push_back(c.plan.jobs[i]);
@@ -105,7 +111,7 @@ void run(Comparison& c, study::References& references, std::vector<study::Cell> 
     for (std::size_t i = 0, k = 0; i < c.plan.jobs.size(); ++i) {
         if (!tried[i].ran() && tried[i].added) continue;
         if (needed[k++]) records.push_back(std::move(outcome.records[next++]));
-        else records.push_back({tried[i], c.against, {}, {}});
+        else records.push_back({tried[i], against.at(c.plan.jobs[i].point), {}, {}});
     }
     outcome.records = std::move(records);
     c.outcome = std::move(outcome);
@@ -120,36 +126,41 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
 
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener, study::Kept& keep) {
     Comparison c;
-    study::Point& point = c.plan.points.emplace_back();
-    point.scene = load_scene(request.scene, request.set, request.duration);
-    note_scene(point.scene, listener);
-    c.headline = study::headline_of(point.scene);
-    const Plan plan = plan_of(request, catalogue, point.scene);
-    for (const std::string& note : plan.notes) listener.note(note);
-    point.taps = point.scene.taps.size();
-    point.references = plan.references;
-    point.truth_modes = request.reference_modes;
-    for (const study::Cell& cell : plan.cells) {
-        study::Job job{&point, cell};
-        job.sounds = true;
-        job.repeats = request.repeats;
-        c.plan.jobs.push_back(job);
+    const Scene scene = load_scene(request.scene, request.set, request.duration);
+    note_scene(scene, listener);
+    c.headline = study::headline_of(scene);
+    for (const Plan& plan : plans_of(request, catalogue, scene)) {
+        for (const std::string& note : plan.notes) listener.note(note);
+        study::Point& point = c.plan.points.emplace_back();
+        point.scene = scene;
+        point.taps = scene.taps.size();
+        point.references = plan.references;
+        point.truth_modes = request.reference_modes;
+        for (const study::Cell& cell : plan.cells) {
+            study::Job job{&point, cell};
+            job.sounds = true;
+            job.repeats = request.repeats;
+            c.plan.jobs.push_back(job);
+        }
     }
     std::vector<std::string> plugins;
     for (const LoadedPlugin& l : loaded_plugins()) plugins.push_back(l.path);
     study::address(c.plan, plugins);
 
     study::References references(c.plan.jobs);
-    const study::References::Of known = references.make(point, request.jobs, listener);
-    if (!known.truth) throw Refusal(known.refused);
-    describe(c, request, known, listener);
+    KnownOf known;
+    for (const study::Point& point : c.plan.points) {
+        known[&point] = references.make(point, request.jobs, listener);
+        if (!known[&point].truth) throw Refusal(known[&point].refused);
+    }
+    describe(c, request, known.at(&c.plan.points.front()), listener);
     std::vector<study::Cell> tried;
     for (const study::Job& job : c.plan.jobs) {
         tried.push_back(job.cell);
         c.searched = c.searched || job.cell.searched;
     }
-    if (c.searched) tried = search(c, known.truth->reference.run.trace, request.jobs, listener);
-    run(c, references, std::move(tried), keep, request.jobs, listener);
+    if (c.searched) tried = search(c, known, request.jobs, listener);
+    run(c, references, known, std::move(tried), keep, request.jobs, listener);
     return c;
 }
 

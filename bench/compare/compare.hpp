@@ -15,12 +15,12 @@
 namespace jvari::bench::compare {
 
 struct Comparison {
-    study::Plan plan;      // of one point
+    study::Plan plan;      // of one point, or of one for each kind of rows
     study::Study outcome;  // of each job of the plan
     study::Headline headline;
     study::ReferenceChoice reference;
     study::Summary reference_summary;
-    study::Against against;                                     // what the reference is known to
+    study::Against against;                                     // what the reference of the first point is known to
     bool searched = false;                                      // modes or compliance, beside what was named
     double horizon = std::numeric_limits<double>::quiet_NaN();  // of the reference against itself with half its modes [s]
     store::Sound reference_sound;

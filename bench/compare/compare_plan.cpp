@@ -22,6 +22,22 @@ namespace {
 constexpr int oversampling =
     4;  // of a scheme that stands in as reference: beyond every cell, and the coarsest of three rates is the highest cell's
 
+// The rates of each have rows in common.
+std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
+    std::vector<double> left = r.rates;
+    std::ranges::sort(left);
+    if (r.tap_rate || left.empty()) return {r};
+    std::vector<CompareRequest> all;
+    while (!left.empty()) {
+        const double rows = store::whole_multiple(left.front(), 44100) ? 44100 : left.front();
+        const auto others = std::ranges::stable_partition(left, [rows](double rate) { return store::whole_multiple(rate, rows); });
+        all.push_back(r);
+        all.back().rates.assign(left.begin(), others.begin());
+        left.erase(left.begin(), others.begin());
+    }
+    return all;
+}
+
 double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
     if (r.tap_rate) return *r.tap_rate;
     const auto divides_all = [&rates](double f) {
@@ -146,6 +162,12 @@ void add_cells(Plan& plan, const CompareRequest& r, const Descriptor& d, const S
             plan.cells.push_back(cell);
         }
 }
+
+std::string kinds_of(const std::vector<Plan>& plans) {  // "44100 and 48000 rows a second"
+    std::string text;
+    for (const Plan& p : plans) text += fmt::format("{}{}", text.empty() ? "" : " and ", p.cells.front().settings.tap_rate);
+    return text + " rows a second";
+}
 }  // namespace
 
 Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
@@ -184,6 +206,26 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
                                                 r.options[k].name,
                                                 r.options[k].scheme.empty() ? "no compared scheme has it" : "that scheme is not compared"));
     return plan;
+}
+
+std::vector<Plan> plans_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
+    std::vector<Plan> plans;
+    for (const CompareRequest& part : with_common_rows(r)) {
+        plans.push_back(plan_of(part, catalogue, scene));
+        if (plans.size() == 1) continue;
+        std::erase_if(plans.back().cells, [](const study::Cell& c) { return c.scheme->clock == Clock::continuous; });
+        if (plans.back().cells.empty()) {  // all of them in continuous time
+            plans.pop_back();
+            continue;
+        }
+        std::erase_if(plans.back().notes, [&](const std::string& note) { return std::ranges::count(plans.front().notes, note) > 0; });
+    }
+    if (plans.size() > 1)
+        plans.front().notes.push_back(
+            fmt::format("rates of {}: each kind has rows and a run of the reference of its own, for they have no "
+                        "rows in common. Nothing is resampled",
+                        kinds_of(plans)));
+    return plans;
 }
 
 }  // namespace jvari::bench::compare

@@ -17,7 +17,12 @@ struct Plan {
     std::vector<std::string> notes;
 };
 
-// Throws UsageError for names that do not exist and rates without a common tap rate, Refusal where no scheme represents the scene.
-Plan plan_of(const CompareRequest&, const Catalogue&, const Scene&);
+// One plan where all rates have rows in common: 44100 a second, else as many as the lowest rate. Rates that have none, as 44100 and 48000,
+// are in several plans, each with rows and references of its own. Nothing is resampled: a force is a mean over the interval between two
+// rows, and its reference is the mean over the same interval. What steps in continuous time is in the first plan alone.
+//
+// Throws UsageError for names that do not exist and rates that --tap-rate does not divide, Refusal where no scheme represents the scene.
+Plan plan_of(const CompareRequest&, const Catalogue&, const Scene&);  // of rates that have rows in common
+std::vector<Plan> plans_of(const CompareRequest&, const Catalogue&, const Scene&);
 
 }  // namespace jvari::bench::compare

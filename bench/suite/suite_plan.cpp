@@ -21,7 +21,7 @@ int tap_of(const CellSet& set, const Scene& scene) {
 }
 
 // What one scene of the file is; messages of compare's planner come with its name.
-compare::Plan planned(const SuitePoint& asked, const compare::Catalogue& catalogue, study::Point& into) {
+std::vector<compare::Plan> planned(const SuitePoint& asked, const compare::Catalogue& catalogue, study::Point& into) {
     const compare::CompareRequest& r = asked.request;
     const std::string where = "scene " + r.scene + ": ";
     into.scene = compare::load_scene(r.scene, r.set, r.duration);
@@ -30,7 +30,7 @@ compare::Plan planned(const SuitePoint& asked, const compare::Catalogue& catalog
         if (asked.element) into.scene = study::without(*asked.element, std::move(into.scene));
         into.scene = with_figure_taps(into.scene, asked.set->figures);
         into.taps = without_drawn_taps(into.scene).taps.size();
-        return compare::plan_of(r, catalogue, into.scene);
+        return compare::plans_of(r, catalogue, into.scene);
     } catch (const store::UsageError& e) {
         throw store::UsageError(where + e.what());
     } catch (const Refusal& e) {
@@ -62,25 +62,28 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
 study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const std::vector<std::string>& plugins) {
     study::Plan all;
     for (const SuitePoint& asked : points_of(suite)) {
-        study::Point& p = all.points.emplace_back();
-        const compare::Plan plan = planned(asked, catalogue, p);
-        const int tap = tap_of(*asked.set, p.scene);
+        study::Point common;
+        const std::vector<compare::Plan> plans = planned(asked, catalogue, common);
+        const int tap = tap_of(*asked.set, common.scene);
         for (const std::string& assignment : asked.request.set) {
             const auto equals = assignment.find('=');
-            p.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
+            common.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
         }
-        if (p.element) p.swept.emplace_back("element", study::change_of(*p.element));
-        p.references = plan.references;
-        p.truth_modes = asked.request.reference_modes;
-        p.time_limit = asked.set->time_limit.value_or(HUGE_VAL);
-        for (const std::string& note : plan.notes)
-            if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end()) all.notes.push_back(note);
-        for (const study::Cell& cell : plan.cells) {
-            study::Job& job = all.jobs.emplace_back(study::Job{&p, cell});
-            job.judged = asked.set->measures(measured::errors);
-            job.repeats = asked.set->measures(measured::cost) ? asked.set->repeats : 0;
-            job.set = static_cast<int>(asked.set - suite.sets.data());
-            add_facets(job, *asked.set, tap);
+        if (common.element) common.swept.emplace_back("element", study::change_of(*common.element));
+        common.truth_modes = asked.request.reference_modes;
+        common.time_limit = asked.set->time_limit.value_or(HUGE_VAL);
+        for (const compare::Plan& plan : plans) {
+            study::Point& p = all.points.emplace_back(common);
+            p.references = plan.references;
+            for (const std::string& note : plan.notes)
+                if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end()) all.notes.push_back(note);
+            for (const study::Cell& cell : plan.cells) {
+                study::Job& job = all.jobs.emplace_back(study::Job{&p, cell});
+                job.judged = asked.set->measures(measured::errors);
+                job.repeats = asked.set->measures(measured::cost) ? asked.set->repeats : 0;
+                job.set = static_cast<int>(asked.set - suite.sets.data());
+                add_facets(job, *asked.set, tap);
+            }
         }
     }
     study::address(all, plugins);

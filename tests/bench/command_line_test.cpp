@@ -59,7 +59,6 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"list everything", "schemes"},
         {"list scenes --markdown", "list schemes"},
         {"compare free_string --rates 44100,-1", "number > 0"},
-        {"compare free_string --rates 44100,48000", "--tap-rate"},
         {"compare free_string --schemes modal_two_pont", "did you mean"},
         {"compare free_string --reference exact_liner", "did you mean \"exact_linear\""},
         {"compare free_string --option none=1 --duration 0.01", "no compared scheme has it"},
@@ -337,6 +336,31 @@ TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigitOneByOneAndSideBySide) {
     EXPECT_GT(errors.number(1, "error_l2_50ms"), 2e-2);  // for the string is cut off at half of these
     const auto floor = nlohmann::json::parse(content(scratch / "a/manifest.json")).at("noise_floor");
     EXPECT_NEAR(floor.at("error_l2_10ms").get<double>(), 1e-12, 5e-13);  // a scaled start scales the whole run until contact spreads it
+}
+
+TEST(CommandLine, RatesWithoutRowsInCommonHaveTheErrorsThatEachHasAlone) {
+    const Scratch scratch;
+    const auto errors = [&](const std::string& rates) {
+        const std::string out = scratch / rates;
+        const Outcome o = jvari(scratch,
+                                "compare tanpura_c3_release --schemes modal_two_point,exact_contact --option compliance=own --modes 40 "
+                                "--duration 0.02 --repeats 1 --reference-modes cell --rates " +
+                                    rates + " --out " + out);
+        EXPECT_EQ(o.code, 0) << o.err;
+        EXPECT_EQ(o.err.find("44100 and 48000 rows a second") != std::string::npos, rates.size() > 5) << o.err;
+        return bench::store::read_csv(content(out + "/errors.csv"));
+    };
+    const bench::store::Table both = errors("48000,44100"), one = errors("44100"), other = errors("48000");
+    ASSERT_EQ(both.rows.size(), 3u);  // and continuous time once
+    EXPECT_EQ(both.columns, one.columns);
+    const auto row_at = [](const bench::store::Table& t, const std::string& rate) {
+        for (std::size_t i = 0; i < t.rows.size(); ++i)
+            if (t.at(i, "rate") == rate) return t.rows[i];
+        return std::vector<std::string>();
+    };
+    EXPECT_EQ(row_at(both, "44100"), row_at(one, "44100"));
+    EXPECT_EQ(row_at(both, "48000"), row_at(other, "48000"));
+    EXPECT_NE(row_at(both, "44100"), row_at(both, "48000"));
 }
 
 TEST(CommandLine, CompareRunsEachValueOfAnOptionAndSaysInItsTableWhichItWas) {

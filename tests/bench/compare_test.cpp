@@ -439,6 +439,31 @@ TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSa
     EXPECT_EQ(asked.references.front().settings.modes, 300);
 }
 
+TEST(Plan, RatesThatHaveRowsInCommonAreOfOnePlan) {
+    bench::compare::CompareRequest r;
+    r.scene = "tanpura_c3_release";
+    r.schemes = {"modal_two_point", "exact_contact"};
+    r.search = false;
+    static const bench::compare::Catalogue catalogue;
+    const Scene scene = bench::compare::load_scene(r.scene, {}, 0.01);
+    using Kinds = std::vector<std::pair<double, std::vector<double>>>;  // rows a second, rates; 0: continuous time
+    const auto kinds = [&](const std::vector<double>& rates) {
+        r.rates = rates;
+        Kinds all;
+        for (const bench::compare::Plan& plan : bench::compare::plans_of(r, catalogue, scene)) {
+            all.emplace_back(plan.references.front().settings.tap_rate, std::vector<double>());
+            for (const bench::study::Cell& c : plan.cells) {
+                EXPECT_EQ(c.settings.tap_rate, all.back().first);
+                all.back().second.push_back(c.settings.sample_rate);
+            }
+        }
+        return all;
+    };
+    EXPECT_EQ(kinds({88200, 132300}), (Kinds{{44100, {88200, 132300, 0}}}));
+    EXPECT_EQ(kinds({44100, 22050}), (Kinds{{22050, {22050, 44100, 0}}}));
+    EXPECT_EQ(kinds({96000, 44100, 48000, 88200}), (Kinds{{44100, {44100, 88200, 0}}, {48000, {48000, 96000}}}));
+}
+
 TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
     bench::compare::CompareRequest r;
     r.scene = "tanpura_c3_release";

@@ -46,7 +46,7 @@ void write_sounds(const Comparison& c, const std::filesystem::path& folder) {
                           tap.name,
                           name_of(tap.quantity),
                           &cell.sound,
-                          compared ? "reference" : ""});
+                          compared && cell.sound.rate == c.reference_sound.rate ? "reference" : ""});
     }
     if (!sounds.empty()) store::write_sounds(folder, {"scheme", "options", "rate", "modes"}, sounds);
 }
