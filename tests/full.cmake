@@ -60,7 +60,9 @@ jvari_full(Browser.AReportIsDrawnSoundsAndFitsAPhone Browser.EverySceneOfTheLibr
 # The module of the page, where the preset web has been built.
 jvari_gate(Web.EverySchemeGivesTheProgramsNumbersAndSentences web/check.sh agree.mjs $<TARGET_FILE:jvari> ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR})
 set_tests_properties(Web.EverySchemeGivesTheProgramsNumbersAndSentences PROPERTIES COST 100 LABELS web)
-jvari_full(Web.EverySchemeGivesTheProgramsNumbersAndSentences)
+jvari_gate(Web.ThePlaygroundShowsSoundsAndIsWalked web/check.sh page.mjs $<TARGET_FILE:jvari> ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/node_modules)
+set_tests_properties(Web.ThePlaygroundShowsSoundsAndIsWalked PROPERTIES COST 100 LABELS web)
+jvari_full(Web.EverySchemeGivesTheProgramsNumbersAndSentences Web.ThePlaygroundShowsSoundsAndIsWalked)
 
 jvari_gate(FirstMinutes.FromANewSceneToAnAnswerInFiveCommands first_minutes.sh $<TARGET_FILE:jvari>)
 jvari_gate(NewScheme.IsOneFileAndOneLine new_scheme.sh ${CMAKE_BINARY_DIR})

@@ -64,10 +64,10 @@ Settings settings_of(const Descriptor& d, double rate, double tap_rate, int mode
     return s;
 }
 
-// Displacements at so many inner points, evenly spaced, of the first string: what a picture of it is drawn from.
-void add_shape(Scene& scene, int points) {
-    for (int k = 1; k <= points; ++k)
-        scene.taps.push_back({"shape" + std::to_string(k), Quantity::displacement, 0, scene.strings[0].length * k / (points + 1)});
+// Displacements of the first string at these parts of its length, a line each: what a picture of it is drawn from.
+void add_shape(Scene& scene, const char* places) {
+    for (const std::string& place : lines_of(places))
+        scene.taps.push_back({"at " + place, Quantity::displacement, 0, scene.strings[0].length * number_of(place).value_or(0.5)});
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -99,10 +99,20 @@ JV const char* jv_scene(const char* text, const char* overrides) {
     return done ? said.c_str() : nullptr;
 }
 
-// `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line NAME=VALUE each. `shape`: points of the first string that
-// are read beside the scene's taps, and after them.
+// The problem as arrays, for a scheme typed into the page; nullptr: refused.
+JV const char* jv_problem(const char* text, const char* overrides, double rate, int modes, double duration) {
+    const bool done = tried([&] {
+        Scene scene = parse_scene(text, "scene", lines_of(overrides));
+        scene.duration = duration;
+        return !(said = problem_text(scene, {.sample_rate = rate, .modes = modes, .options = {}})).empty();
+    });
+    return done ? said.c_str() : nullptr;
+}
+
+// `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line NAME=VALUE each. `shape`: places of the first string, as
+// parts of its length, a line each, whose displacement is read beside the scene's taps and after them.
 JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, double rate, double tap_rate, int modes, const char* options,
-                double duration, int shape, int energy) {
+                double duration, const char* shape, int energy) {
     return tried([&]() -> Kept* {
         const auto start = std::chrono::steady_clock::now();
         auto kept = std::make_unique<Kept>();

@@ -21,10 +21,11 @@ function jvari_core(module) {
     return {
         list: () => told(call("jv_list", "string")),
         scene: (text, overrides = []) => told(call("jv_scene", "string", text, overrides.join("\n"))),
+        problem: (text, overrides, rate, modes, duration) => told(call("jv_problem", "string", text, overrides.join("\n"), rate, modes, duration)),
         // {scene, overrides, scheme, rate, tap_rate, modes, options, duration, shape, energy}: the last five may be absent
         run(a) {
             const handle = call("jv_run", "number", a.scene, (a.overrides ?? []).join("\n"), a.scheme, a.rate ?? 44100, a.tap_rate ?? 44100,
-                a.modes ?? 0, (a.options ?? []).join("\n"), a.duration ?? 0, a.shape ?? 0, a.energy ? 1 : 0);
+                a.modes ?? 0, (a.options ?? []).join("\n"), a.duration ?? 0, (a.shape ?? []).join("\n"), a.energy ? 1 : 0);
             if (!handle) throw new Error(said());
             const about = told(call("jv_about", "string", handle)), energy = call("jv_energy", "number", handle, 0);
             return {...about, handle,

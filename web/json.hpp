@@ -8,8 +8,9 @@
 
 namespace jvari::web {
 
-std::string list_text();                          // schemes and references with their options
-std::string scene_text(const Scene&);             // what is drawn and moved of it
-std::string run_text(const Run&, double making);  // how it ended, what it cost in this browser, its facts
+std::string list_text();                                  // schemes and references with their options
+std::string scene_text(const Scene&);                     // what is drawn and moved of it
+std::string problem_text(const Scene&, const Settings&);  // its modes, contacts, thread, pluck and taps as arrays
+std::string run_text(const Run&, double making);          // how it ended, what it cost in this browser, its facts
 
 }  // namespace jvari::web

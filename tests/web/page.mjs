@@ -1,0 +1,186 @@
+// page.mjs PROGRAM BUILD SOURCES NODE_MODULES: play.html in headless Chromium, from its file: what a reader sees and hears, and how soon; the tours; a
+// scheme typed in; bad input; keyboard; axe. Times are printed, and asserted where JVARI_TIMED is set: a test that shares its machine asserts none.
+import {spawnSync} from "node:child_process";
+import {mkdirSync, readFileSync, writeFileSync} from "node:fs";
+import {join, resolve} from "node:path";
+import {pathToFileURL} from "node:url";
+import {open} from "../browser/chromium.mjs";
+
+const [program, build, , modules] = process.argv.slice(2).map(p => resolve(p)), page = pathToFileURL(join(build, "play.html")).href;
+const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8"), timed = Boolean(process.env.JVARI_TIMED), shots = process.env.JVARI_SHOTS;
+let failures = 0;
+const expect = (holds, what) => { if (!holds) ++failures, console.log(`  FAILED: ${what}`); };
+const within = (milliseconds, limit, what) => {
+    console.log(`  ${what}: ${milliseconds.toFixed(0)} ms`);
+    if (timed) expect(milliseconds <= limit, `${what} within ${limit} ms`);
+};
+
+const browser = await open(), complaints = [], requests = [];
+browser.listen(({method, params}) => {
+    if (method === "Runtime.exceptionThrown") complaints.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
+    if (method === "Runtime.consoleAPICalled" && ["error", "warning"].includes(params.type)) complaints.push(params.args.map(a => a.value ?? a.description).join(" "));
+    if (method === "Log.entryAdded" && params.entry.level === "error") complaints.push(params.entry.text);
+    if (method === "Network.requestWillBeSent") requests.push(params.request.url);
+});
+const see = expression => browser.evaluate(expression);
+const pause = ms => new Promise(done => setTimeout(done, ms));
+async function until(expression, what, seconds = 90) {
+    for (const end = Date.now() + 1000 * seconds; Date.now() < end; await pause(50)) if (await see(expression).catch(() => false)) return true;
+    expect(false, `${what}: it did not happen within ${seconds} s`);
+    return false;
+}
+const size = (width, height) => browser.page("Emulation.setDeviceMetricsOverride", {width, height, deviceScaleFactor: 1, mobile: width < 500});
+async function visit(hash = "") {
+    await browser.page("Page.navigate", {url: "about:blank"});
+    await browser.page("Page.navigate", {url: page + hash});
+    await until("typeof shown !== 'undefined' && shown.verdict !== null", "a first verdict");
+}
+const press = (key, text = "") => ["keyDown", "keyUp"].reduce((before, type) => before.then(() => browser.page("Input.dispatchKeyEvent", {type, key, code: key, text: type === "keyDown" ? text : "",
+    windowsVirtualKeyCode: {ArrowRight: 39, Tab: 9, " ": 32}[key] ?? 0})), Promise.resolve());
+const settled_chart = () => until("chart.done > client.since && !client.busy", "the chart");
+
+const parts = {
+    async "a cold start, a moved handle, the chart"() {
+        await size(1280, 800);
+        await browser.page("Page.navigate", {url: page});
+        await until("typeof sound !== 'undefined' && Boolean(sound.buffers.scheme)", "a first sound");
+        await press(" ", " ");
+        await until("sound.started !== null && sound.context.state === 'running'", "the sound that a key asks for");
+        within(await see("sound.started"), 3000, "first sound after a cold start");
+        await settled_chart();
+        expect(/^modal_two_point at 44.1 kHz is 8\.\d % wrong/.test(await see("by_id('title').textContent")), `the title has the figure of the README: ${await see("by_id('title').textContent")}`);
+        const took = [];
+        for (let k = 0; k < 5; ++k) {
+            const from = await see(`(() => { const h = by_id("handle_tension"); h.value = ${30 + k}; const from = performance.now(); h.oninput(); return from; })()`);
+            await until(`sound.drawn > ${from} && sound.changed > ${from}`, "a moved handle is seen and heard");
+            took.push(await see(`Math.max(sound.drawn, sound.changed) - ${from}`));
+            await settled_chart();
+        }
+        within(took.sort((a, b) => a - b)[2], 150, "a moved handle is seen and heard, median of five");
+        within(await see("chart.done - client.since"), 2000, `a chart of ${await see("chart.points.length")} points, the reference before it`);
+        expect(await see("chart.points.length") === 20, "the chart has 20 points");
+    },
+    async "the verdict is that of jvari compare"() {
+        await visit();
+        await settled_chart();
+        const cells = await see("chart_cells()"), lines = [...new Set(cells.map(c => c.scheme))], rates = [...new Set(cells.map(c => c.rate))];
+        const run = spawnSync(program, ["compare", "tanpura_c3_release", "--schemes", lines.join(), "--rates", rates.join(), "--modes", "133", "--option", "compliance=own,matched", "--duration", "0.05", "--repeats", "2", "--json"],
+            {encoding: "utf8", maxBuffer: 1 << 28});
+        const told = JSON.parse(run.stdout), points = await see("chart.points"), known = told.cells.filter(c => c.status === "ok");
+        const cell_of = p => known.find(c => c.scheme === p.scheme && c.rate === p.rate && (p.compliance === "" || c.options === `compliance=${p.compliance}`));
+        const cost = c => c.processor_s_per_s ?? c.cost_s_per_s, names = list => list.map(p => `${p.scheme} ${p.compliance} ${p.rate}`).sort().join("; ");
+        for (const accuracy of [0.1, 0.01]) {
+            const here = points.filter(p => p.outcome === "ok" && (p.uncertainty > 0.1 * p.error ? p.error + p.uncertainty : p.error) <= accuracy);
+            const there = points.filter(p => cell_of(p)?.error_l2_50ms <= accuracy);
+            expect(names(here) === names(there) && here.length > 0, `within ${accuracy}: here ${names(here)}\n    in jvari compare ${names(there)}`);
+            const best = await see(`(() => { const v = verdict(chart.points, ${accuracy}); return v ? [v.best, ...v.ties].map(p => p.scheme) : []; })()`);
+            const cheapest = told.cheapest.find(c => c.measure === "error_l2_50ms" && c.target === accuracy), least = Math.min(...there.map(p => cost(cell_of(p))));
+            const ties = there.filter(p => cost(cell_of(p)) <= 1.5 * least).map(p => p.scheme);
+            console.log(`  within ${100 * accuracy} %: ${best.join(" = ")} here, ${cheapest.run} in jvari compare`);
+            expect(best.includes(cheapest.scheme) || ties.includes(best[0]), `within ${accuracy} the page names ${best}, jvari compare ${cheapest.run}`);
+        }
+    },
+    async "five tours, each with its numbers"() {
+        const promised = {brighter: [/^8\.\d % error/, /has \+\d\.\d dB/, /yields 9\d % of/, /^[12](\.\d)? % error/, /^0\.\d+ % error.*has [+\u2212][01]\.\d dB/],
+            energy: [/e-1[2-6] of what there is; error: 8/, /e-1[1-6] of/, /e-1[1-6] of/, /e-[2-9] of/, /e-1[1-6] of what there is; error: 0\.\d+ %/],
+            explode: [/% error/, /^(diverged|not converged) at step \d+/, /from \d\.\de\+\d N\/m on/, /times as much/, /^with 1e12 N\/m: ok/],
+            guitar: [/% error/, /agree within 10 % for \d+(\.\d+)? ms/, /over 250 ms the error is/, /dB apart/, /dB apart/],
+            modes: [/^[12](\.\d)? % error/, /dB from those of all modes/, /dB apart/, /^\d+ modes: [01]\.\d+ dB/, /^\d+ modes: [0-3]\.\d+ dB/]};
+        for (const [name, steps] of Object.entries(promised)) {
+            await visit(`#tour=${name}`);
+            for (const [k, pattern] of steps.entries()) {
+                if (k) await see("by_id('tour_next').click()");
+                await until(`state.step === ${k} && by_id('tour_number').textContent.length > 2`, `step ${k + 1} of ${name}`);
+                const number = await see("by_id('tour_number').textContent");
+                console.log(`  ${name} ${k + 1}: ${number}`);
+                expect(pattern.test(number), `step ${k + 1} of ${name} promises ${pattern}: ${number}`);
+            }
+        }
+        await visit("#tour=explode&step=3");
+        expect(await see("state.set['string.0.barrier.0.stiffness']") === "4.39e8", "a tour that begins in the middle has what its steps before have set");
+    },
+    async "a scheme typed into the page"() {
+        await visit();
+        await settled_chart();
+        const judge = async (text, done = "chart.own.length === 2 || /^At/.test(by_id('own_said').textContent)") => {
+            await see(`by_id("own_part").open = true; by_id("own_text").value = ${JSON.stringify(text)}; by_id("own_said").textContent = ""; judge_own(); 0`);
+            await until(`by_id("own_said").textContent.length > 8 && (${done})`, "the verdict on a scheme");
+            return {said: await see("by_id('own_said').textContent"), errors: await see("chart.own.map(p => p.error)")};
+        };
+        const example = await see("own_example"), built_in = await see("chart.points.filter(p => p.scheme === 'modal_two_point' && p.compliance === 'own').slice(0, 2).map(p => p.error)");
+        const honest = await judge(example), planted = await judge(example.replace("kc * dot(c, s)) /", "kc * dot(c, s)) * 0.9 /"));
+        console.log(`  as it stands ${honest.errors}, built in ${built_in}; with a force of the thread of nine tenths ${planted.errors}`);
+        expect(honest.errors.length === 2 && honest.errors.every((e, k) => Math.abs(e - built_in[k]) < 1e-3 * built_in[k]), `the example is modal_two_point: ${honest.said}`);
+        expect(planted.errors.some((e, k) => Math.abs(e - built_in[k]) > 0.05 * built_in[k]), `a planted mistake is seen: ${planted.said}`);
+        expect(await see("[...document.querySelectorAll('#chart .legend')].some(l => /mine/.test(l.textContent))"), "it stands in the chart");
+        for (const [text, sentence] of [["for (;;) ;", /stopped after 2 s/], ["return 3;", /array for each/], ["retrun [];", /At 44.1 kHz: line/], ["return p.tap_names.map(() => [1]);", /has 1 rows/],
+            ["importScripts('https://example.org/a.js'); return [];", /At 44.1 kHz/], ["document.title = 'x'; return [];", /document is not defined/]])
+            expect(sentence.test((await judge(text)).said), `${text} says ${sentence}: ${(await judge(text)).said}`);
+        requests.splice(0, Infinity, ...requests.filter(url => !url.includes("example.org")));  // refused by the page's policy before it left: it is in no list of answers
+        complaints.splice(0, Infinity);
+    },
+    async "bad scenes, an address, 500 changes, a second tab"() {
+        await visit();
+        for (const [text, sentence] of [["x".repeat(1 << 20) + "\n", /scene:1: |expected at most/], ["Hello [ world", /no TOML/], ["", /name: found nothing/], ["\u0000\u0001", /scene:1/]]) {
+            await see(`by_id("text_part").open = true; by_id("text").value = ${JSON.stringify(text)}; by_id("said").textContent = ""; by_id("apply").click(); 0`);
+            await until("by_id('said').textContent.length > 8", "a sentence about a bad scene");
+            const said = await see("by_id('said').textContent");
+            expect(sentence.test(said) && said.length < 600, `${text.slice(0, 20)} is refused by ${sentence}: ${said.slice(0, 200)}`);
+        }
+        await visit("#scene=two_point_bridge&scheme=finite_difference_theta&rate=88200&set.string.0.tension=60");
+        expect(await see("state.scheme === 'finite_difference_theta' && state.rate === 88200 && shown.scene.string[0].tension === 60"), "the address holds the state");
+        await visit("#scene=none&rate=many&scheme=nothing_known&modes=-3");
+        expect(await see("state.scene") === "tanpura_c3_release", "a broken address leads to a page");
+        await visit();
+        await see("window.second = window.open(location.href); 0");
+        for (let k = 0; k < 500; ++k) {
+            await see(`by_id("handle_tension").value = ${25 + k % 20}; by_id("handle_tension").oninput(); 0`);
+            if (k % 25 === 0) await until(`sound.drawn > client.since`, "a picture between many changes");
+        }
+        await settled_chart();
+        await browser.page("HeapProfiler.collectGarbage");
+        const heap = (await browser.page("Runtime.getHeapUsage")).usedSize / 1e6, module = await see("ask('memory')") / 1e6;
+        console.log(`  after 500 changes: ${heap.toFixed(0)} MB of the page, ${module.toFixed(0)} MB of the module`);
+        expect(heap + module < 200, `${heap + module} MB after 500 changes`);
+    },
+    async "keyboard, axe, three sizes, light and dark"() {
+        await visit("#tour=brighter");
+        await see(`for (const d of document.querySelectorAll("details")) d.open = true; by_id("handle_bridge_height").focus(); 0`);
+        const before = await see("state.set['string.0.barrier.0.height'] ?? '0'");
+        await press("ArrowRight");
+        await until(`(state.set['string.0.barrier.0.height'] ?? '0') !== ${JSON.stringify(before)}`, "a handle is moved by a key");
+        await until("map.columns.length === map_size.columns", "the map");
+        expect(await see("map.columns.flat().some(c => c.outcome === 'ok')"), "the map has runs that are sound");
+        await see(axe + ";0");
+        for (const scheme of ["light", "dark"])
+            for (const [width, height] of [[1280, 800], [1920, 1080], [390, 844]]) {
+                await size(width, height);
+                await browser.page("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: scheme}]});
+                await pause(200);
+                const serious = await see("axe.run({resultTypes: ['violations']}).then(r => r.violations.filter(v => ['serious', 'critical'].includes(v.impact)).map(v => v.id + ': ' + v.nodes.map(n => n.target).join(', ')))");
+                expect(serious.length === 0, `axe, ${scheme}, ${width}: ${serious.join("; ")}`);
+                expect(await see("document.documentElement.scrollWidth") <= width, `nothing is wider than ${width}`);
+                if (!shots) continue;
+                mkdirSync(shots, {recursive: true});
+                for (const [name, whole] of [["first", false], ["whole", true]])
+                    writeFileSync(join(shots, `${name}-${scheme}-${width}.png`), Buffer.from((await browser.page("Page.captureScreenshot", {format: "png", captureBeyondViewport: whole})).data, "base64"));
+            }
+    }
+};
+
+const chosen = process.argv.slice(6);
+try {
+    for (const [name, part] of Object.entries(parts)) {
+        if (chosen.length && !chosen.some(word => name.includes(word))) continue;
+        console.log(name);
+        await part();
+    }
+    const outside = requests.filter(url => !/^(file|blob|data|about):/.test(url));
+    expect(outside.length === 0, `no request leaves the page: ${outside}`);
+    expect(complaints.length === 0, `the console is clean: ${[...new Set(complaints)].slice(0, 5).join("\n    ")}`);
+} catch (error) {
+    expect(false, error.stack);
+} finally {
+    await browser.close();
+}
+process.exit(failures ? 1 : 0);

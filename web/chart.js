@@ -1,0 +1,107 @@
+// Error against cost, recomputed for the string as it stands: a line for each scheme, a point for each sample rate. Costs are of this browser.
+const chart = {points: [], own: []};
+const chart_schemes = [["modal_two_point", "own"], ["modal_two_point", "matched"], ["modal_quadratised", "matched"], ["modal_spatial_newton", "own"], ["finite_difference_explicit", "own"],
+    ["finite_difference_theta", "own"], ["sitar_waveguide", "own"]];
+const chart_lines = 5, chart_rates = [1, 2, 4, 8].map(k => 44100 * k);
+const colours = {modal_two_point: "#0072b2", modal_quadratised: "#7a4fb5", modal_spatial_newton: "#00805a", finite_difference_explicit: "#b07800", finite_difference_theta: "#8a5a1a",
+    sitar_waveguide: "#aa3377", mine: "#c4261d"};
+const colour_of = name => colours[name] ?? "#777";
+
+// Twenty cells: five lines that the scene allows, the chosen scheme among them, at four rates.
+function chart_cells() {
+    const able = new Set(shown.scene?.able ?? chart_schemes.map(([name]) => name)), lines = chart_schemes.filter(([name]) => able.has(name)).slice(0, chart_lines);
+    const chosen = [state.scheme, state.compliance];
+    const same = ([name, compliance]) => name === chosen[0] && (compliance === chosen[1] || !options_of(name, compliance).length);
+    if (!lines.some(same)) lines.splice(Math.min(lines.length, chart_lines - 1), 1, chosen);
+    return lines.flatMap(([scheme, compliance]) => chart_rates.map(rate => ({scheme, compliance, rate})));
+}
+
+// What is known of an error: the measured one, and the uncertainty of the reference where that is more than a tenth of it.
+const most_of = p => p.uncertainty > 0.1 * p.error ? p.error + p.uncertainty : p.error;
+const sound_point = p => p.outcome === "ok" && Number.isFinite(p.error);
+const label_of = p => p.scheme + (p.compliance === "matched" ? ", matched" : "");
+function percent(x) {
+    if (!Number.isFinite(x)) return "not known";
+    const p = 100 * x;
+    return `${p >= 10 ? p.toFixed(0) : p >= 0.01 ? p.toPrecision(2) : p.toExponential(1)} %`;
+}
+const two_digits = x => String(Number(x.toPrecision(2)));
+const time_text = s => s >= 1 ? `${two_digits(s)} s` : s >= 1e-3 ? `${two_digits(1e3 * s)} ms` : `${two_digits(1e6 * s)} µs`;
+
+// The cheapest within each accuracy. Costs of one browser scatter: what costs at most `tie` times as much is named beside it.
+const tie = 1.25;
+function verdict(points, accuracy) {
+    const able = points.filter(p => p.scheme !== "mine" && sound_point(p) && most_of(p) <= accuracy).sort((a, b) => a.cost - b.cost);
+    if (!able.length) return null;
+    const ties = able.filter((p, k) => k && p.cost <= tie * able[0].cost && label_of(p) !== label_of(able[0]));
+    return {best: able[0], ties: ties.filter((p, k) => ties.findIndex(q => label_of(q) === label_of(p)) === k)};
+}
+
+function draw_answers(done) {
+    const list = document.getElementById("answers");
+    list.replaceChildren(...[0.1, 0.01, 0.001].map(accuracy => {
+        const v = verdict(chart.points, accuracy), card = element("div", {className: "card"}), say_it = (...texts) => card.append(...texts.map(t => element("p", t.soft ? {className: "soft"} : {}, t.text)));
+        say_it({text: `within ${100 * accuracy} %`, soft: true});
+        if (v) {
+            card.style.borderLeftColor = colour_of(v.best.scheme);
+            say_it({text: label_of(v.best)}, {text: `${v.best.rate / 1e3} kHz, ${most_of(v.best) > v.best.error ? "\u2264 " : ""}${percent(most_of(v.best))} error, ${time_text(v.best.cost)} per second in this browser`, soft: true});
+            if (v.ties.length) say_it({text: `about as fast: ${v.ties.map(label_of).join(", ")}`, soft: true});
+        } else say_it({text: done ? "none of these" : "…"});
+        return card;
+    }));
+}
+
+function svg(name, attributes, ...inside) {
+    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    made.append(...inside);
+    return made;
+}
+
+function draw_chart(done) {
+    draw_answers(done);
+    const box = document.getElementById("chart"), width = Math.max(300, box.clientWidth), height = Math.min(380, Math.max(260, width * 0.55)), points = [...chart.points, ...chart.own].filter(sound_point);
+    const left = 52, right = 12, top = 10, bottom = 40, errors = points.map(p => Math.max(1e-6, p.error)), costs = points.map(p => p.cost);
+    const [y0, y1] = [Math.floor(Math.log10(Math.min(1e-3, ...errors))), Math.ceil(Math.log10(Math.min(1e3, Math.max(0.3, ...errors))))];
+    const [x0, x1] = [Math.log10(Math.min(5e-3, ...costs)) - 0.1, Math.log10(Math.max(0.2, ...costs)) + 0.1];
+    const X = cost => left + (width - left - right) * (Math.log10(cost) - x0) / (x1 - x0), Y = error => top + (height - top - bottom) * (y1 - Math.log10(Math.min(1e3, Math.max(1e-6, error)))) / (y1 - y0);
+    const art = svg("svg", {viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "error against computing time: the table below has the numbers"});
+    for (let k = y0; k <= y1; ++k) art.append(svg("line", {x1: left, x2: width - right, y1: Y(10 ** k), y2: Y(10 ** k), class: "grid"}), svg("text", {x: left - 6, y: Y(10 ** k) + 4, "text-anchor": "end"}, `${digits(100 * 10 ** k)} %`));
+    for (let k = Math.ceil(x0); k <= x1; ++k) art.append(svg("line", {x1: X(10 ** k), x2: X(10 ** k), y1: top, y2: height - bottom, class: k === 0 ? "real-time" : "grid"}), svg("text", {x: X(10 ** k), y: height - bottom + 16, "text-anchor": "middle"}, time_text(10 ** k)));
+    art.append(svg("text", {x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle"}, "computing time for one second of sound, in this browser"));
+    const uncertainty = points[0]?.uncertainty;
+    if (uncertainty > 10 ** y0) art.append(svg("rect", {x: left, y: Y(uncertainty), width: width - left - right, height: Math.max(0, Y(10 ** y0) - Y(uncertainty)), class: "uncertain"}));
+    const lines = new Map();
+    for (const p of points) lines.set(label_of(p), [...lines.get(label_of(p)) ?? [], p]);
+    for (const [label, line] of lines) {
+        const stroke = colour_of(line[0].scheme), dash = line[0].compliance === "own" ? "5 4" : "none";
+        line.sort((a, b) => a.rate - b.rate);
+        art.append(svg("polyline", {points: line.map(p => `${X(p.cost)},${Y(p.error)}`).join(" "), fill: "none", stroke, "stroke-dasharray": dash, "stroke-width": 1.6}));
+        for (const p of line) {
+            const chosen = p.scheme === state.scheme && p.rate === state.rate && (p.compliance || "own") === state.compliance;
+            const dot = svg("circle", {cx: X(p.cost), cy: Y(p.error), r: chosen ? 7 : 4.5, fill: p.compliance === "own" ? "var(--paper)" : stroke, stroke, "stroke-width": chosen ? 3 : 1.5, class: "point"}, svg("title", {}, `${label}, ${p.rate / 1e3} kHz: ${percent(p.error)}, ${time_text(p.cost)} per second`));
+            if (p.scheme !== "mine") dot.onclick = () => choose({scheme: p.scheme, rate: p.rate, compliance: p.compliance || "own", modes: 0});
+            art.append(dot);
+        }
+    }
+    const legend = element("p", {className: "legend"});
+    for (const [label, line] of lines) legend.append(element("span", {}, swatch(line[0]), label), " ");
+    box.replaceChildren(art, legend, table_of_points(done));
+}
+
+function swatch(p) {
+    const stroke = colour_of(p.scheme);
+    return svg("svg", {width: 26, height: 10, "aria-hidden": "true"}, svg("line", {x1: 0, x2: 26, y1: 5, y2: 5, stroke, "stroke-width": 1.6, "stroke-dasharray": p.compliance === "own" ? "5 4" : "none"}),
+        svg("circle", {cx: 13, cy: 5, r: 4, stroke, fill: p.compliance === "own" ? "var(--paper)" : stroke}));
+}
+
+function table_of_points(done) {
+    const rows = [...chart.points, ...chart.own].map(p => [label_of(p), `${p.rate / 1e3} kHz`, p.refused ?? (p.outcome !== "ok" ? p.outcome.replace("_", " ") : percent(p.error)), p.cost ? time_text(p.cost) : ""]);
+    const table = element("table", {}, element("thead", {}, element("tr", {}, ...["scheme", "sample rate", "error", "time per second"].map(t => element("th", {scope: "col"}, t)))),
+        element("tbody", {}, ...rows.map(row => element("tr", {}, ...row.map(t => element("td", {}, t))))));
+    const was_open = document.querySelector("#chart details")?.open, scroll = element("div", {className: "scroll", tabIndex: 0}, table);
+    scroll.setAttribute("role", "region"), scroll.setAttribute("aria-label", "table of the chart's points");
+    const folded = element("details", {}, element("summary", {}, `${chart.points.length} points as a table${done ? "" : ", more to come"}`), scroll);
+    folded.open = Boolean(was_open);
+    return folded;
+}

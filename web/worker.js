@@ -1,0 +1,200 @@
+// In the worker: answers what the page asks, in pieces, so that the newest state of the page wins. Each answer carries the number of its question.
+let jvari, newest = 0, started;
+const ready = new Promise(resolve => { started = resolve; });
+const turn = () => new Promise(resolve => { const c = new MessageChannel(); c.port1.onmessage = () => { c.port1.close(); resolve(); }; c.port2.postMessage(0); });
+class Stale extends Error {}
+
+const asked_of = (state, more) => ({scene: state.text, overrides: state.overrides, scheme: state.scheme, rate: state.rate, modes: state.modes, options: state.options, ...more});
+const options_of = (name, compliance) => {  // of the schemes that know it
+    const knows = jvari.known[name]?.options.some(o => o.name === "compliance");
+    return knows && compliance ? [`compliance=${compliance}`] : [];
+};
+function headline_of(scene) {  // as in the tables of `jvari compare`: the first nut force, else the first driving force, else the first tap
+    const first = quantity => scene.tap.findIndex(t => t.quantity === quantity);
+    const nut = Math.max(0, first("nut_force"));
+    return {nut, force: first("bridge_force")};
+}
+
+// The energy that a run gained or lost unaccounted for, over the largest that it had: cumulated, and its stored energy as a curve.
+function balance_of(run) {
+    const ledger = run.ledger();
+    if (!ledger) return {};
+    const [stored, supplied, dissipated] = ledger;
+    let sum = stored[0], worst = 0, most = 0;
+    for (let n = 0; n < stored.length; ++n) {
+        if (n) sum += supplied[n] - dissipated[n];
+        worst = Math.max(worst, Math.abs(stored[n] - sum));
+        most = Math.max(most, Math.abs(stored[n]));
+    }
+    return {stored: Float64Array.from(stored), residual: worst / most};
+}
+
+function pictured(run, scene, points) {  // what the page draws of a run
+    const {nut, force} = headline_of(scene), count = scene.tap.length, shape = new Float32Array(run.rows * points);
+    for (let k = 0; k < points; ++k) {
+        const column = run.tap(count + k);
+        for (let n = 0; n < run.rows; ++n) shape[n * points + k] = column[n];
+    }
+    return {shape, points, rows: run.rows, rate: run.rate, outcome: run.outcome, step: run.step, facts: run.facts, dofs: run.dofs, steps: run.steps,
+        nut: Float64Array.from(run.tap(nut)), force: force < 0 ? null : Float64Array.from(run.tap(force)), ...balance_of(run)};
+}
+
+// ---- The reference solution, kept until the string changes. Its uncertainty is what further doublings of its modes would change.
+
+let reference = null;
+function forget() {
+    reference?.runs.forEach(run => run.free());
+    reference = null;
+}
+// Whose exact solution takes seconds: many points, a power law, or a pluck in the closed form of many digits. Its modes are not doubled.
+const dear = scene => scene.string.some(s => s.barrier.length > 2 || s.barrier.some(b => b.shape === "profile" || b.exponent !== 1)) || (scene.reference === "exact_linear" && scene.string.some(s => s.pluck));
+async function reference_of(state, scene, go_on) {
+    const key = JSON.stringify([state.text, state.overrides, state.window, state.shape]);
+    if (reference?.key === key) return reference;
+    forget();
+    if (!scene.reference) return null;
+    const {nut} = headline_of(scene), options = options_of(scene.reference, "matched"), runs = [];
+    const run = (modes, shape = []) => {
+        const made = jvari.run({scene: state.text, overrides: state.overrides, scheme: scene.reference, modes, options, duration: state.window, shape, energy: shape.length > 0});
+        runs.push(made);
+        return made;
+    };
+    try {
+        const change = (fine, coarse) => jvari.error(fine, coarse, nut, 0, state.window), base = run(0, state.shape), modes = base.dofs / 2 | 0;
+        await go_on();
+        const half = run(Math.max(1, modes >> 1));
+        await go_on();
+        let best = base, left = jvari.left_after(change(base, half), NaN);
+        if (!dear(scene)) {
+            best = run(2 * modes, state.shape);
+            left = jvari.left_after(change(best, base), change(base, half));
+            await go_on();
+        }
+        reference = {key, runs, run: best, modes: best.dofs / 2 | 0, uncertainty: left, picture: pictured(best, scene, state.shape.length)};
+        return reference;
+    } catch (error) {
+        runs.forEach(r => r.free());
+        throw error;
+    }
+}
+
+// How wrong a run is on the tap of the headline, and for how long it agrees within 10 %.
+function judged(run, scene, state) {
+    const {nut} = headline_of(scene);
+    return {error: jvari.error(run, reference.run, nut, 0, state.window), horizon: jvari.horizon(run, reference.run, nut), uncertainty: reference.uncertainty,
+        reference: scene.reference, modes: reference.modes};
+}
+
+// ---- The chart: schemes at several rates, each with its error and the least of several times [s per second of sound].
+
+function timed(asked, keep) {
+    let best = Infinity, spent = 0, run;
+    for (let k = 0; k < 30 && (k < 2 || spent < 4e-3); ++k) {
+        run?.free();
+        run = jvari.run(asked);
+        best = Math.min(best, run.wall);
+        spent += run.wall + 1e-5;
+        if (run.wall > 0.05) break;
+    }
+    const point = keep(run);
+    run.free();
+    return {...point, cost: best / asked.duration};
+}
+
+async function chart(state, scene, post, go_on) {
+    for (const {scheme, compliance, rate} of state.chart) {
+        const options = options_of(scheme, compliance), told = {scheme, compliance: options.length ? compliance : "", rate};
+        try {
+            const asked = {scene: state.text, overrides: state.overrides, scheme, rate, options, duration: state.window};
+            post({kind: "point", point: timed(asked, run => ({...told, ...judged(run, scene, state), outcome: run.outcome, dofs: run.dofs}))});
+        } catch (error) {
+            post({kind: "point", point: {...told, refused: error.message}});
+        }
+        await go_on();
+    }
+    post({kind: "charted"});
+}
+
+// ---- One state of the page: the string, its motion, its sound, the reference, the chart.
+
+async function show(state, post, go_on) {
+    const scene = jvari.scene(state.text, state.overrides);
+    post({kind: "scene", scene});
+    const points = state.shape.length, run = jvari.run(asked_of(state, {duration: state.window, shape: state.shape, energy: true}));
+    try {
+        const picture = pictured(run, scene, points);
+        post({kind: "motion", picture});
+        await go_on();
+        const sound = jvari.run(asked_of(state, {duration: state.heard}));
+        post({kind: "sound", of: "scheme", rate: sound.rate, sound: Float32Array.from(sound.tap(headline_of(scene).nut)), outcome: sound.outcome, cost: sound.wall / state.heard});
+        sound.free();
+        await go_on();
+        if (!await reference_of(state, scene, go_on)) return post({kind: "unreferenced"});
+        post({kind: "reference", picture: reference.picture, verdict: judged(run, scene, state)});
+        await go_on();
+    } finally {
+        run.free();
+    }
+    await chart(state, scene, post, go_on);
+}
+
+// ---- Single questions, answered in their turn: of the player, the map and the tours.
+
+const questions = {
+    // One run, and with `beside` another of the same scene: how far apart, and for how long they agree.
+    pair({run: first, beside}) {
+        const a = jvari.run(first), scene = jvari.scene(first.scene, first.overrides), {nut, force} = headline_of(scene);
+        const told = r => ({outcome: r.outcome, step: r.step, rate: r.rate, rows: r.rows, dofs: r.dofs, cost: r.wall / first.duration, facts: r.facts, nut: Float64Array.from(r.tap(nut)),
+            force: force < 0 ? null : Float64Array.from(r.tap(force)), ...balance_of(r)});
+        const answer = {run: told(a)};
+        if (beside) {
+            const b = jvari.run({...first, options: [], ...beside});
+            Object.assign(answer, {beside: told(b), error: jvari.error(a, b, nut, 0, first.duration), horizon: jvari.horizon(a, b, nut)});
+            b.free();
+        }
+        a.free();
+        return answer;
+    },
+    outcomes({runs}) {  // of a column of the map
+        return runs.map(asked => {
+            try {
+                const run = jvari.run({...asked, energy: true}), {residual} = balance_of(run);
+                run.free();
+                return {outcome: run.outcome, residual};
+            } catch (error) {
+                return {outcome: "refused", why: error.message};
+            }
+        });
+    },
+    scene: ({text, overrides}) => jvari.scene(text, overrides),
+    problem: ({text, overrides, rate, modes, duration}) => jvari.problem(text, overrides, rate, modes, duration),
+    memory: () => jvari.memory()
+};
+
+onmessage = async ({data}) => {
+    if (data.wasm) {
+        jvari = jvari_core(await jvari_module({instantiateWasm: (imports, done) => { WebAssembly.instantiate(data.wasm, imports).then(i => done(i)); return {}; }}));
+        const list = jvari.list();
+        jvari.known = Object.fromEntries([...list.schemes, ...list.references].map(d => [d.name, d]));
+        started();
+        return postMessage({kind: "ready", list});
+    }
+    await ready;
+    if (data.question) {
+        try {
+            postMessage({kind: "answer", id: data.id, answer: questions[data.question](data)});
+        } catch (error) {
+            postMessage({kind: "answer", id: data.id, refused: error.message});
+        }
+        return;
+    }
+    newest = Math.max(newest, data.id);
+    const post = message => postMessage({...message, id: data.id});
+    const go_on = async () => { await turn(); if (data.id !== newest) throw new Stale(); };
+    try {
+        await go_on();
+        await show(data.state, post, go_on);
+    } catch (error) {
+        if (!(error instanceof Stale)) post({kind: "refused", why: error.message});
+    }
+};
