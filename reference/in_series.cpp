@@ -24,12 +24,6 @@ void put_spring_and_damper(InSeries& series, const SymmetricParts& C) {
 }
 }  // namespace
 
-double InSeries::yield_speed(int point, const double* z) const {
-    double sum = 0;
-    for (int j = 0; j < states; ++j) sum += A[point * states + j] * z[j];
-    return sum;
-}
-
 std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& scene, const Modes& modes, const Settings& settings) {
     if (choice_option(settings, compliance_option) != "matched") return {};
     const String& s = scene.strings.front();

@@ -27,15 +27,10 @@ struct InSeries {
     std::vector<double> energy, loss;  // S and Q [state][state]
 
     double plucked(int point) const { return C.pluck.empty() ? 0 : C.pluck[point]; }  // C_ae [m/N]
-    double stored(const double* z) const { return 0.5 * form(energy, z); }            // [J]
-    double lost(const double* speed) const { return form(loss, speed); }              // of z' [W]
-    double yield_speed(int point, const double* z) const;                             // D' without forces [m/s]
-
-private:
-    double form(const std::vector<double>& m, const double* x) const {
+    double stored(const double* z) const {                                            // [J]
         double sum = 0;
         for (int i = 0; i < states; ++i)
-            for (int j = 0; j < states; ++j) sum += x[i] * m[i * states + j] * x[j];
+            for (int j = 0; j < states; ++j) sum += 0.5 * z[i] * energy[i * states + j] * z[j];
         return sum;
     }
 };

@@ -1,7 +1,6 @@
 #include "reference/string_equations.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "reference/partial_sums.hpp"
@@ -10,8 +9,6 @@
 namespace jvari {
 
 namespace {
-constexpr int most_states = 18;  // of what is in series
-
 JVARI_CLONES
 double dot(const double* g, const double* x, int n) {
     Lanes sum = {};
@@ -44,8 +41,9 @@ void add(const double* d, double F, double* dv, int n) {
 }  // namespace
 
 StringEquations::StringEquations(const Modes& modes, const String& s, const std::optional<InSeries>& series)
-    : mass_(modes.mass), modes_(modes.count()), states_(series ? series->states : 0) {
-    padded = (modes_ + states_ + lanes - 1) / lanes * lanes;
+    : mass_(modes.mass), modes_(modes.count()) {
+    if (series) series_ = SeriesStates(*series, mass_);
+    padded = (modes_ + series_.count + lanes - 1) / lanes * lanes;
     const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
     const auto fill = [&](std::vector<double>& rows) { rows.resize((rows.size() + padded - 1) / padded * padded, 0.0); };
     for (int i = 0; i < modes.count(); ++i) {
@@ -73,7 +71,6 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
         point_.push_back({{s.thread->stiffness, 1}, 0, s.thread->damping, s.thread->height});
     }
     points = static_cast<int>(point_.size());
-    if (series) put_in_series(*series);
     if (s.pluck) {
         pluck_.push_back(*s.pluck);
         add_point(footprint_weights(modes, s.pluck->position, s.pluck->width));
@@ -86,83 +83,29 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
     motion_.resize(points);
     pull_.resize(points);
     stiffness_.assign(contacts, 0.0);
-    for (auto* v : {&acting_, &speed_, &change_}) v->assign(std::max(points, states_), 0.0);
+    for (auto* v : {&acting_, &speed_, &change_}) v->assign(std::max(points, series_.count), 0.0);
     for (int a = 0; a < contacts; ++a)
         for (int b = 0; b < contacts; ++b) couples_.push_back(std::abs(dot(row(weights_, a), row(gains_, b), padded)));
 }
 
-void StringEquations::put_in_series(const InSeries& series) {
-    const int n = states_;
-    for (int i = 0; i < n; ++i) width_.push_back(std::sqrt(series.energy[i * n + i] / mass_));
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-            drift_.push_back(width_[i] * series.A[i * n + j] / width_[j]);
-            losing_.push_back(series.loss[i * n + j] / (width_[i] * width_[j]));
-        }
-    for (int i = 0; i < n; ++i)
-        for (int a = 0; a < points; ++a) push_.push_back(width_[i] * series.B[i * points + a]);
-    reply_.assign(static_cast<std::size_t>(n + points) * n, 0.0);
-}
-void StringEquations::solve_series(double gamma) noexcept {
-    const int n = states_;
-    std::vector<double>& E = reply_;  // (I - gamma A)^-1 by elimination of a few states, column by column of I
-    for (int c = 0; c < n; ++c)
-        for (int i = 0; i < n; ++i) E[i * n + c] = i == c;
-    std::array<double, most_states * most_states> left{};
-    for (int i = 0; i < n * n; ++i) left[i] = (i % (n + 1) == 0) - gamma * drift_[i];
-    for (int c = 0; c < n; ++c)  // I - gamma A is nearly diagonal or dominated by it: A decays
-        for (int i = 0; i < n; ++i) {
-            if (i == c) continue;
-            const double factor = left[i * n + c] / left[c * n + c];
-            for (int j = 0; j < n; ++j) {
-                left[i * n + j] -= factor * left[c * n + j];
-                E[i * n + j] -= factor * E[c * n + j];
-            }
-        }
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) E[i * n + j] /= left[i * n + i];
-    for (int a = 0; a < points; ++a)
-        for (int i = 0; i < n; ++i) {
-            double sum = 0;
-            for (int j = 0; j < n; ++j) sum += E[i * n + j] * push_[j * points + a];
-            E[(n + a) * n + i] = sum;
-        }
-}
-
 void StringEquations::read_series(const double* z, double* series) const noexcept {
-    for (int j = 0; j < states_; ++j) series[j] = states(z)[j] / width_[j];
+    series_.read(states(z), series);
 }
 void StringEquations::put_series(const double* series, double* z) const noexcept {
-    for (int j = 0; j < states_; ++j) states(z)[j] = series[j] * width_[j];
-}
-double StringEquations::drift(int state, const double* z) const noexcept {
-    double sum = 0;
-    for (int j = 0; j < states_; ++j) sum += drift_[state * states_ + j] * states(z)[j];
-    return sum;
-}
-double StringEquations::series_speed(const double* z, const double* force, double* speed) const noexcept {
-    for (int j = 0; j < states_; ++j) {
-        speed[j] = drift(j, z);
-        for (int a = 0; a < points; ++a) speed[j] += push_[j * points + a] * force[a];
-    }
-    double lost = 0;
-    for (int i = 0; i < states_; ++i)
-        for (int j = 0; j < states_; ++j) lost += speed[i] * losing_[i * states_ + j] * speed[j];
-    return lost;
+    series_.put(series, states(z));
 }
 
 StringEquations::Motion StringEquations::motion(int a, const double* z) const noexcept {
-    Motion m{dot(row(reads_, a), z, padded), dot(row(weights_, a), z + padded, padded)};
-    if (states_ > 0) m = {m.y + states(z)[a] / width_[a], m.v + drift(a, z) / width_[a]};
-    return m;
+    return {dot(row(reads_, a), z, padded) + series_.yield(a, states(z)),
+            dot(row(weights_, a), z + padded, padded) + series_.yield_speed(a, states(z))};
 }
 
 StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
     const Point& q = point_[a];
     const double eta = q.height - m.y;
     const double k = q.law.k, alpha = q.law.alpha;
-    if (a >= contacts) {  // its force moves its point by at_once(a) F
-        const double own = 1 + q.r * at_once(a), F = (k * eta - q.r * m.v) / own;
+    if (a >= contacts) {  // its force moves its point by at_once F
+        const double own = 1 + q.r * series_.at_once(a), F = (k * eta - q.r * m.v) / own;
         return {F, k / own, q.r / own, q.r, 0};
     }
     const double slope = alpha == 1 ? k : k * std::pow(std::abs(eta), alpha - 1), f = slope * eta, give = 1 - q.beta * m.v;
@@ -174,7 +117,7 @@ double StringEquations::penetration(int a, const double* z) const noexcept {
 }
 double StringEquations::penetration_speed(int a, const double* z) const noexcept {
     const Motion m = motion(a, z);
-    return -m.v - (acts(a) && states_ > 0 ? at_once(a) * pull(a, m).F : 0);
+    return -m.v - (acts(a) ? series_.at_once(a) * pull(a, m).F : 0);
 }
 double StringEquations::contact_force(int a, const double* z) const noexcept {
     return pull(a, motion(a, z)).F;
@@ -192,12 +135,13 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
         const Motion m = motion(a, z);
         const Pull f = pull(a, m);
         acting_[a] = f.F;
-        const double v = m.v + (a >= contacts ? at_once(a) * f.F : 0);
+        const double v = m.v + (a >= contacts ? series_.at_once(a) * f.F : 0);
         add(row(gains_, a), f.F, dv, padded);
         sum[a < contacts ? bridge_impulse : thread_impulse] += f.F;
         sum[dissipated] += f.drag * v * v;
     }
-    if (states_ > 0) sum[dissipated] += series_speed(z, acting_.data(), states(dz));
+    series_.speed(states(z), acting_.data(), states(dz));
+    sum[dissipated] += series_.lost(states(dz), states(dz));
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
         add(row(gains_, points), F, dv, padded);
@@ -231,7 +175,7 @@ double StringEquations::pace(const double* z, bool decays) const noexcept {
         const double k = q.law.k, alpha = q.law.alpha;
         const double depth = std::max(penetration(a, z), std::pow(v * v * (alpha + 1) / (2 * k * give), 1 / (alpha + 1)));
         stiffness_[a] = k * std::pow(depth, alpha - 1);
-        if (decays && states_ > 0) decay = std::max(decay, at_once(a) * q.law.slope(depth));  // of a point that has no mass
+        if (decays) decay = std::max(decay, series_.at_once(a) * q.law.slope(depth));  // of a point that has no mass
     }
     double fastest = 0;
     for (int a = 0; a < contacts; ++a) {
@@ -256,7 +200,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
                 for (int i = 0; i < padded; ++i) sum += row(weights_, a)[i] * row(gains_, c)[i] * inverse_[i];
                 compliance_[a * points + c] = sum;
             }
-        solve_series(gamma);
+        series_.factor(gamma);
     }
     const double *bp = b, *bv = b + padded;
     double *xp = x, *xv = x + padded;
@@ -265,10 +209,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         xp[i] = ((1 + gamma * damping_[i]) * p + w * v) * inverse_[i];
         xv[i] = (v - w * p) * inverse_[i];
     }
-    for (int i = 0; i < states_; ++i) {
-        states(x)[i] = 0;
-        for (int j = 0; j < states_; ++j) states(x)[i] += reply_[i * states_ + j] * states(b)[j];
-    }
+    series_.solve(states(b), states(x));
     // dF_a = -K_a dy_a - R_a dv_a,   dy_a = (block solution) + gamma^2 S_ab dF_b,   dv_a = (block solution) + gamma S_ab dF_b
     const int wide = points + 1;
     for (int a = 0; a < points; ++a) {
@@ -281,13 +222,8 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         const Motion d = motion(a, x);
         for (int c = 0; c < points; ++c)
             if (acts(c)) equation[c] += (gamma * f.K + f.R) * gamma * compliance_[a * points + c];
-        for (int c = 0; states_ > 0 && c < points; ++c) {
-            if (!acts(c)) continue;
-            const double* answer = reply_.data() + (states_ + c) * states_;
-            double speed = 0;
-            for (int j = 0; j < states_; ++j) speed += drift_[a * states_ + j] * answer[j];
-            equation[c] += gamma * (f.K * answer[a] + f.R * speed) / width_[a];
-        }
+        for (int c = 0; series_.count > 0 && c < points; ++c)
+            if (acts(c)) equation[c] += gamma * (f.K * series_.answer(a, c) * series_.share(a, a) + f.R * series_.answer_speed(a, c));
         equation[points] = -f.K * d.y - f.R * d.v;
     }
     for (int c = 0; c < points; ++c) {  // elimination; the matrix is I + (positive diagonal) x (Gram matrix): pivots on the diagonal hold
@@ -314,7 +250,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
             xv[i] += v;
             xp[i] += gamma * omega_[i] * v;
         }
-        for (int j = 0; j < states_; ++j) states(x)[j] += F * reply_[(states_ + a) * states_ + j];
+        for (int j = 0; j < series_.count; ++j) states(x)[j] += F * series_.answer(j, a);
     }
     // the sums' rows
     double* sum = x + 2 * padded;
@@ -326,17 +262,16 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         if (!acts(a)) continue;
         const Motion d = motion(a, x);
         sum[a < contacts ? bridge_impulse : thread_impulse] += gamma * force_[a];
-        const double at_once_F = a >= contacts ? at_once(a) : 0, v = motion_[a].v + at_once_F * pull_[a].F;
+        const double at_once_F = a >= contacts ? series_.at_once(a) : 0, v = motion_[a].v + at_once_F * pull_[a].F;
         lost += 2 * pull_[a].drag * v * (d.v + at_once_F * force_[a]) - pull_[a].drag_slope * v * v * d.y;
     }
     for (int a = 0; a < points; ++a) {
         acting_[a] = acts(a) ? pull_[a].F : 0;
         if (!acts(a)) force_[a] = 0;
     }
-    series_speed(z, acting_.data(), speed_.data());
-    series_speed(x, force_.data(), change_.data());
-    for (int i = 0; i < states_; ++i)
-        for (int j = 0; j < states_; ++j) lost += 2 * speed_[i] * losing_[i * states_ + j] * change_[j];
+    series_.speed(states(z), acting_.data(), speed_.data());
+    series_.speed(states(x), force_.data(), change_.data());
+    lost += 2 * series_.lost(speed_.data(), change_.data());
     sum[dissipated] += gamma * lost;
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
@@ -355,21 +290,21 @@ void StringEquations::jacobian(double t, const double* z, double* J) const noexc
         at(padded + i, padded + i) = -damping_[i];
         at(2 * padded + dissipated, padded + i) = 2 * loss_[i] * v[i];
     }
-    const int states = padded + modes_, lost = 2 * padded + dissipated;  // of what is in series
+    const int first = padded + modes_, count = series_.count, lost = 2 * padded + dissipated;  // first: of what is in series
     std::fill(acting_.begin(), acting_.end(), 0.0);
-    for (int i = 0; i < states_; ++i)
-        for (int j = 0; j < states_; ++j) at(states + i, states + j) += drift_[i * states_ + j];
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) at(first + i, first + j) += series_.drift(i, j);
     for (int a = 0; a < points; ++a) {
         if (!acts(a)) continue;
         const Motion m = motion(a, z);
         const Pull f = pull(a, m);
         acting_[a] = f.F;
         const double *y = row(reads_, a), *g = row(weights_, a), *d = row(gains_, a);
-        const double by_force = a >= contacts ? at_once(a) : 0, v_a = m.v + by_force * f.F;
+        const double by_force = a >= contacts ? series_.at_once(a) : 0, v_a = m.v + by_force * f.F;
         const auto add_column = [&](int j, double reads, double moves) {  // of what reads the point and its velocity so
             const double F = -f.K * reads - f.R * moves;
             for (int i = 0; i < modes_; ++i) at(padded + i, j) += d[i] * F;
-            for (int i = 0; i < states_; ++i) at(states + i, j) += push_[i * points + a] * F;
+            for (int i = 0; i < count; ++i) at(first + i, j) += series_.push(i, a) * F;
             at(2 * padded + (a < contacts ? bridge_impulse : thread_impulse), j) += F;
             at(lost, j) += 2 * f.drag * v_a * (moves + by_force * F) - f.drag_slope * v_a * v_a * reads;
         };
@@ -377,12 +312,13 @@ void StringEquations::jacobian(double t, const double* z, double* J) const noexc
             add_column(j, y[j], 0);
             add_column(padded + j, 0, g[j]);
         }
-        for (int j = 0; j < states_; ++j) add_column(states + j, (j == a) / width_[a], drift_[a * states_ + j] / width_[a]);
+        for (int j = 0; j < count; ++j) add_column(first + j, series_.share(j, a), series_.drift(a, j) * series_.share(a, a));
     }
-    series_speed(z, acting_.data(), speed_.data());
-    for (int i = 0; i < states_; ++i)
-        for (int j = 0; j < states_; ++j)
-            for (int k = 0; k < 2 * padded; ++k) at(lost, k) += 2 * speed_[i] * losing_[i * states_ + j] * at(states + j, k);
+    series_.speed(states(z), acting_.data(), speed_.data());
+    for (int k = 0; k < 2 * padded; ++k) {
+        for (int j = 0; j < count; ++j) change_[j] = at(first + j, k);
+        at(lost, k) += 2 * series_.lost(speed_.data(), change_.data());
+    }
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
         for (int j = 0; j < padded; ++j) at(2 * padded + supplied, padded + j) += F * row(weights_, points)[j];

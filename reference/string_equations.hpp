@@ -8,14 +8,13 @@
 // so that a trial step may overshoot. Four sums ride along: impulses of barriers and thread, energy supplied and dissipated. The Jacobian
 // is 2x2 blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's formula.
 //
-// What is in series with the points (in_series.hpp) has states of its own, scaled to velocities, v = w z with w^2 = S_jj/m, behind the
-// modes' v. A point's displacement then is that of the modes and one of them, whose velocity its own force moves at once, by B_aa F_a.
+// What is in series with the points has its states behind the modes' v (series_states.hpp).
 #pragma once
 
 #include <vector>
 
 #include "reference/equations.hpp"
-#include "reference/in_series.hpp"
+#include "reference/series_states.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/contact/contact.hpp"
 
@@ -64,17 +63,10 @@ private:
 
     const double* states(const double* z) const noexcept { return z + padded + modes_; }  // w z, in series
     double* states(double* z) const noexcept { return z + padded + modes_; }
-    double drift(int state, const double* z) const noexcept;                                              // A w z
-    double at_once(int a) const noexcept { return states_ > 0 ? push_[a * points + a] / width_[a] : 0; }  // D_a' by F_a [m/(N s)]
-    // What is in series under the forces: its states' speed, put into `speed`, and what it loses with the thread [W].
-    double series_speed(const double* z, const double* force, double* speed) const noexcept;
-    void solve_series(double gamma) noexcept;
-    void put_in_series(const InSeries&);
 
     double mass_;
-    int modes_, states_ = 0;                     // of what is in series
-    std::vector<double> width_;                  // w [state]
-    std::vector<double> drift_, push_, losing_;  // A [state][state], B [state][point] and Q [state][state], of w z
+    int modes_;
+    SeriesStates series_;
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                     // none or one
     std::vector<double> omega_, damping_, loss_;   // omega0, 2 sigma, 2 m sigma
@@ -87,7 +79,6 @@ private:
     mutable std::vector<Motion> motion_;
     mutable std::vector<Pull> pull_;
     mutable std::vector<double> stiffness_;                // [contact]
-    std::vector<double> reply_;                            // (I - gamma A)^-1 [state][state], and times B behind it [point][state]
     mutable std::vector<double> acting_, speed_, change_;  // forces; speeds of what is in series
 };
 
