@@ -7,6 +7,7 @@
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 #include "schemes/scheme.hpp"
 
 namespace {

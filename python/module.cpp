@@ -6,6 +6,7 @@
 
 #include "bench/store/machine.hpp"
 #include "python/calls.hpp"
+#include "schemes/making.hpp"
 
 namespace py = pybind11;
 using namespace jvari;

@@ -1,5 +1,6 @@
 #include "reference/in_series.hpp"
 
+#include "schemes/making.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/symmetric.hpp"
 

@@ -8,6 +8,7 @@
 #include "reference/readout.hpp"
 #include "schemes/body/instrument.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

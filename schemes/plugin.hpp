@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 
+#include "schemes/making.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -39,7 +40,7 @@ constexpr std::uint32_t layout_hash(std::initializer_list<std::size_t> numbers, 
 // NOLINTEND
 
 // Raised by hand where the meaning of a field changes, and no layout.
-constexpr std::size_t interface_version = 4;
+constexpr std::size_t interface_version = 5;
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
@@ -72,7 +73,7 @@ constexpr std::uint32_t plugin_layout = layout_hash({
         JVARI_LAYOUT(Block, JVARI_AT(rows), JVARI_AT(taps), JVARI_AT(stride), JVARI_AT(tap), JVARI_AT(energy), JVARI_AT(stop),
                      JVARI_AT(caller)),
         JVARI_LAYOUT(Status, JVARI_AT(outcome), JVARI_AT(step)), JVARI_LAYOUT(Fact, JVARI_AT(name), JVARI_AT(value), JVARI_AT(unit)),
-        JVARI_LAYOUT(FreeMode, JVARI_AT(omega), JVARI_AT(sigma)), JVARI_LAYOUT(Lane, JVARI_AT(scheme), JVARI_AT(out), JVARI_AT(status)),
+        JVARI_LAYOUT(FreeMode, JVARI_AT(omega), JVARI_AT(sigma)),
         JVARI_LAYOUT(Settings, JVARI_AT(sample_rate), JVARI_AT(tap_rate), JVARI_AT(modes), JVARI_AT(options)),
         JVARI_LAYOUT(FactName, JVARI_AT(name), JVARI_AT(unit), JVARI_AT(meaning)),
         JVARI_LAYOUT(Option, JVARI_AT(name), JVARI_AT(fallback), JVARI_AT(meaning), JVARI_AT(choices)),
@@ -117,8 +118,7 @@ struct PastTheTable : Scheme {
 
 inline std::uint32_t plugin_abi() {
     return layout_hash({plugin_layout, place_of(&Scheme::reset), place_of(&Scheme::advance), place_of(&Scheme::dofs),
-                        place_of(&Scheme::facts), place_of(&Scheme::free_modes), place_of(&Scheme::meet), place_of(&Scheme::advance_all),
-                        place_of(&PastTheTable::place)});
+                        place_of(&Scheme::facts), place_of(&Scheme::free_modes), place_of(&PastTheTable::place)});
 }
 
 // ---- What a plugin exports.

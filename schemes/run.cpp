@@ -9,6 +9,7 @@
 
 #include "scenes/wording.hpp"
 #include "schemes/looks.hpp"
+#include "schemes/making.hpp"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -262,12 +263,12 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
         teller.block_done();
         if (options.slow && !told && stepping > std::chrono::duration<double>(long_run) && trace.rows < trace.stride) {
             told = true;
-            options.slow(trace.rows, trace.stride, heard("tells its facts", [&] { return scheme.facts(); }));
+            options.slow(trace.rows, trace.stride, with_context("tells its facts", [&] { return scheme.facts(); }));
         }
     }
     if (!continuous) result.steps = std::lround(steps_per_row * static_cast<double>(trace.rows));
     result.wall_seconds = std::chrono::duration<double>(stepping).count();
-    result.facts = heard("tells its facts", [&] { return scheme.facts(); });
+    result.facts = with_context("tells its facts", [&] { return scheme.facts(); });
     return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "scenes/modes.hpp"
 #include "scenes/wording.hpp"
+#include "schemes/making.hpp"
 #include "schemes/several_strings.hpp"
 
 namespace jvari {
@@ -69,7 +70,7 @@ std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& s
     refuse_missing(descriptor, scene);
     refuse_bad_options(descriptor, settings);
     if (scene.strings.size() > 1 && !needed_by(scene).has(Feature::moving_body)) return several_strings(descriptor, scene, settings);
-    auto scheme = heard("is made", [&] { return descriptor.make(descriptor, scene, settings); });
+    auto scheme = with_context("is made", [&] { return descriptor.make(descriptor, scene, settings); });
     if (!scheme)
         throw BadScheme(std::string(descriptor.name) + " makes no scheme of scene " + scene.name + ", and does not refuse it either");
     return scheme;

@@ -1,7 +1,7 @@
 // The seam: everything a scheme has to offer, and all that the rest of the program knows of one.
 //
 // A scheme is made once for a scene and a setting (the only place that allocates or throws), then steps block by block into a
-// window of the caller's trace. Out-of-tree schemes come as shared objects: plugin.hpp.
+// window of the caller's trace. Checks and values for `make`: making.hpp. Out-of-tree schemes come as shared objects: plugin.hpp.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,6 @@
 #include "schemes/facts.hpp"
 
 namespace jvari {
-
-struct Modes;
 
 // A window of the caller's trace: column-major, one row per tap interval.
 struct Block {
@@ -36,12 +34,6 @@ inline void write_energy(const Block& out, int row, double stored, double suppli
     out.energy[row] = stored;
     out.energy[out.stride + row] = supplied;
     out.energy[2 * out.stride + row] = dissipated;
-}
-inline Block from_row(Block out, int row) noexcept {  // what is left of it
-    out.rows -= row;
-    out.tap += row;
-    if (out.energy) out.energy += row;
-    return out;
 }
 constexpr long steps_between_questions = 1024;  // of a step that takes microseconds at most
 
@@ -68,13 +60,6 @@ struct FreeMode {
     double sigma = 0;  // decay rate [1/s]
 };
 
-class Scheme;
-struct Lane {  // of several schemes that are advanced together
-    Scheme* scheme;
-    Block out;
-    Status status;
-};
-
 class Scheme {
 public:
     virtual ~Scheme() = default;
@@ -92,16 +77,6 @@ public:
     // closed form.
     virtual std::vector<FreeMode> free_modes() const { return {}; }
 
-    // Told once, before the first step, of those that it is stepped with from now on: all are reset together, and advanced by advance_all
-    // of this one alone. What that needs is allocated here.
-    virtual void meet(std::span<Scheme* const>) {}
-
-    // Advances those met, in that order, this among them, each by as many rows. But for rounding they move as by advance(), whatever the
-    // block. A scheme that has several strings under way at once where that is faster says so here.
-    virtual void advance_all(std::span<Lane> all) noexcept {
-        for (Lane& lane : all) lane.status = lane.scheme->advance(lane.out);
-    }
-
     // New virtual functions come here, and their names into plugin_abi() of plugin.hpp.
 };
 
@@ -115,11 +90,6 @@ struct Settings {
 // The scheme cannot represent this scene, or not with these settings; the text names what is missing.
 struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
-};
-
-// An option that the scheme does not declare, or that is given more than once.
-struct BadOption : Refusal {
-    using Refusal::Refusal;
 };
 
 // What a scheme can be told beside its settings. Its value is a word where there are choices, else what the meaning says.
@@ -151,23 +121,6 @@ struct Confirmation {
     std::vector<OptionValues> other_methods = {};  // another method, for a scene that no other reference represents
 };
 
-// A scheme that breaks this contract: makes nothing, throws what says nothing, reports what cannot be.
-struct BadScheme : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-// What a scheme does outside its noexcept part: what it throws has a sentence to it.
-template <class Do>
-auto heard(const char* doing, Do act) {
-    try {
-        return act();
-    } catch (const std::exception&) {
-        throw;
-    } catch (...) {
-        throw BadScheme(std::string("the scheme throws something that is no std::exception while it ") + doing);
-    }
-}
-
 enum class Balance { exact, to_tolerance, none };  // what the energy columns promise
 enum class Clock { stepped, continuous };          // continuous: a reference that has no sample rate
 
@@ -177,9 +130,8 @@ struct Descriptor {
     Features represents;  // what it takes, those that it approximates among them
     Balance balance;
     Clock clock;
-    std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&,
-                                    const Settings&);  // by make_scheme alone, of one string, or of all on a moving body; throws Refusal
-                                                       // or BadScene
+    // Called by make_scheme alone, for one string or for all on a moving body; throws Refusal or BadScene.
+    std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&, const Settings&);
     std::span<const Option> options = {};
     std::span<const Approximation> approximates = {};
     const char* note = "";  // what the features cannot express, one sentence for the capability table
@@ -188,29 +140,9 @@ struct Descriptor {
     Confirmation (*confirmation)(const Scene&) = nullptr;  // of a reference
 };
 
-Features approximated(const Descriptor&);
-
 // The only way to make a scheme: refuses features that the scheme does not represent, options that it does not
 // declare or finds twice and words that an option does not take, then calls `make`, once for each string of the scene, or for all on a
 // moving body. Throws Refusal, BadScene, or BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
-
-// The least margin that the scheme's limit leaves on a string of the scene; NaN where it has nothing to say.
-double margin_of(const Descriptor&, const Scene&, const Settings&);
-
-// ---- Checks and values for `make`.
-
-int steps_per_row(const Settings&);              // sample_rate/tap_rate; Refusal unless a whole number from 1 to 2^31 - 1
-int modes_for(const String&, const Settings&);   // settings.modes, or every mode below min(20 kHz, sample_rate/2)
-int modes_for(const Scene&, const Settings&);    // the most that one of its strings has, unasked no more than each table of measured modes
-Modes modes_of(const String&, const Settings&);  // those; Refusal where there is none, or more than most_modes
-
-bool declares(const Descriptor&, const std::string& option_name);
-
-// The value of a declared option, or its fallback. A choice is one of its words: choice_option(settings, levels) == "3".
-std::string option(const Settings&, const Option&);
-std::string choice_option(const Settings&, const Option&);
-double number_option(const Settings&, const Option&);
-double number_option(const Settings&, const Option&, double fallback);  // where it depends on scene and settings
 
 }  // namespace jvari

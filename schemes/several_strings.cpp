@@ -25,10 +25,7 @@ public:
         for (const OneOfSeveral& s : strings_) taps += s.taps.size();
         tap_.resize(rows_at_a_time * taps);
         energy_.resize(3 * rows_at_a_time * strings_.size());
-        lanes_.resize(strings_.size());
-        std::vector<Scheme*> all;
-        for (const OneOfSeveral& s : strings_) all.push_back(s.scheme.get());
-        all.front()->meet(all);
+        of_each_.resize(strings_.size());
     }
 
     void reset() noexcept override {
@@ -60,34 +57,34 @@ public:
     std::vector<FreeMode> free_modes() const override { return strings_.front().scheme->free_modes(); }
 
 private:
-    void ask(const Block& out, int rows) noexcept {  // each string for as many
+    void advance_each(const Block& out, int rows) noexcept {
         double *tap = tap_.data(), *energy = energy_.data();
         for (std::size_t k = 0; k < strings_.size(); ++k) {
-            Block own = out;
+            auto& [own, status] = of_each_[k];
+            own = out;
             own.rows = rows;
             own.taps = static_cast<int>(strings_[k].taps.size());
             own.stride = rows_at_a_time;
             own.tap = tap;
             own.energy = out.energy ? energy : nullptr;
-            lanes_[k] = {strings_[k].scheme.get(), own, {}};
+            status = strings_[k].scheme->advance(own);
             tap += own.taps * own.stride;
             energy += 3 * own.stride;
         }
     }
 
     Status advance_part(const Block& out) noexcept {  // of no more than rows_at_a_time
-        ask(out, out.rows);
-        lanes_.front().scheme->advance_all(lanes_);
+        advance_each(out, out.rows);
         if (out.stopped()) return {};
         Status failed;
         int rows = out.rows;  // to the row of the first failure
-        for (const Lane& lane : lanes_) {
-            if (lane.status.outcome == Outcome::ok || (failed.outcome != Outcome::ok && lane.status.step >= failed.step)) continue;
-            failed = lane.status;
+        for (const auto& [own, status] : of_each_) {
+            if (status.outcome == Outcome::ok || (failed.outcome != Outcome::ok && status.step >= failed.step)) continue;
+            failed = status;
             rows = std::clamp(static_cast<int>(static_cast<long>(failed.step / steps_per_row_) + 1 - done_), 0, rows);
         }
         for (std::size_t k = 0; k < strings_.size(); ++k) {
-            const Block& own = lanes_[k].out;
+            const Block& own = of_each_[k].first;
             for (std::size_t t = 0; t < strings_[k].taps.size(); ++t)
                 put(out.tap + strings_[k].taps[t].column * out.stride, own.tap + t * own.stride, rows, strings_[k].taps[t].first);
             for (int c = 0; own.energy && c < 3; ++c) put(out.energy + c * out.stride, own.energy + c * own.stride, rows, k == 0);
@@ -101,8 +98,7 @@ private:
     void step_anew(const Block& out) noexcept {
         for (auto& s : strings_) s.scheme->reset();
         for (long row = 0; row < done_; row += rows_at_a_time) {
-            ask(out, static_cast<int>(std::min<long>(rows_at_a_time, done_ - row)));
-            lanes_.front().scheme->advance_all(lanes_);
+            advance_each(out, static_cast<int>(std::min<long>(rows_at_a_time, done_ - row)));
             if (out.stopped()) return;
         }
     }
@@ -111,7 +107,7 @@ private:
     double steps_per_row_;
     long done_ = 0;  // rows since the start
     std::vector<double> tap_, energy_;
-    std::vector<Lane> lanes_;
+    std::vector<std::pair<Block, Status>> of_each_;  // what each wrote last, and how it ended
 };
 
 std::string of_string(int k) {

@@ -10,9 +10,8 @@
 
 namespace jvari {
 
-// One scheme per string of the scene, advanced together where their scheme knows how (Scheme::meet, advance_all): taps of one string are
-// that string's, forces of all strings and the energy columns are sums in the order of the strings. The outcome is that of the string that
-// fails first; what fails names its string.
+// One scheme per string of the scene, advanced one after the other: taps of one string are that string's, forces of all strings and the
+// energy columns are sums in the order of the strings. The outcome is that of the string that fails first; what fails names its string.
 std::unique_ptr<Scheme> several_strings(const Descriptor&, const Scene&, const Settings&);
 
 // ---- One string of several, for whatever steps them together.

@@ -27,6 +27,6 @@ expect loaded "the same headers" ''
 expect refused "a virtual function less" '/virtual std::vector<FreeMode> free_modes/d;s/place_of(&Scheme::free_modes), //'
 expect refused "two virtual functions exchanged" '/virtual int dofs/{h;d};/virtual std::vector<Fact> facts/{G}'
 expect refused "a virtual function more, at the end" 's|// New virtual functions come here.*|virtual void more() {}|'
-expect refused "another type of a virtual function" 's/virtual void meet(std::span<Scheme\* const>)/virtual void meet(std::span<Scheme* const>, int = 0)/'
+expect refused "another type of a virtual function" 's/virtual std::vector<FreeMode> free_modes() const/virtual std::vector<FreeMode> free_modes(int = 0) const/'
 expect refused "a field less" '/double skew = 0;/d;s/JVARI_AT(skew), //'
 exit $status

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "schemes/making.hpp"
 #include "schemes/plugin.hpp"
 
 namespace {

@@ -27,6 +27,7 @@
 #include "bench/check/scenes.hpp"
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::check {
 

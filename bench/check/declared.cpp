@@ -6,6 +6,7 @@
 
 #include "bench/check/judges.hpp"
 #include "bench/check/scenes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::check {
 

@@ -4,6 +4,7 @@
 
 #include "bench/check/judges.hpp"
 #include "bench/check/scenes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::check {
 

@@ -8,6 +8,7 @@
 #include "bench/check/judges.hpp"
 #include "bench/check/scenes.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::check {
 

@@ -1,6 +1,7 @@
 #include "bench/command/list_seam.hpp"
 
 #include "bench/study/columns.hpp"
+#include "schemes/making.hpp"
 
 #include <fmt/format.h>
 

@@ -14,6 +14,7 @@
 #include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/controls.hpp"
+#include "schemes/making.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::compare {

@@ -9,6 +9,7 @@
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {

@@ -10,6 +10,7 @@
 #include "bench/store/usage.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::compare {
 

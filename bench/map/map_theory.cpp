@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::map {

@@ -9,6 +9,7 @@
 
 #include "scenes/reduction.hpp"
 #include "schemes/grid/finite_difference.hpp"
+#include "schemes/making.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::map {

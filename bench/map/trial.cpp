@@ -10,6 +10,7 @@
 #include "reference/certificate.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::map {
 

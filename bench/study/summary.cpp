@@ -8,6 +8,7 @@
 #include "analysis/energy.hpp"
 #include "bench/store/records.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::study {
 

@@ -14,6 +14,7 @@
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::study {
 

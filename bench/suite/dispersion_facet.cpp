@@ -9,6 +9,7 @@
 
 #include "analysis/dispersion.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::suite {

@@ -14,6 +14,7 @@
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::suite {

@@ -9,6 +9,7 @@
 #include "bench/store/records.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::trim {
 

@@ -10,6 +10,7 @@
 
 #include "bench/store/records.hpp"
 #include "scenes/installed.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::trust {
 

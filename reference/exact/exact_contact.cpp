@@ -23,6 +23,7 @@
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

@@ -16,6 +16,7 @@
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "reference/string_equations.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

@@ -10,6 +10,7 @@
 
 #include "scenes/barrier.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 #include "schemes/scheme.hpp"
 #include "schemes/symmetric.hpp"
 

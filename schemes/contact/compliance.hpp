@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "schemes/making.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {

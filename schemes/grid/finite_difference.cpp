@@ -11,6 +11,7 @@
 #include "scenes/barrier.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

@@ -9,6 +9,7 @@
 // Options: `grid` (intervals), `over_limit`.
 // What it approximates and leaves out: finite_difference.hpp. Rows, energy and start: three_point_string.hpp.
 #include "schemes/grid/three_point_string.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

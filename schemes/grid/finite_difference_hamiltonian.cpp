@@ -11,6 +11,7 @@
 // dx)^2/24 is then at least half the warp's (c beta dt)^2/12. Option `grid` takes any number of intervals. Energy is that of the instant of
 // the row: mass/2 (|v|^2 + <y, K y>) + P(y). The pluck acts with its force at the middle of the step.
 #include "schemes/grid/midpoint_string.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

@@ -12,6 +12,7 @@
 // Losses are centred, and do not enter the limit. Options: `grid` (intervals), `over_limit`, `theta`.
 #include "schemes/grid/grid_solve.hpp"
 #include "schemes/grid/three_point_string.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

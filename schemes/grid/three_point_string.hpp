@@ -27,6 +27,7 @@
 #include "schemes/body/instrument.hpp"
 #include "schemes/grid/five_point_pass.hpp"
 #include "schemes/grid/grid_scheme.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

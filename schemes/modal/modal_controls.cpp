@@ -29,6 +29,7 @@
 #include "schemes/contact/compliance.hpp"
 #include "schemes/contact/explicit_points.hpp"
 #include "schemes/contact/obstacle_step.hpp"
+#include "schemes/making.hpp"
 #include "schemes/modal/modal_three_point.hpp"
 #include "schemes/modal/modal_three_point_points.hpp"
 #include "schemes/modal/modal_two_point_points.hpp"

@@ -11,6 +11,7 @@
 #include "schemes/contact/quadratised_contact.hpp"
 #include "schemes/contact/quadratised_points.hpp"
 #include "schemes/contact/residual.hpp"
+#include "schemes/making.hpp"
 #include "schemes/modal/kernels/modal_energies.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_three_point.hpp"

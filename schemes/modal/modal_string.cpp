@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scenes/excitation.hpp"
+#include "schemes/making.hpp"
 #include "schemes/modal_coefficients.hpp"
 
 namespace jvari {

@@ -16,11 +16,11 @@
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
+#include "schemes/making.hpp"
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal/modal_two_point_points.hpp"
-#include "schemes/modal/two_point_company.hpp"
 #include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
@@ -145,7 +145,6 @@ public:
             m_.theta = thread.theta;
         }
         const ContactKind kind = !g_b_ ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
-        sociable_ = kind == ContactKind::linear && !matched;
         advance_ = two_point_kernel(kind, g_c_ != nullptr, matched ? Compliance::matched : Compliance::own);
         ModalTwoPoint::reset();
     }
@@ -164,25 +163,6 @@ public:
         m_.status = {};
     }
     Status advance(const Block& out) noexcept override { return advance_(m_, out); }
-    void meet(std::span<Scheme* const> all) override {
-        std::vector<TwoPoint*> strings;
-        for (Scheme* s : all) {
-            auto* one = dynamic_cast<ModalTwoPoint*>(s);
-            strings.push_back(one && one->sociable_ ? &one->m_ : nullptr);
-        }
-        companies_ = companies_of(strings);
-        std::vector<bool> accompanied(all.size(), false);
-        for (const auto& company : companies_)
-            for (const auto& member : company->members()) accompanied[member.place] = true;
-        alone_.clear();
-        for (std::size_t k = 0; k < all.size(); ++k)
-            if (!accompanied[k]) alone_.push_back(k);
-    }
-    void advance_all(std::span<Lane> all) noexcept override {
-        if (companies_.empty()) return Scheme::advance_all(all);
-        for (const std::size_t k : alone_) all[k].status = all[k].scheme->advance(all[k].out);
-        for (const auto& company : companies_) company->advance(all);
-    }
     int dofs() const override { return 2 * m_.modes; }
     std::vector<FreeMode> free_modes() const override { return free_; }
     std::vector<Fact> facts() const override {
@@ -244,9 +224,6 @@ private:
     bool matched_ = false;
     std::vector<double> pluck_now_;
     TwoPointAdvance advance_ = nullptr;
-    bool sociable_ = false;                                    // may go in company
-    std::vector<std::unique_ptr<TwoPointCompany>> companies_;  // of those that this one met
-    std::vector<std::size_t> alone_;                           // among them
     double offset_ = 0;
     double compliance_ = 0;  // under a steady force at the bridge, relative to the true one of the same modes
     std::vector<FreeMode> free_;

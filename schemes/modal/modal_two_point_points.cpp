@@ -2,6 +2,7 @@
 #include "schemes/modal/modal_two_point_points.hpp"
 
 #include "schemes/body/body_modes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

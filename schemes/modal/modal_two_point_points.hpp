@@ -19,6 +19,7 @@
 #include "schemes/body/instrument.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/contact/obstacle_step.hpp"
+#include "schemes/making.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal_coefficients.hpp"
 #include "schemes/scheme.hpp"

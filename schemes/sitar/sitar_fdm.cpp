@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "schemes/making.hpp"
 #include "schemes/sitar/sitar.hpp"
 
 namespace jvari {

@@ -16,6 +16,7 @@
 #include <numbers>
 
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 #include "schemes/sitar/sitar.hpp"
 #include "schemes/sitar/sitar_peg.hpp"
 

@@ -27,6 +27,7 @@
 #include "schemes/body/body_modes.hpp"
 #include "schemes/body/instrument.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
 #include "schemes/modal/three_point.hpp"
 #include "schemes/modal_coefficients.hpp"
 #include "schemes/spatial/spatial_forces.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenes/barrier.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 

@@ -11,6 +11,7 @@
 #include "reference/oversampled.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {

@@ -16,6 +16,7 @@
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari {

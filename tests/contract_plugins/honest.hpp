@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 #include "schemes/plugin.hpp"
 
 namespace jvari {

@@ -13,6 +13,7 @@
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
 #include "schemes/contact/matching_facts.hpp"
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 #include "schemes/modal_coefficients.hpp"
 #include "schemes/scheme.hpp"
 

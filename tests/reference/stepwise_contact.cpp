@@ -20,6 +20,7 @@
 #include "reference/exact/springs.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
+#include "schemes/making.hpp"
 #include "tests/reference/bernstein.hpp"
 #include "tests/reference/stepwise_contact.hpp"
 

@@ -13,6 +13,7 @@
 #include "schemes/contact/compliance.hpp"
 #include "schemes/contact/matching_facts.hpp"
 #include "schemes/contact/series_contact.hpp"
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 #include "tests/c3.hpp"

@@ -1,5 +1,6 @@
 // The stepping loop: rows, blocks, divergence, denormals.
 #include "schemes/run.hpp"
+#include "schemes/making.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,7 @@
 
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 

@@ -1,5 +1,4 @@
-// Several strings as one scheme: whatever the scheme, what is heard of four strings is the sum of four runs of one, to the last bit, or to
-// rounding where they go in lanes.
+// Several strings as one scheme: whatever the scheme, what is heard of four strings is the sum of four runs of one, to the last bit.
 #include "schemes/several_strings.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,7 @@
 #include "bench/check/allocations.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
-#include "schemes/modal/kernels/company_kernel.hpp"
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 #include "schemes/vector_instructions.hpp"
@@ -94,26 +93,10 @@ bool same(std::span<const double> a, std::span<const double> b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
 }
 
-constexpr double rounding = 1e-11;  // of the largest: as far as lanes may be from one string alone
-double largest_of(std::span<const double> a) {
-    double largest = 0;
-    for (const double x : a) largest = std::max(largest, std::abs(x));
-    return largest;
-}
-double farthest(std::span<const double> a, std::span<const double> b) {  // relative to the largest of b
-    double difference = a.size() == b.size() ? 0 : HUGE_VAL;
-    for (std::size_t n = 0; n < b.size() && n < a.size(); ++n) difference = std::max(difference, std::abs(a[n] - b[n]));
-    return difference > 0 ? difference / largest_of(b) : 0;
-}
-bool in_lanes(const Descriptor& d) {  // steps strings of linear contact together
-    return d.make == schemes()[0].make || std::string(d.name) == "modal_two_point_trapezoidal";
-}
-
-TEST(SeveralStrings, AreTheSumOfRunsOfOneInEverySchemeToTheLastBitOrInLanesToRounding) {
+TEST(SeveralStrings, AreTheSumOfRunsOfOneInEverySchemeToTheLastBit) {
     for (const Descriptor* d : all_descriptors()) {
         const auto expect = [d](std::span<const double> a, std::span<const double> b, const std::string& of) {
-            if (in_lanes(*d)) EXPECT_LE(farthest(a, b), rounding) << d->name << " " << of;
-            else EXPECT_TRUE(same(a, b)) << d->name << " " << of;
+            EXPECT_TRUE(same(a, b)) << d->name << " " << of;
         };
         const Instrument i = instrument_of(scene_for(*d));
         const jvari::Run whole = run(*d, i.whole, settings, {.energy = true});
@@ -171,95 +154,6 @@ TEST(SeveralStrings, GiveTheSameBitsWhateverTheBlockSizeAndAllocateNothing) {
     }
 }
 
-// Strings with 40 modes, 40 + more, ...; one of them meets two barriers, by another scheme of the same name. lanes: how many go in them.
-void expect_the_run_of_one_in_company(const Scene& base, const Settings& with, int count, int lanes, int more = 7) {
-    std::vector<std::unique_ptr<Scheme>> alone, company;
-    std::vector<int> taps;
-    for (int k = 0; k < count; ++k) {
-        Scene one = base;
-        one.strings.front() = variant(one.strings.front(), k);
-        if (k == 5) one.strings.front().barriers.push_back(LumpedBarrier{0.5, 2e-3, -1e-4, {1e5}, 1, 0});
-        Settings own = with;
-        own.modes = 40 + more * k;
-        for (auto* all : {&alone, &company}) all->push_back(make_scheme(schemes()[0], one, own));
-        taps.push_back(static_cast<int>(one.taps.size()));
-    }
-    std::vector<Scheme*> met;
-    met.reserve(company.size());
-    for (const auto& scheme : company) met.push_back(scheme.get());
-    met.front()->meet(met);
-    const int all_rows = with.sample_rate > 1000 * with.tap_rate ? 6 : 330;
-    std::vector<std::vector<double>> want, got;
-    for (int k = 0; k < count; ++k) {
-        want.emplace_back(all_rows * taps[k]);
-        got.emplace_back(all_rows * taps[k]);
-        alone[k]->advance({all_rows, taps[k], all_rows, want[k].data(), nullptr});
-    }
-    std::vector<Lane> all(count);
-    for (int row = 0, rows_now = 1; row < all_rows; row += rows_now, rows_now = 70) {
-        for (int k = 0; k < count; ++k)
-            all[k] = {met[k], {std::min(rows_now, all_rows - row), taps[k], all_rows, got[k].data() + row, nullptr}, {}};
-        met.front()->advance_all(all);
-        for (const Lane& lane : all) ASSERT_EQ(lane.status.outcome, Outcome::ok);
-    }
-    for (int k = 0; k < count; ++k) {
-        const bool in_lane = k < lanes;
-        for (int t = 0; t < taps[k]; ++t) {
-            const auto column = [&](const std::vector<double>& of) { return std::span(of).subspan(t * all_rows, all_rows); };
-            EXPECT_LE(farthest(column(got[k]), column(want[k])), in_lane ? rounding : 0)
-                << "string " << k << " of " << count << " tap " << t;
-        }
-        EXPECT_NE(same(want[k], got[k]), in_lane) << "not in lanes: nothing was tested";
-        EXPECT_GT(largest_of(std::span(want[k]).first(all_rows)), 0) << "at rest: nothing was tested";
-        const auto told = alone[k]->facts(), said = company[k]->facts();
-        ASSERT_EQ(told.size(), said.size());
-        const double k_b = std::get<LumpedBarrier>(base.strings.front().barriers.front()).stiffness.k;
-        for (std::size_t f = 0; f < told.size(); ++f) {
-            const double least = 1e-16 * (told[f].unit == "N" ? k_b : 1);  // 1e-16 m of depth, and what force they are
-            EXPECT_NEAR(told[f].value, said[f].value, in_lane ? std::max(least, rounding * std::abs(told[f].value)) : 0) << told[f].name;
-            if (told[f].name == facts::deepest_penetration.name) {
-                EXPECT_GT(told[f].value, 0) << "no contact";
-            }
-        }
-    }
-}
-
-TEST(SeveralStrings, OfTheTwoPointSchemeRunInCompanyAsAlone) {
-    Scene linear = c3_pluck();
-    linear.strings.front().pluck->duration = 1e-3;
-    linear.strings.front().pluck->amplitude = -4;
-    Scene power = linear, bare = linear;
-    std::get<LumpedBarrier>(power.strings.front().barriers.front()).exponent = 1.5;
-    bare.strings.front().thread.reset();
-    std::erase_if(bare.taps, [](const Tap& tap) { return tap.quantity == Quantity::thread_force; });
-    for (const auto& [count, lanes] : {std::pair{2, 0}, {3, 0}, {4, 4}, {7, 4}})
-        expect_the_run_of_one_in_company(linear, {44100, 44100, 0, {}}, count, lanes);
-    for (const Scene& scene : {linear, power, bare})
-        for (const char* series : {"own", "matched"}) {
-            const bool is_linear = std::get<LumpedBarrier>(scene.strings.front().barriers.front()).exponent == 1;
-            const int lanes = is_linear && series == std::string("own") ? 4 : 0;
-            expect_the_run_of_one_in_company(scene, {4 * 44100, 44100, 0, {{"compliance", series}}}, 5, lanes);
-        }
-    expect_the_run_of_one_in_company(linear, {44100, 44100, 0, {}}, 3, 3, 0);
-    expect_the_run_of_one_in_company(linear, {44100, 20, 0, {}}, 4, 4);  // 2205 steps a row
-}
-
-// Sixteen strings that differ in how they are plucked alone, heard at nut, bridge and by the velocity of each.
-Scene ensemble() {
-    Scene scene = c3_pluck();
-    scene.duration = 0.1;
-    const String one = scene.strings.front();
-    scene.strings.clear();
-    scene.taps = {{"nut", Quantity::nut_force, {}, 0}, {"bridge", Quantity::bridge_force, {}, 0}, {"all", Quantity::driving_force, {}, 0}};
-    for (int k = 0; k < most_lanes; ++k) {
-        String& s = scene.strings.emplace_back(one);
-        s.pluck->amplitude *= 1 - 0.03 * k;
-        s.pluck->start = 1e-3 * k;
-        s.pluck->duration = 0.02;
-        scene.taps.push_back({"v" + std::to_string(k), Quantity::velocity, k, 0.3 * s.length});
-    }
-    return scene;
-}
 // Each of the vector instructions that this machine has, but none at all.
 template <class Do>
 void with_each_target(Do act) {
@@ -283,39 +177,6 @@ TEST(VectorInstructions, AreThoseThatAKernelRunsWith) {
             EXPECT_EQ(vector_instructions(), target);
         }
     });
-}
-
-TEST(SeveralStrings, ThatAreAlikeRunInLanesAsAlone) {
-    const Scene whole = ensemble();
-    const Settings at{tap_rate, tap_rate, 60, {}};
-    int in_lanes = 0;
-    with_each_target([&](const char* target) {
-        const jvari::Run together = run(schemes()[0], whole, at, {.energy = true});
-        std::vector<double> nut(together.trace.rows), bridge(nut), stored(nut), dissipated(nut), supplied(nut);
-        for (int k = 0; k < most_lanes; ++k) {
-            const jvari::Run one = run(schemes()[0], alone(whole, k), at, {.energy = true});
-            const auto add = [](std::vector<double>& sum, std::span<const double> more) {
-                for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += more[n];
-            };
-            add(nut, one.trace.column(0));
-            add(bridge, one.trace.column(1));
-            add(stored, one.trace.energy_column(0));
-            add(supplied, one.trace.energy_column(1));
-            add(dissipated, one.trace.energy_column(2));
-            EXPECT_LE(farthest(together.trace.column(3 + k), one.trace.column(3)), rounding) << target << " " << k;
-            in_lanes += !same(together.trace.column(3 + k), one.trace.column(3));
-            EXPECT_GT(largest_of(one.trace.column(1)), 0) << "no contact";
-        }
-        EXPECT_LE(farthest(together.trace.column(0), nut), rounding) << target;
-        EXPECT_LE(farthest(together.trace.column(1), bridge), rounding) << target;
-        EXPECT_LE(farthest(together.trace.energy_column(0), stored), rounding) << target;
-        EXPECT_LE(farthest(together.trace.energy_column(1), supplied), rounding) << target;
-        EXPECT_LE(farthest(together.trace.energy_column(2), dissipated), rounding) << target;
-        EXPECT_TRUE(same(run(schemes()[0], whole, at).trace.tap, together.trace.tap)) << target << ": another run with its energy probed";
-        for (const int block : {1, 70})
-            EXPECT_TRUE(same(run(schemes()[0], whole, at, {.block_rows = block}).trace.tap, together.trace.tap)) << target << " " << block;
-    });
-    EXPECT_GT(in_lanes, 0) << "nothing was tested";
 }
 
 TEST(SeveralStrings, OneStringIsTheSchemeItself) {
