@@ -7,6 +7,7 @@
 #include "bench/check/promise.hpp"
 #include "reference/references.hpp"
 #include "schemes/controls.hpp"
+#include "schemes/driver/pairings.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::check {
@@ -27,7 +28,7 @@ private:
 };
 
 void register_all() {
-    for (const auto table : {schemes(), references()})
+    for (const auto table : {schemes(), references(), std::span<const Descriptor>(schemes_of_pairings())})
         for (const Descriptor& d : table)
             for (const Promise& p : promises())
                 for (const Case& one : cases_of(d, p.asked)) {

@@ -17,9 +17,10 @@ forbid "scenes see nothing above them" '#include "(schemes|reference|analysis|be
 forbid "schemes see scenes alone" '#include "(reference|analysis|bench)/' $(files schemes)
 forbid "references see schemes and scenes" '#include "(analysis|bench)/' $(files reference)
 forbid "the event-driven exact solution stands above the other references" '#include "reference/exact/' reference/*.hpp reference/*.cpp
-forbid "the seam sees no scheme" '#include "schemes/(body|contact|modal|spatial|grid|sitar)/' schemes/*.hpp schemes/scheme.cpp schemes/several_strings.cpp schemes/trace.cpp schemes/run.cpp
-forbid "contacts see the seam alone" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/contact)
-forbid "a moving body sees contacts and the seam" '#include "schemes/(modal|spatial|grid|sitar)/' $(files schemes/body)
+forbid "the seam sees no scheme" '#include "schemes/(body|contact|driver|modal|spatial|grid|sitar)/' schemes/*.hpp schemes/scheme.cpp schemes/several_strings.cpp schemes/trace.cpp schemes/run.cpp
+forbid "contacts see the seam alone" '#include "schemes/(body|driver|modal|spatial|grid|sitar)/' $(files schemes/contact)
+forbid "the driver sees contacts and the seam" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/driver)
+forbid "a moving body sees the driver, contacts and the seam" '#include "schemes/(modal|spatial|grid|sitar)/' $(files schemes/body)
 forbid "modal schemes see contacts and the seam" '#include "schemes/(spatial|grid|sitar)/' $(files schemes/modal)
 forbid "kernels of modes see no scheme" '#include "schemes/modal/(modal_[^s]|modal_strang|three)' $(files schemes/modal/kernels)
 forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(grid|sitar)/' $(files schemes/spatial)

@@ -1,7 +1,9 @@
 #!/bin/sh
 # A new scheme is one file and one line in schemes/schemes.def: a copy of tests/contract_plugins/honest.hpp is
 # added to a copy of the tree, and the tests that look at every scheme are green there.
-# usage: new_scheme.sh BUILD: quick, with the objects of this build (contract_test, schemes_test and jvari) and the two files that differ
+# A new obstacle rule is one file and one row of schemes/contact/rules.hpp: tests/regularised_rule.hpp is added likewise, and its schemes on
+# all strings keep the contract.
+# usage: new_scheme.sh BUILD: quick, with the objects of this build (contract_test, schemes_test and jvari) and the files that differ
 #        new_scheme.sh full:  everything that these tests need is built anew, by CMake; the smoke record is compared as well
 here=$(cd "$(dirname "$0")/.." && pwd) || exit 2
 [ -n "$1" ] || { echo "usage: new_scheme.sh BUILD | full" >&2; exit 2; }
@@ -19,6 +21,11 @@ mkdir "$tree" && tar -C "$here" --exclude=./build --exclude=./node_modules --exc
     echo '}  // namespace jvari'
 } >"$tree/schemes/modal/$name.cpp"
 echo "JVARI_SCHEME($name)" >>"$tree/schemes/schemes.def"  # the line
+cp "$here/tests/regularised_rule.hpp" "$tree/schemes/contact/"  # a rule, and its row
+sed -i -e 's|^#include "schemes/contact/quadratised_rule.hpp"|&\n#include "schemes/contact/regularised_rule.hpp"|' \
+    -e 's|^    ROW(penalty,|    ROW(regularised, RegularisedRule, "a test") \\\n&|' "$tree/schemes/contact/rules.hpp"
+table="driver/pairings modal/modal_two_point modal/modal_three_point spatial/modal_spatial_newton grid/finite_difference_explicit
+    grid/finite_difference_theta grid/finite_difference_hamiltonian"
 
 if [ "$1" = full ]; then
     build=$scratch/build
@@ -32,12 +39,12 @@ else
     commands() { ninja -C "$build" -t commands "$1"; }
     compile=$(commands jvari | grep -- '-c .*/schemes/registry.cpp$' | sed 's| -o .*||; s|-MD .*-MF [^ ]*||')
     cd "$build" || exit 2
-    for source in registry modal/$name; do
+    for source in registry modal/$name $table; do
         object=$scratch/$(basename $source).o
         must "compiles schemes/$source.cpp" sh -c "$compile -iquote $tree -o $object -c $tree/schemes/$source.cpp"
     done
     for target in jvari tests/contract_test tests/schemes_test; do
-        link=$(commands $target | tail -1 | sed "s| -o $target | $scratch/registry.o $scratch/$name.o -o $scratch/$(basename $target) |")
+        link=$(commands $target | tail -1 | sed "s| -o $target | $(ls $scratch/*.o | tr '\n' ' ')-o $scratch/$(basename $target) |")
         must "links $target" sh -c "$link"
     done
     jvari=$scratch/jvari contract=$scratch/contract_test seam=$scratch/schemes_test
@@ -46,6 +53,8 @@ export JVARI_SCENES="$tree/scenes"
 must "layers" sh "$tree/tests/layering.sh" "$tree"
 must "is listed" sh -c "$jvari list schemes --quiet | grep -q '^  $name '"
 must "keeps the contract" "$contract" --gtest_brief=1 "--gtest_filter=*.${name}*"
+must "lists the rule with every string" sh -c "[ \$($jvari list schemes --quiet | grep -c '_regularised ') = 6 ]"
+must "keeps the contract by the new rule" "$contract" --gtest_brief=1 "--gtest_filter=*_regularised*"
 must "was asked for it" sh -c "'$contract' --gtest_list_tests '--gtest_filter=*.${name}*' | grep -q lossless_free"
 must "seam" "$seam" --gtest_brief=1 "--gtest_filter=Facts.*:Limits.*:Options.*:PluginInterface.*"
 must "lacks its row in docs/schemes.md" sh -c "! sh '$tree/tests/readme.sh' $jvari"

@@ -132,6 +132,7 @@ int list_command(const ListRequest& r) {
     };
     const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
     if (asked("schemes")) add("schemes", list_descriptors("schemes", catalogue.schemes));
+    if (asked("schemes")) add("pairings", list_pairings());
     if (asked("references")) add("references", list_descriptors("references", catalogue.references));
     if (asked("options")) add("options", list_options(both));
     if (asked("facts")) add("facts", list_facts());

@@ -1,6 +1,7 @@
 #include "bench/command/list_seam.hpp"
 
 #include "bench/study/columns.hpp"
+#include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
 
 #include <fmt/format.h>
@@ -113,6 +114,20 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
             head + " energy balance |\n" + rule + "---|\n" + body +
                 "\n● as in the scene; ◐ approximated, and a fact of the run says how. Every scheme takes several strings and a body.\n\n" +
                 notes};
+}
+
+Listing list_pairings() {
+    constexpr int string_width = 31, cell_width = 44;
+    Json json = Json::array();
+    std::string text = "pairings of a string and an obstacle rule", head, body, row;
+    for (const Pairing& p : pairings()) {
+        json.push_back({{"string", p.string}, {"rule", p.rule}, {"scheme", p.scheme}});
+        if (p.string != row) body += fmt::format("\n  {:<{}}", p.string, string_width);
+        if (row.empty() || (p.string == row && std::ranges::count(body, '\n') == 1)) head += fmt::format("{:<{}}", p.rule, cell_width);
+        body += fmt::format("{:<{}}", p.scheme, cell_width);
+        row = p.string;
+    }
+    return {std::move(json), fmt::format("{}\n  {:<{}}{}{}\n", text, "string", string_width, head, body), ""};
 }
 
 Listing list_options(const std::vector<const Descriptor*>& schemes) {

@@ -21,6 +21,7 @@ struct Measured {
 Listing list_measured(const char* title, int name_width, int unit_width, const std::vector<Measured>&);
 
 Listing list_descriptors(const char* title, const std::vector<const Descriptor*>&);  // markdown: the table of docs/schemes.md
+Listing list_pairings();
 Listing list_options(const std::vector<const Descriptor*>&);
 Listing list_facts();
 Listing list_columns();  // of cells.csv

@@ -6,6 +6,7 @@
 #include "bench/store/usage.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/driver/pairings.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {
@@ -13,6 +14,7 @@ namespace jvari::bench::compare {
 Catalogue::Catalogue(const std::vector<std::string>& plugins) {
     for (const Descriptor& d : jvari::schemes()) schemes.push_back(&d);
     for (const Descriptor& d : jvari::references()) references.push_back(&d);
+    for (const Descriptor& d : schemes_of_pairings()) paired.push_back(&d);
     for (const std::string& path : plugins) {
         std::span<const Descriptor> brought;
         try {
@@ -31,7 +33,7 @@ Catalogue::Catalogue(const std::vector<std::string>& plugins) {
 
 const Descriptor& Catalogue::find(const std::string& name) const {
     std::vector<std::string> names;
-    for (const auto* list : {&schemes, &references})
+    for (const auto* list : {&schemes, &references, &paired})
         for (const Descriptor* d : *list) {
             if (name == d->name) return *d;
             names.emplace_back(d->name);

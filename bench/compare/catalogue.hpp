@@ -16,7 +16,9 @@ struct Catalogue {
     std::vector<const Descriptor*> schemes;                            // in-tree, then those of plugins
     std::vector<const Descriptor*> references;                         // in order of authority
 
-    const Descriptor& find(const std::string& name) const;  // a scheme or a reference; UsageError suggests the nearest name
+    std::vector<const Descriptor*> paired;  // schemes of the table of pairings that are found by their name alone
+
+    const Descriptor& find(const std::string& name) const;  // any of them; UsageError suggests the nearest name
     bool is_reference(const Descriptor&) const;
 };
 

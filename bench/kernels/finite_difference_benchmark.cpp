@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "schemes/contact/gradient_rule.hpp"
 #include "schemes/grid/midpoint_string.hpp"
 #include "schemes/grid/three_point_string.hpp"
 #include "schemes/registry.hpp"
@@ -43,7 +44,7 @@ struct Plain {
         const Scene scene = twenty_contacts(N);
         const String& s = scene.strings.front();
         const LossFit loss = fit_losses(s);
-        const GridString g = on_grid(schemes()[0], scene, {}, {N, s.length / N}, loss);
+        const GridString g = on_grid(schemes()[0], scene, {rate_of(N), rate_of(N), 0, {}}, {N, s.length / N}, loss);
         const Real h2 = static_cast<Real>(g.grid.dx) * g.grid.dx, S = static_cast<Real>(g.c2) * dt * dt / h2,
                    q = static_cast<Real>(g.kappa2) * dt * dt / (h2 * h2), z = 2 * static_cast<Real>(loss.sigma1) * dt / h2,
                    z4 = 2 * static_cast<Real>(loss.sigma2) * dt / (h2 * h2), D = 1 + static_cast<Real>(loss.sigma0) * dt;
@@ -54,7 +55,7 @@ struct Plain {
         b1 = -(z + 4 * z4) / D;
         b2 = z4 / D;
         gain = theta = dt * dt / static_cast<Real>(g.mass) / D;
-        k = g.laws.front().k;
+        k = g.points.contacts.laws.front().k;
         now.assign(g.initial.begin(), g.initial.end());
         before = next = now;
         step();                                                                     // with u- = u: u + dt^2 (acceleration)
@@ -237,20 +238,21 @@ void step(benchmark::State& state, bool midpoint) {
     const Coefficients c = coefficients(static_cast<int>(state.range(0)), midpoint);
     const Scene scene = c3_release();
     const double dt = 1 / implicit_rate(c.grid.intervals);
-    const GridString g = on_grid(schemes()[0], scene, {}, c.grid, fit_losses(scene.strings.front()));
+    const GridString g = on_grid(schemes()[0], scene, {1 / dt, 1 / dt, 0, {}}, c.grid, fit_losses(scene.strings.front()));
     constexpr int steps = 1024;
     double tap[4];
     const Block one{1, 4, 1, tap, nullptr};
-    const auto go = [&](auto string) {
-        string.reset();
+    const auto go = [&]<class String>(std::unique_ptr<String> string) {
+        Driver<String, GradientRule> scheme(std::move(string), steps);
         const FlushDenormals flush;
-        for (auto _ : state) string.advance(one);
+        for (auto _ : state) scheme.advance(one);
     };
-    if (midpoint) go(MidpointString<Solve>(g, dt, steps));
+    if (midpoint) go(std::make_unique<MidpointString<Solve>>(g, dt));
     else {
         const double m = 0.5 * (1 - tuned_theta(scene.strings.front(), dt, c.grid.dx)) * c.grid.dx * c.grid.dx;
-        go(ThreePointString<Theta<Solve>>(
-            g, dt, steps, m, 0, {FivePoint(g, dt, m, 0, 1, FivePoint::Of::increment), Solve(c.grid, c.a0, c.a2, c.a4), c.grid.intervals}));
+        go(std::make_unique<ThreePointString<Theta<Solve>>>(
+            g, dt, m, 0.0,
+            Theta<Solve>{FivePoint(g, dt, m, 0, 1, FivePoint::Of::increment), Solve(c.grid, c.a0, c.a2, c.a4), c.grid.intervals}));
     }
     state.counters["ns_per_step"] =
         benchmark::Counter(steps * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);

@@ -5,21 +5,11 @@
 
 namespace jvari {
 
-StringAtBody at_body(const String& s) {
-    StringAtBody at;
-    at.thread = s.thread;
-    at.mass = s.linear_density * s.length;
-    at.length = s.length;
-    at.tension = s.tension;
-    return at;
-}
-
-BodyStep::BodyStep(const std::vector<StringAtBody>& strings, double beta, double kappa, double span)
+BodyStep::BodyStep(const std::vector<StringPoints>& strings, double beta, double kappa, double span)
     : strings_(strings), beta_(beta), kappa_(kappa), span_(span) {
-    std::vector<ContactLaw> laws;
-    std::vector<double> heights, loss;
-    for (const StringAtBody& s : strings) {
-        const int n = s.points(), m = n;  // m: the body
+    Contacts contacts_of_all;
+    for (const StringPoints& s : strings) {
+        const int n = s.count(), m = n;  // m: the body
         inertia_ += s.mass / 3;
         rest_mass_ += s.mass / 3 - s.theta[m * (n + 1) + m] / kappa;
         stiffness_ += s.tension / s.length;
@@ -29,10 +19,8 @@ BodyStep::BodyStep(const std::vector<StringAtBody>& strings, double beta, double
             c_.push_back(e_.back() - to_body_.back() / kappa);
         }
         const int first = points() - n;
-        for (std::size_t a = 0; a < s.laws.size(); ++a) contact_.push_back(first + static_cast<int>(a));
-        laws.insert(laws.end(), s.laws.begin(), s.laws.end());
-        heights.insert(heights.end(), s.heights.begin(), s.heights.end());
-        loss.insert(loss.end(), s.loss.begin(), s.loss.end());
+        for (std::size_t a = 0; a < s.contacts.laws.size(); ++a) contact_.push_back(first + static_cast<int>(a));
+        contacts_of_all.add(s.contacts);
         if (const auto& t = s.thread)
             thread_.push_back({first + n - 1, t->stiffness, t->damping, t->height, 0.5 * t->stiffness + t->damping / span});
     }
@@ -40,10 +28,10 @@ BodyStep::BodyStep(const std::vector<StringAtBody>& strings, double beta, double
 
     const int all = points(), contacts = static_cast<int>(contact_.size()), threads = static_cast<int>(thread_.size());
     theta_.assign(static_cast<std::size_t>(all) * all, 0.0);
-    for (int first = 0; const StringAtBody& s : strings) {
-        for (int p = 0; p < s.points(); ++p)
-            for (int q = 0; q < s.points(); ++q) theta_[(first + p) * all + first + q] = s.theta[p * (s.points() + 1) + q];
-        first += s.points();
+    for (int first = 0; const StringPoints& s : strings) {
+        for (int p = 0; p < s.count(); ++p)
+            for (int q = 0; q < s.count(); ++q) theta_[(first + p) * all + first + q] = s.theta[p * (s.count() + 1) + q];
+        first += s.count();
     }
     for (int p = 0; p < all; ++p)
         for (int q = 0; q < all; ++q) theta_[p * all + q] += beta * c_[p] * c_[q] / D_;
@@ -65,21 +53,21 @@ BodyStep::BodyStep(const std::vector<StringAtBody>& strings, double beta, double
             for (int t = 0; t < threads; ++t) sum -= theta_[contact_[a] * all + thread_[t].point] * follow(t, b);
             between[a * contacts + b] = between[b * contacts + a] = sum;
         }
-    contacts_ = ObstacleStep(laws, heights, {}, between, span);
-    contacts_.lose(loss);
+    contacts_ = {contacts_of_all, {}, between, span, 1};
     for (auto* v : {&older_, &free_}) v->assign(all, 0.0);
-    for (auto* v : {&eta_, &b_, &push_}) v->assign(contacts, 0.0);
+    for (auto* v : {&at_, &now_, &b_, &push_}) v->assign(contacts, 0.0);
     for (auto* v : {&pull_, &moved_}) v->assign(threads, 0.0);
 }
 
 BodyStep BodyStep::halved() const {
-    std::vector<StringAtBody> strings = strings_;
-    for (StringAtBody& s : strings)
+    std::vector<StringPoints> strings = strings_;
+    for (StringPoints& s : strings) {
         for (double& theta : s.theta) theta *= 0.5;
+    }
     return {strings, 0.5 * beta_, 0.5 * kappa_, 0.5 * span_};
 }
 
-bool BodyStep::solve(const double* older, const double* free, double inertia, double pluck, const BodyMotion& body,
+bool BodyStep::solve(const double* older, const double* now, const double* free, double inertia, double pluck, const BodyMotion& body,
                      double* force) noexcept {
     const int all = points(), contacts = static_cast<int>(contact_.size()), threads = static_cast<int>(thread_.size());
     f_ = (pluck - inertia - rest_mass_ * body.a - stiffness_ * (body.w + 0.5 * body.r)) / D_;
@@ -95,11 +83,12 @@ bool BodyStep::solve(const double* older, const double* free, double inertia, do
         }
     }
     for (int b = 0; b < contacts; ++b) {
-        eta_[b] = older_[contact_[b]];
+        at_[b] = older_[contact_[b]];
+        now_[b] = now[contact_[b]] + e_[contact_[b]] * body.w;
         b_[b] = free_[contact_[b]];
         for (int t = 0; t < threads; ++t) b_[b] += theta_[contact_[b] * all + thread_[t].point] * pull_[t];
     }
-    const bool converged = contacts == 0 || contacts_.solve(eta_.data(), b_.data(), push_.data());
+    const bool converged = contacts == 0 || contacts_.solve({at_.data(), now_.data(), b_.data()}, push_.data());
     for (int b = 0; b < contacts; ++b) force[contact_[b]] = push_[b];
     for (int t = 0; t < threads; ++t) {
         double pull = pull_[t];
@@ -117,8 +106,8 @@ bool BodyStep::solve(const double* older, const double* free, double inertia, do
 
 double BodyStep::potential(const double* reading, double w) noexcept {
     double sum = 0.5 * stiffness_ * w * w;
-    for (std::size_t b = 0; b < contact_.size(); ++b) eta_[b] = reading[contact_[b]] + e_[contact_[b]] * w;
-    sum += contacts_.potential(eta_.data());
+    for (std::size_t b = 0; b < contact_.size(); ++b) at_[b] = reading[contact_[b]] + e_[contact_[b]] * w;
+    sum += contacts_.potential(at_.data());
     for (const Spring& c : thread_) {
         const double stretch = reading[c.point] + e_[c.point] * w - c.rest;
         sum += 0.5 * c.stiffness * stretch * stretch;

@@ -28,28 +28,16 @@
 //     f = f_0 + sum_p c_p F_p/D,   c_p = e_p - theta_mp/kappa,   Theta_pq = theta_pq + beta c_p c_q/D,
 //     D = 1 + beta [ sum T/2L + sum (mu L/3 - theta_mm/kappa)/kappa ].
 //
-// Threads are linear and eliminated, all together; what is left are the contacts of all strings, coupled by the body, solved by
-// ObstacleStep.
+// Threads are linear and eliminated, all together; what is left are the contacts of all strings, coupled by the body, solved by the rule of
+// discrete gradients (contact/gradient_rule.hpp).
 #pragma once
 
 #include <vector>
 
-#include "schemes/contact/obstacle_step.hpp"
+#include "schemes/contact/gradient_rule.hpp"
+#include "schemes/driver/string_step.hpp"
 
 namespace jvari {
-
-// What a string is to the step: its points, contacts first and then its thread, and the compliances between them and the body.
-struct StringAtBody {
-    std::vector<ContactLaw> laws;              // one per contact
-    std::vector<double> heights;               // [m]
-    std::vector<double> loss;                  // Hunt-Crossley beta [s/m]
-    std::optional<Thread> thread;              //
-    std::vector<double> positions;             // x_p of each point [m]
-    std::vector<double> theta;                 // row-major over the points and then the body: [m/N], with the body [s^2], theta_mm [kg s^2]
-    double mass = 0, length = 0, tension = 0;  // mu L [kg], L [m], T [N]
-    int points() const { return static_cast<int>(positions.size()); }
-};
-StringAtBody at_body(const String&);  // without its points
 
 struct BodyMotion {
     double w = 0;  // at the older level [m]
@@ -60,12 +48,14 @@ struct BodyMotion {
 class BodyStep {
 public:
     BodyStep() = default;
-    BodyStep(const std::vector<StringAtBody>&, double beta, double kappa, double span);  // beta [m/N], kappa [s^2], span [s]
+    BodyStep(const std::vector<StringPoints>&, double beta, double kappa, double span);  // beta [m/N], kappa [s^2], span [s]
     BodyStep halved() const;                                                             // the first of a three-point scheme, from rest
 
-    // Readings of v at the older level and their increments without forces, of every point of every string in turn [m]; sum mu_i v_i'' over
-    // all strings without forces of points and body; sum psi(x_e) F_e. Out: the forces on the strings [N]. Allocates nothing.
-    bool solve(const double* older, const double* free, double inertia, double pluck, const BodyMotion&, double* force) noexcept;
+    // Readings of v at the older level and at that of the step's centre, and increments without forces, of every point of every string in
+    // turn [m]; sum mu_i v_i'' over all strings without forces of points and body; sum psi(x_e) F_e. Out: the forces on the strings [N].
+    // Allocates nothing.
+    bool solve(const double* older, const double* now, const double* free, double inertia, double pluck, const BodyMotion&,
+               double* force) noexcept;
     double f() const { return f_; }  // of that step [N]
     double a() const { return a_; }  // w'' [m/s^2]
 
@@ -75,7 +65,7 @@ public:
         return (0.5 * inertia_ * velocity + momentum) * velocity;
     }
     int points() const { return static_cast<int>(e_.size()); }
-    const ObstacleStep& contacts() const { return contacts_; }
+    const Obstacle<GradientRule>& contacts() const { return contacts_; }
     void clear() { contacts_.clear(); }
 
 private:
@@ -84,7 +74,7 @@ private:
         double stiffness, damping, rest, s;  // s = k/2 + damping/span [N/m]
     };
 
-    std::vector<StringAtBody> strings_;
+    std::vector<StringPoints> strings_;
     double beta_ = 0, kappa_ = 1, span_ = 1, D_ = 1;
     double inertia_ = 0, rest_mass_ = 0, stiffness_ = 0;  // sum mu L/3, the same less theta_mm/kappa [kg]; sum T/L [N/m]
     std::vector<double> e_, to_body_, c_;                 // of each point: e_p, theta_pm, c_p
@@ -92,9 +82,9 @@ private:
     std::vector<int> contact_;                            // the points that are contacts
     std::vector<Spring> thread_;                          //
     std::vector<double> yield_, follow_;                  // (1 + s Theta_tt)^-1, threads x threads; that s Theta_tb, threads x contacts
-    ObstacleStep contacts_;                               // the threads eliminated
-    std::vector<double> older_, free_, pull_, eta_, b_, push_;  // workspaces
-    std::vector<double> moved_;                                 // of each thread in the last step [m]
+    Obstacle<GradientRule> contacts_;                     // the threads eliminated
+    std::vector<double> older_, free_, pull_, at_, now_, b_, push_;  // workspaces
+    std::vector<double> moved_;                                      // of each thread in the last step [m]
     double f_ = 0, a_ = 0;
 };
 

@@ -1,12 +1,9 @@
-// All strings of a scene on a body that moves, as one scheme: what body_step.hpp derives, stepped. The strings are those of a scheme of one
-// string, which lets its points be solved for from outside.
+// All strings of a scene on a body that moves, as one scheme: what body_step.hpp derives, stepped. Rows, instants and ledger are those of
+// driver.hpp.
 //
-// A String has: StringAtBody at_body(); begin() to t = 0; approach(last_of_row), which makes the force-free motion of the next step and
-// gives older(), free() (of v, one per point), inertia() (sum mu_i v_i'' of that motion), pluck() [N]; pass(force, a, probed), which ends
-// the step by the forces and w''; reading(level, out); momentum() = sum mu_i v_i' at the instant of the energy; write(block, row), of v and
-// without the points' energy; failed(), dofs(), facts(). Of three points it also has start(force, a), which makes level 1 of the first half
-// step, and share(), the inertia that its coordinates take of the body's: sum mu_i^2/m_i, m_i the least mass that the energy of the scheme
-// shows.
+// Beside what a StringStep has, the string has here: inertia(), sum mu_i v_i'' of the motion without forces; pluck() [N]; momentum() = sum
+// mu_i v_i' at the instant of the energy. Of three points it also has share(), the inertia that its coordinates take of the body's: sum
+// mu_i^2/m_i, m_i the least mass that the energy of the scheme shows.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +12,7 @@
 #include <vector>
 
 #include "schemes/body/body_step.hpp"
+#include "schemes/driver/driver.hpp"
 #include "schemes/scheme.hpp"
 #include "schemes/several_strings.hpp"
 
@@ -27,17 +25,18 @@ struct BodyTap : HeardTap {
 std::vector<BodyTap> body_taps(const Scene&, int string, std::vector<bool>& heard_already);
 void add_taps(const Block& out, int row, const std::vector<BodyTap>&, const double* of_v, double w, double speed) noexcept;
 
-template <class String, class Body>
+template <StringStep String, class Body>
 class Instrument final : public Scheme {
 public:
     Instrument(const Scene& scene, std::vector<std::unique_ptr<String>> strings, Body body, int steps_per_row)
         : body_(std::move(body)), steps_(steps_per_row) {
-        std::vector<StringAtBody> at;
+        std::vector<StringPoints> at;
         std::vector<bool> heard(scene.taps.size(), false);
         std::size_t taps = 0;
         for (int k = 0; k < static_cast<int>(strings.size()); ++k) {
-            at.push_back(strings[k]->at_body());
-            Part part{std::move(strings[k]), body_taps(scene, k, heard), at.back().points(), 0};
+            at.push_back(strings[k]->points());
+            Part part{std::move(strings[k]), body_taps(scene, k, heard), RowForces(at.back(), Body::levels, steps_per_row),
+                      at.back().count(), 0};
             if (const auto& pluck = scene.strings[k].pluck) part.finger = 1 - pluck->position / scene.strings[k].length;
             taps = std::max(taps, part.taps.size());
             parts_.push_back(std::move(part));
@@ -47,12 +46,12 @@ public:
             start_ = step_.halved();
             double taken = 0, ends = 0;
             for (const Part& p : parts_) taken += p.string->share();
-            for (const StringAtBody& s : at) ends += s.mass / 3;
+            for (const StringPoints& s : at) ends += s.mass / 3;
             if (!(body_.least_mass() + ends > taken))
                 throw Refusal("the body is too light at this rate: the strings take " + std::to_string(taken) + " kg of its " +
                               std::to_string(body_.least_mass() + ends) + " kg, and the energy would have no least value");
         }
-        for (auto* v : {&older_, &free_, &force_}) v->assign(step_.points(), 0.0);
+        for (auto* v : {&older_, &now_, &free_, &force_}) v->assign(step_.points(), 0.0);
         tap_.assign(taps, 0.0);
         Instrument::reset();
     }
@@ -63,7 +62,10 @@ public:
         status_ = {};
         done_ = 0;
         supplied_ = dissipated_ = 0;
-        for (Part& p : parts_) p.string->begin();
+        for (Part& p : parts_) {
+            p.string->reset();
+            p.means.clear();
+        }
         std::fill(force_.begin(), force_.end(), 0.0);
         if constexpr (Body::levels == 2) {
             BodyMotion rest;
@@ -106,6 +108,7 @@ private:
     struct Part {
         std::unique_ptr<String> string;
         std::vector<BodyTap> taps;
+        RowForces means;
         int points;
         double finger;  // psi where the pluck acts
     };
@@ -116,17 +119,20 @@ private:
     }
 
     bool solve(BodyStep& by, const BodyMotion& motion) noexcept {  // after approach() of every string
-        double inertia = 0, *older = older_.data(), *free = free_.data();
+        double inertia = 0, *older = older_.data(), *now = now_.data(), *free = free_.data();
         pluck_ = 0;
         for (Part& p : parts_) {
-            std::copy_n(p.string->older(), p.points, older);
-            std::copy_n(p.string->free(), p.points, free);
+            const ReadingsBeforeStep at = p.string->readings();
+            std::copy_n(at.older, p.points, older);
+            std::copy_n(at.now, p.points, now);
+            std::copy_n(at.free, p.points, free);
             older += p.points;
+            now += p.points;
             free += p.points;
             inertia += p.string->inertia();
             pluck_ += p.finger * p.string->pluck();
         }
-        return by.solve(older_.data(), free_.data(), inertia, pluck_, motion, force_.data());
+        return by.solve(older_.data(), now_.data(), free_.data(), inertia, pluck_, motion, force_.data());
     }
 
     void step(bool probed, bool last_of_row) noexcept {
@@ -134,7 +140,10 @@ private:
         if (!solve(step_, body_.coming())) status_ = {Outcome::not_converged, done_};
         const double* force = force_.data();
         for (Part& p : parts_) {
-            p.string->pass(force, step_.a(), probed);
+            p.means.count(force);
+            const Spent spent = p.string->pass(force, step_.a(), probed);
+            supplied_ += spent.supplied;
+            dissipated_ += spent.dissipated;
             force += p.points;
             if (p.string->failed() && status_.outcome == Outcome::ok) status_ = {Outcome::diverged, done_};
         }
@@ -147,14 +156,15 @@ private:
     void write(const Block& out, int row) noexcept {
         const double w = body_.displacement(0), speed = body_.velocity();
         double stored = 0, momentum = 0;
+        const double* force = force_.data();
         for (Part& p : parts_) {
-            Block own{1, static_cast<int>(p.taps.size()), 1, tap_.data(), out.energy ? energy_ : nullptr, nullptr, nullptr};
-            p.string->write(own, 0);
+            const auto [bridge, thread] = p.means.take(force, done_ == 0);
+            force += p.points;
+            p.string->write({1, static_cast<int>(p.taps.size()), 1, tap_.data(), nullptr, nullptr, nullptr}, 0, bridge, thread);
             add_taps(out, row, p.taps, tap_.data(), w, speed);
-            if (out.energy) momentum += p.string->momentum();
-            stored += energy_[0];
-            supplied_ += energy_[1];
-            dissipated_ += energy_[2];
+            if (!out.energy) continue;
+            momentum += p.string->momentum();
+            stored += p.string->stored();
         }
         const double lost = body_.take_lost();
         if (out.energy) {
@@ -176,9 +186,9 @@ private:
     int steps_;
     std::vector<Part> parts_;
     BodyStep step_, start_;
-    std::vector<double> older_, free_, force_, tap_;
-    double energy_[3] = {}, pluck_ = 0, supplied_ = 0, dissipated_ = 0;  // since the last row
-    long done_ = 0;                                                      // steps
+    std::vector<double> older_, now_, free_, force_, tap_;
+    double pluck_ = 0, supplied_ = 0, dissipated_ = 0;  // since the last row
+    long done_ = 0;                                     // steps
     Status status_;
 };
 
@@ -190,10 +200,11 @@ std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) 
     return all;
 }
 
-// The scheme of one string, or of all strings on a moving body. make as above, body() -> the body in the form of that scheme.
-template <class String, class Make, class MakeBody>
+// The scheme of one string by a rule, or of all strings on a moving body, by the rule of discrete gradients. make as above, body() -> the
+// body in the form of that scheme.
+template <class String, class Rule, class Make, class MakeBody>
 std::unique_ptr<Scheme> on_its_support(const Scene& scene, int steps_per_row, Make make, MakeBody body) {
-    if (!needed_by(scene).has(Feature::moving_body)) return make(scene);
+    if (!needed_by(scene).has(Feature::moving_body)) return std::make_unique<Driver<String, Rule>>(make(scene), steps_per_row);
     auto strings = each_string<String>(scene, make);
     return std::make_unique<Instrument<String, decltype(body())>>(scene, std::move(strings), body(), steps_per_row);
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace jvari {
 
@@ -27,6 +28,22 @@ struct ContactLaw {
     double slope(double eta) const {  // V'' [N/m]
         if (eta <= 0) return 0;
         return alpha == 1 ? k : alpha * k * std::pow(eta, alpha - 1);
+    }
+};
+
+struct Contacts {  // of a string
+    std::vector<ContactLaw> laws;
+    std::vector<double> heights;  // [m]
+    std::vector<double> loss;     // Hunt-Crossley beta [s/m]
+
+    int count() const { return static_cast<int>(laws.size()); }
+    void add(const ContactLaw& law, double height, double beta) {
+        laws.push_back(law);
+        heights.push_back(height);
+        loss.push_back(beta);
+    }
+    void add(const Contacts& more) {
+        for (int a = 0; a < more.count(); ++a) add(more.laws[a], more.heights[a], more.loss[a]);
     }
 };
 

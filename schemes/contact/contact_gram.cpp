@@ -62,6 +62,11 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r, d
         const int a = order_[g.first];
         GramSolution s;
         if (g.count == 1) {
+            if (eta[a] <= 0 && eta[a] + b[a] <= 0) {  // stays out
+                r[a] = -b[a];
+                force[a] = 0;
+                continue;
+            }
             const ContactSolution one = solve_contact(laws_[a], eta[a], b[a], theta_[a * n + a]);
             r[a] = one.r;
             force[a] = one.force;

@@ -239,24 +239,21 @@ struct PlaceBarrier {
     GridString& g;
     double length;  // of the string [m]
     void operator()(const LumpedBarrier& b) const {
-        g.points.push_back(footprint_stencil(g.grid, b.position, b.width));
-        g.places.push_back(b.position);
-        g.laws.push_back({b.stiffness.k, b.exponent});
-        g.heights.push_back(b.height);
-        g.beta.push_back(b.contact_loss);
+        g.stencils.push_back(footprint_stencil(g.grid, b.position, b.width));
+        g.points.positions.push_back(b.position);
+        g.points.contacts.add({b.stiffness.k, b.exponent}, b.height, b.contact_loss);
     }
     void operator()(const ProfileBarrier& b) const {
         const auto [first, x] = nodes_on(b, length, g.grid.intervals);
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            g.points.push_back({first + static_cast<int>(i), {1.0}});
-            g.places.push_back(x[i]);
-            g.laws.push_back({b.stiffness.K * g.grid.dx, b.exponent});  // lumped: a node stands for dx of the profile
-            g.beta.push_back(b.contact_loss);
-        }
         if (x.empty())
             throw Refusal("no node of the grid lies on the barrier from " + std::to_string(b.from) + " m to " + std::to_string(b.to) +
                           " m: the spacing is " + std::to_string(g.grid.dx) + " m");
-        for (double h : heights(b.curve, x)) g.heights.push_back(h);
+        const std::vector<double> height = heights(b.curve, x);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            g.stencils.push_back({first + static_cast<int>(i), {1.0}});
+            g.points.positions.push_back(x[i]);
+            g.points.contacts.add({b.stiffness.K * g.grid.dx, b.exponent}, height[i], b.contact_loss);  // lumped: a node stands for dx
+        }
     }
 };
 
@@ -264,9 +261,9 @@ struct PlaceBarrier {
 double relative_compliance(const GridString& g, const String& s, const LumpedBarrier& b) {
     const Modes modes = modes_of(s, 20000);
     std::vector<double> u(g.grid.intervals + 1, 0.0);
-    g.points.front().add(1 / g.mass, u.data());
+    g.stencils.front().add(1 / g.mass, u.data());
     BandedFactor(g.grid, 0, -g.c2, g.kappa2).solve(u.data());
-    const double own = g.points.front().read(u.data());
+    const double own = g.stencils.front().read(u.data());
     return own / static_compliance(modes, footprint_weights(modes, b.position, b.width));
 }
 
@@ -302,21 +299,18 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
         reader.push_back(static_cast<int>(reader.size()) < sites.points() ? footprint_stencil(g.grid, r.at.position, r.at.width)
                          : r.nut_force                                    ? nut_force_stencil(g.grid, s)
                                                                           : displacement_stencil(g.grid, r.at.position));
-    g.series = missing_matrix(d.name, s, sites, scene.taps.size(), g.grid.intervals - 1,
-                              [&](int r, int f) { return reader[r].read(shape[f].data()); });
+    g.points.series = missing_matrix(d.name, s, sites, scene.taps.size(), g.grid.intervals - 1,
+                                     [&](int r, int f) { return reader[r].read(shape[f].data()); });
 }
 
-void put_on_body(GridString& g, const String& s) {  // schemes/body/body_step.hpp
-    g.at_body = at_body(s);
-    g.at_body->laws = g.laws;
-    g.at_body->heights = g.heights;
-    g.at_body->loss = g.beta;
-    g.at_body->positions = g.places;
+void put_on_body(GridString& g) {  // schemes/body/body_step.hpp
+    g.on_body = true;
     for (int l = 1; l < g.grid.intervals; ++l) g.mu.weight.push_back(g.mass * (1 - static_cast<double>(l) / g.grid.intervals));
 }
 }  // namespace
 
 GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const Grid& grid, const LossFit& loss) {
+    const double dt = 1 / settings.sample_rate;
     const bool matched = matched_without_loss(descriptor, scene, settings);
     const String s = matched ? with_profile_points(scene.strings.front(), settings) : scene.strings.front();
     GridString g;
@@ -326,24 +320,23 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     g.kappa2 = s.bending_stiffness / s.linear_density;
     g.loss = loss;
     g.initial = initial_shape(s, grid);
+    g.points = points_of(s, dt);
     for (const Barrier& b : s.barriers) {
         std::visit(PlaceBarrier{g, s.length}, b);
         if (const auto* lumped = std::get_if<LumpedBarrier>(&b))
             g.narrowest = g.narrowest == 0 ? lumped->width / grid.dx : std::min(g.narrowest, lumped->width / grid.dx);
     }
-    if (g.points.size() > most_contacts)
-        throw Refusal("the grid has " + std::to_string(g.points.size()) +
+    if (g.stencils.size() > most_contacts)
+        throw Refusal("the grid has " + std::to_string(g.stencils.size()) +
                       " points on the barriers, whose compliances on each other are kept; " + std::to_string(most_contacts) +
                       " at most: a lower rate or option grid makes fewer");
     if (s.barriers.size() == 1)
         if (const auto* b = std::get_if<LumpedBarrier>(&s.barriers.front())) g.compliance = relative_compliance(g, s, *b);
-    g.thread = s.thread;
     if (s.thread) {
-        g.points.push_back(footprint_stencil(grid, s.thread->position, s.thread->width));
-        g.places.push_back(s.thread->position);
+        g.stencils.push_back(footprint_stencil(grid, s.thread->position, s.thread->width));
+        g.points.positions.push_back(s.thread->position);
         g.narrowest = g.narrowest == 0 ? s.thread->width / grid.dx : std::min(g.narrowest, s.thread->width / grid.dx);
     }
-    g.pluck = s.pluck;
     if (s.pluck) g.pluck_stencil = footprint_stencil(grid, s.pluck->position, s.pluck->width);
     for (std::size_t k = 0; k < scene.taps.size(); ++k) {
         const Tap& tap = scene.taps[k];
@@ -354,18 +347,12 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
         g.taps.push_back(t);
     }
     if (matched) put_in_series(g, descriptor, scene, s);
-    if (needed_by(scene).has(Feature::moving_body)) put_on_body(g, s);
+    if (needed_by(scene).has(Feature::moving_body)) put_on_body(g);
     return g;
 }
 
-ObstacleStep GridString::obstacle(std::span<const double> theta, double span) const {
-    ObstacleStep o(laws, heights, thread, theta, span);
-    o.lose(beta);
-    return o;
-}
-
 double GridString::pluck_at(double t) const {
-    return pluck ? force(*pluck, t) : 0;
+    return points.pluck ? force(*points.pluck, t) : 0;
 }
 
 // ---- The band matrix.

@@ -9,17 +9,14 @@
 // three are non-negative: no wavenumber of the grid gains energy.
 // With compliance=matched what the grid takes from the string's compliance stands in series with the points, and profiles are touched at
 // points of their own (option `points`): at its nodes a grid yields more than the true string.
-// Contact loss takes its stiffness at the older level (obstacle_step.hpp): of first order.
 // Left out: contact loss with compliance=matched, measured modes, polarisation; a moving body by the midpoint scheme.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "schemes/body/body_step.hpp"
 #include "schemes/contact/compliance.hpp"
-#include "schemes/contact/contact.hpp"
-#include "schemes/contact/obstacle_step.hpp"
+#include "schemes/driver/string_step.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -95,30 +92,17 @@ struct GridString {
     double mass = 0;            // mu dx, of a node [kg]
     double c2 = 0, kappa2 = 0;  // T/mu [m^2/s^2], EI/mu [m^4/s^2]
     LossFit loss;
-    std::vector<double> initial;   // u_0..u_N at t = 0 [m]
-    std::vector<Stencil> points;   // where obstacles read and push: the contacts in order, then the thread where there is one
-    std::vector<double> places;    // of the points [m]
-    std::vector<ContactLaw> laws;  // one per contact
-    std::vector<double> heights;   // [m], one per contact
-    std::vector<double> beta;      // of Hunt and Crossley [s/m], one per contact
-    std::optional<Thread> thread;
-    std::optional<Pluck> pluck;
+    std::vector<double> initial;    // u_0..u_N at t = 0 [m]
+    StringPoints points;            // theta: the scheme's to fill in
+    std::vector<Stencil> stencils;  // where obstacles read and push, of each point
     Stencil pluck_stencil;
     double compliance = 0;  // of the first contact under a steady force, relative to the scene's string; 0 unless it is lumped
     double narrowest = 0;   // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
     std::vector<GridTap> taps;
-    std::optional<MissingMatrix> series;  // in series with the points, compliance=matched
-    std::optional<StringAtBody> at_body;  // on a moving body: all but the compliances
-    Stencil mu;                           // and the inertia of a node against its acceleration [kg]
+    bool on_body = false;  // that moves
+    Stencil mu;            // and the inertia of a node against its acceleration [kg]
 
-    ObstacleStep obstacle(std::span<const double> theta, double span) const;  // of its contacts and thread
-    double pluck_at(double t) const;                                          // [N]
-    bool by_pluck() const { return series && !series->pluck.empty(); }        // the pluck moves points by way of what is in series
-    // What the points read of u at the time t, with the pluck's part of what is in series.
-    void read(const double* u, double t, double* reading) const {
-        const double F_e = by_pluck() ? pluck_at(t) : 0;
-        for (std::size_t a = 0; a < points.size(); ++a) reading[a] = points[a].read(u) + (F_e != 0 ? series->pluck[a] * F_e : 0);
-    }
+    double pluck_at(double t) const;  // [N]
 };
 // The same relations of a string on its grid; m and m4 as in three_point_string.hpp.
 GridMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);

@@ -8,6 +8,7 @@
 // stable where M >= dt^2 K/4, that is dx^2 >= (p + sqrt(p^2 + 16 q))/2, p = c^2 dt^2 + 4 sigma1 dt, q = kappa^2 dt^2 + 4 sigma2 dt.
 // Options: `grid` (intervals), `over_limit`.
 // What it approximates and leaves out: finite_difference.hpp. Rows, energy and start: three_point_string.hpp.
+#include "schemes/driver/pairings.hpp"
 #include "schemes/grid/three_point_string.hpp"
 #include "schemes/making.hpp"
 
@@ -27,17 +28,17 @@ struct ExplicitUpdate {
 
 constexpr Option options[] = {compliance_option, profile_points_option, grid_option, over_limit_option};
 
+template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     using OfOne = ThreePointString<ExplicitUpdate>;
-    return on_its_support<OfOne>(scene, settings, [&](const Scene& one) {
-        const int rows = steps_per_row(settings);
+    return on_three_point_support<OfOne, Rule>(scene, settings, [&](const Scene& one) {
         const double dt = 1 / settings.sample_rate;
         const String& s = one.strings.front();
         const LossFit loss = fit_losses(s);
         const double limit = explicit_spacing_limit(s, loss, dt), divisor = 1 + loss.sigma0 * dt;
         const double m = loss.sigma1 * dt, m4 = -loss.sigma2 * dt;
         const GridString g = on_grid(descriptor, one, settings, grid_for(descriptor, s, settings, limit), loss);
-        return std::make_unique<OfOne>(g, dt, rows, m, m4, ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
+        return std::make_unique<OfOne>(g, dt, m, m4, ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
                                        std::vector<Fact>{{facts::spacing_over_limit, g.grid.dx / limit}});
     });
 }
@@ -53,9 +54,12 @@ extern const Descriptor finite_difference_explicit = {.name = "finite_difference
                                                       .represents = grid_features | Features(Feature::moving_body),
                                                       .balance = Balance::exact,
                                                       .clock = Clock::stepped,
-                                                      .make = made,
+                                                      .make = made<GradientRule>,
                                                       .options = options,
                                                       .approximates = grid_approximates,
                                                       .limit = {"grid_limit", grid_margin}};
+
+extern const StringRow finite_difference_explicit_row;
+const StringRow finite_difference_explicit_row = {&finite_difference_explicit, {JVARI_RULES(JVARI_MAKER)}};
 
 }  // namespace jvari

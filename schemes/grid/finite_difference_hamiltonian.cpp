@@ -10,6 +10,7 @@
 // frequencies warp as (2/dt) atan(omega dt/2). The grid is by default that of the explicit scheme without loss: its spatial error (beta
 // dx)^2/24 is then at least half the warp's (c beta dt)^2/12. Option `grid` takes any number of intervals. Energy is that of the instant of
 // the row: mass/2 (|v|^2 + <y, K y>) + P(y). The pluck acts with its force at the middle of the step.
+#include "schemes/driver/pairings.hpp"
 #include "schemes/grid/midpoint_string.hpp"
 #include "schemes/making.hpp"
 
@@ -20,13 +21,15 @@ constexpr Option intervals_option{"grid", "",
                                   "intervals of the grid, a whole number from 5 on; absent: those of the explicit scheme without loss"};
 constexpr Option options[] = {compliance_option, profile_points_option, intervals_option};
 
+template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate;
     const String& s = scene.strings.front();
     const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
     const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
-    return std::make_unique<MidpointString<GridSolve>>(on_grid(descriptor, scene, settings, grid, fit_losses(s)), dt, rows);
+    const GridString g = on_grid(descriptor, scene, settings, grid, fit_losses(s));
+    return std::make_unique<Driver<MidpointString<GridSolve>, Rule>>(std::make_unique<MidpointString<GridSolve>>(g, dt), rows);
 }
 }  // namespace
 
@@ -35,8 +38,11 @@ extern const Descriptor finite_difference_hamiltonian = {.name = "finite_differe
                                                          .represents = grid_features,
                                                          .balance = Balance::exact,
                                                          .clock = Clock::stepped,
-                                                         .make = made,
+                                                         .make = made<GradientRule>,
                                                          .options = options,
                                                          .approximates = grid_approximates};
+
+extern const StringRow finite_difference_hamiltonian_row;
+const StringRow finite_difference_hamiltonian_row = {&finite_difference_hamiltonian, {JVARI_RULES(JVARI_MAKER)}};
 
 }  // namespace jvari

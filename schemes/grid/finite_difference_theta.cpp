@@ -10,6 +10,7 @@
 // the default (option `theta` overrides): what is left is of second order times kappa^2 beta^2/c^2, and of fourth order.
 // Stable where 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4; at the default theta, c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4 <= 1.
 // Losses are centred, and do not enter the limit. Options: `grid` (intervals), `over_limit`, `theta`.
+#include "schemes/driver/pairings.hpp"
 #include "schemes/grid/grid_solve.hpp"
 #include "schemes/grid/three_point_string.hpp"
 #include "schemes/making.hpp"
@@ -40,12 +41,12 @@ double spacing_limit(const String& s, double dt, double theta) {  // theta 0: th
     return theta != 0 ? theta_spacing_limit(s, dt, theta) : theta_spacing_limit(s, dt);
 }
 
+template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     using OfOne = ThreePointString<ThetaUpdate>;
-    const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate, asked = number_option(settings, theta_option, 0);
     if (asked != 0 && !(asked > 0.5)) throw Refusal("option theta: found " + std::to_string(asked) + ", expected more than 0.5");
-    return on_its_support<OfOne>(scene, settings, [&](const Scene& one) {
+    return on_three_point_support<OfOne, Rule>(scene, settings, [&](const Scene& one) {
         const String& s = one.strings.front();
         const double limit = spacing_limit(s, dt, asked);
         const Grid grid = grid_for(descriptor, s, settings, limit);
@@ -53,7 +54,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
         const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx), m = 0.5 * (1 - theta) * grid.dx * grid.dx;
         ThetaUpdate update{FivePoint(g, dt, m, 0, 1, FivePoint::Of::increment),
                            GridSolve(grid, 1 + g.loss.sigma0 * dt, m - g.loss.sigma1 * dt, g.loss.sigma2 * dt), grid.intervals};
-        return std::make_unique<OfOne>(g, dt, rows, m, 0.0, std::move(update),
+        return std::make_unique<OfOne>(g, dt, m, 0.0, std::move(update),
                                        std::vector<Fact>{{facts::spacing_over_limit, grid.dx / limit}, {facts::theta, theta}});
     });
 }
@@ -69,9 +70,12 @@ extern const Descriptor finite_difference_theta = {.name = "finite_difference_th
                                                    .represents = grid_features | Features(Feature::moving_body),
                                                    .balance = Balance::exact,
                                                    .clock = Clock::stepped,
-                                                   .make = made,
+                                                   .make = made<GradientRule>,
                                                    .options = options,
                                                    .approximates = grid_approximates,
                                                    .limit = {"grid_limit", grid_margin}};
+
+extern const StringRow finite_difference_theta_row;
+const StringRow finite_difference_theta_row = {&finite_difference_theta, {JVARI_RULES(JVARI_MAKER)}};
 
 }  // namespace jvari

@@ -1,9 +1,8 @@
-// What strings on a grid write and sum, each as a scheme of its own: three_point_string.hpp, midpoint_string.hpp.
+// What strings on a grid write and sum, each by its own steps: three_point_string.hpp, midpoint_string.hpp.
 #pragma once
 
 #include <algorithm>
 
-#include "schemes/contact/obstacle_step.hpp"
 #include "schemes/grid/finite_difference.hpp"
 
 namespace jvari {
@@ -52,13 +51,8 @@ void write_taps(const Block& out, int row, const std::vector<GridTap>& taps, con
     }
 }
 
-// And of what is in series: the forces of the instant, one per point, on displacement and nut force.
-inline void add_series_taps(const Block& out, int row, const GridString& g, const double* force, double F_e) noexcept {
-    for (const GridTap& tap : g.taps) out.tap[tap.column * out.stride + row] += g.series->on_tap(tap.column, force, F_e);
-}
-
 // Facts that every string on a grid reports.
-std::vector<Fact> grid_facts(const GridString&, const ObstacleStep&);
+std::vector<Fact> grid_facts(const GridString&);
 
 // A run has diverged where the kinetic energy passes this many times what the string was given (initial energy and work of the pluck): a
 // stable scheme near its limit may hold a multiple of it in its highest mode, an unstable one passes any multiple.

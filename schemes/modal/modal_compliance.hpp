@@ -17,4 +17,7 @@ inline MissingCompliance modal_compliance(const Descriptor& descriptor, const Sc
     return MissingCompliance(modal_missing_matrix(descriptor, scene, modes, own));
 }
 
+// How much the string's only contact, which is lumped, yields under a steady force, relative to the true string of the same modes.
+double relative_compliance(const Modes&, const String&, std::span<const double> own);
+
 }  // namespace jvari

@@ -19,21 +19,18 @@
 //   left. True energy grows by up to a_j/a_1 - 1 after a start in mode j, by a_j mean(1/a) - 1 where all modes end with equal shares of
 //   what is conserved; energy that goes the other way is lost by the same factor.
 //
-// One lumped barrier without contact loss goes through the kernels of modal_three_point.hpp. Several, profiles by points (option `points`)
-// and contact loss go through modal_three_point_points.hpp: F^n = V'(eta^n) less beta V'(eta^n) (y^{n+1} - y^{n-1})/(2 dt), whose
-// resistance is solved for; or the coupled discrete gradients of obstacle_step.hpp, which conserve the adapted energy as one does. Leaves
-// out: a stability limit of several contacts, compliance=matched with them, polarisation, a body that moves.
+// Both are the string of three_point_modes.hpp by the driver, explicit_rule.hpp or gradient_rule.hpp. Leaves out: a stability limit of
+// several contacts, compliance=matched with them, polarisation, a body that moves.
 #include <cmath>
 #include <limits>
 
 #include "schemes/contact/compliance.hpp"
-#include "schemes/contact/explicit_points.hpp"
-#include "schemes/contact/obstacle_step.hpp"
+#include "schemes/contact/explicit_rule.hpp"
+#include "schemes/contact/gradient_rule.hpp"
+#include "schemes/driver/driver.hpp"
 #include "schemes/making.hpp"
-#include "schemes/modal/modal_three_point.hpp"
-#include "schemes/modal/modal_three_point_points.hpp"
-#include "schemes/modal/modal_two_point_points.hpp"
 #include "schemes/modal/series_force.hpp"
+#include "schemes/modal/three_point_modes.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari {
@@ -41,56 +38,6 @@ namespace jvari {
 extern const Descriptor modal_explicit_penalty;
 
 namespace {
-
-struct TrueEnergyContact {  // what both have in common
-    static constexpr int dofs = 0;
-    ContactLaw law;
-    ForceRange range;
-    double depth = 0, force = 0;
-
-    void begin(double) {}
-    bool solved() const { return true; }
-    void settle(double eta, double) {
-        range.note(force);
-        depth = std::max(depth, eta);
-    }
-    double energy(double eta, double eta_old) const { return 0.5 * (law.potential(eta) + law.potential(eta_old)); }
-    double energy_next(double eta, double eta_old) const { return energy(eta, eta_old); }
-    std::vector<Fact> facts() const {
-        return {
-            {facts::smallest_contact_force, range.least}, {facts::largest_contact_force, range.most}, {facts::deepest_penetration, depth}};
-    }
-};
-
-struct ExplicitContact : TrueEnergyContact {
-    double limit = 0;  // [N/m]
-    double first(double eta, double, double) { return force = 0.5 * law.force(eta); }
-    double next(double eta, double, double, double) { return force = law.force(eta); }
-    std::vector<Fact> facts() const {
-        auto f = TrueEnergyContact::facts();
-        f.push_back({facts::stable_stiffness_limit, limit});
-        return f;
-    }
-};
-
-struct GradientContact : TrueEnergyContact {  // Issanchou et al. 2016, eq 16
-    long steps = 0, iterations = 0;
-    bool converged = true;
-    double take(const ContactSolution& s, double share) {
-        ++steps;
-        iterations += s.iterations;
-        converged = converged && s.converged;
-        return force = share * s.force;
-    }
-    bool solved() const { return converged; }
-    double first(double eta, double s0, double theta) { return take(solve_contact(law, eta, -s0, 0.5 * theta), 0.5); }
-    double next(double, double eta_old, double r0, double theta) { return take(solve_contact(law, eta_old, -r0, theta), 1); }
-    std::vector<Fact> facts() const {
-        auto f = TrueEnergyContact::facts();
-        f.push_back({facts::contact_iterations_mean, steps > 0 ? static_cast<double>(iterations) / static_cast<double>(steps) : 0});
-        return f;
-    }
-};
 
 double stiffness_limit(const ModalString& m) {
     double bb = 0, bc = 0, cc = 0;
@@ -104,79 +51,34 @@ double stiffness_limit(const ModalString& m) {
     return m.mass / (m.dt * m.dt * (bb - kappa_c * bc * bc / (1 + kappa_c * cc)));
 }
 
-struct GradientPoints {  // GradientContact's, of several contacts
-    ObstacleStep start, step;
-
-    GradientPoints() = default;
-    GradientPoints(std::span<const ContactLaw> laws, std::span<const double> heights, const std::optional<Thread>& thread,
-                   std::span<const double> theta, double span, std::span<const double> contact_loss)
-        : step(laws, heights, thread, theta, span) {
-        std::vector<double> half(theta.begin(), theta.end());
-        for (double& x : half) x *= 0.5;
-        std::optional<Thread> taut = thread;  // at rest the outer levels are one: the newer is their mean, which takes s = k_c
-        if (taut) taut->damping = 0.5 * taut->stiffness * span;
-        start = ObstacleStep(laws, heights, taut, half, span);
-        step.lose(contact_loss);
-    }
-    bool first(const double* now, const double* free, double* force) noexcept {
-        const bool solved = start.solve(now, free, force);
-        for (int p = 0; p < step.points(); ++p) force[p] *= 0.5;
-        return solved;
-    }
-    bool next(const double*, const double* older, const double* free, double* force) noexcept { return step.solve(older, free, force); }
-    double potential(const double* reading) const { return step.potential(reading); }
-    double loss(double r_c) const { return step.loss(r_c); }
-    void clear() { step.clear(); }
-    std::vector<Fact> facts() const { return step.facts(); }
-};
-
 using Made = std::unique_ptr<Scheme>;
 
-// gains(string) are those of each mode [m/N], inertia(string, gain) its W.
-template <class Points, class Gains, class Inertia>
-Made made_of_points(const Descriptor& descriptor, const Scene& scene, const Settings& settings, Gains gains, Inertia inertia) {
-    const String s = with_profile_points(scene.strings.front(), settings);
-    Scene bare = scene;
-    bare.strings.front().barriers.clear();
-    ModalString string = modal_string(descriptor, bare, settings);
-    const Modes modes = modes_of(s, settings);
-    ContactsOfString at;
-    for (const Barrier& barrier : s.barriers) {
-        const auto& b = std::get<LumpedBarrier>(barrier);
-        at.laws.push_back({b.stiffness.k, b.exponent});
-        at.heights.push_back(b.height);
-        at.loss.push_back(b.contact_loss);
-        const auto g = footprint_weights(modes, b.position, b.width);
-        at.g.emplace_back(g.begin(), g.end());
-        at.g.back().resize(string.size);
+// The string of the control, and beside its own facts the limit of one contact that is known.
+class Penalised : public ThreePointModes {
+public:
+    Penalised(const Descriptor& descriptor, const Scene& scene, const Settings& settings)
+        : ThreePointModes(descriptor, scene, settings, plain_gain, modal_mass) {
+        if (points().contacts.count() == 1) limit_ = stiffness_limit(modal_string(descriptor, scene, settings));
     }
-    const ModalArray gain = gains(string);
-    ModalArray W = inertia(string, gain);
-    return std::make_unique<ModalThreePointPoints<Points>>(std::move(string), s.thread, std::move(at), gain, std::move(W),
-                                                           [](const auto&... parts) { return Points(parts...); });
-}
+    std::vector<Fact> facts() const {
+        std::vector<Fact> f = ThreePointModes::facts();
+        if (limit_ > 0) f.push_back({facts::stable_stiffness_limit, limit_});
+        return f;
+    }
 
-ModalArray explicit_gain(const ModalString& string) {
-    return ModalArray(string.size, string.dt * string.dt / string.mass);
-}
-
-ModalArray modal_masses(const ModalString& string) {
-    return ModalArray(string.count, string.mass);
-}
+private:
+    double limit_ = 0;  // [N/m]
+};
 
 Made made_explicit(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    if (!touches_once_without_loss(scene.strings.front())) {
-        refuse_matched_points(descriptor, settings);
-        return made_of_points<ExplicitPoints>(descriptor, scene, settings, explicit_gain,
-                                              [](const ModalString& string, const ModalArray&) { return modal_masses(string); });
+    if (choice_option(settings, compliance_option) == "matched") {
+        if (!touches_once_without_loss(scene.strings.front())) refuse_matched_points(descriptor, settings);
+        ModalString string = modal_string(descriptor, scene, settings);
+        const ModalArray gain = ThreePointModes::plain_gain(string);
+        return explicit_in_series(descriptor, scene, std::move(string), gain);
     }
-    ModalString string = modal_string(descriptor, scene, settings);
-    const ModalArray gain = explicit_gain(string), inertia = modal_masses(string);
-    if (choice_option(settings, compliance_option) == "matched") return explicit_in_series(descriptor, scene, std::move(string), gain);
-    ExplicitContact contact;
-    contact.law = string.barrier;
-    contact.limit = stiffness_limit(string);
-    return std::make_unique<ModalThreePoint<ExplicitContact>>(std::move(string), gain, inertia, contact);
+    return std::make_unique<Driver<Penalised, ExplicitRule>>(std::make_unique<Penalised>(descriptor, scene, settings),
+                                                             steps_per_row(settings));
 }
 
 constexpr Option energy_option{
@@ -184,21 +86,16 @@ constexpr Option energy_option{
 constexpr Option explicit_options[] = {compliance_option, profile_points_option};
 constexpr Option impulse_invariant_options[] = {energy_option, profile_points_option};
 
+ModalArray adapted_inertia(const ModalString& string, const ModalArray& gain) {
+    ModalArray inertia(string.count);
+    for (int i = 0; i < string.count; ++i) inertia[i] = string.dt * string.dt / gain[i];
+    return inertia;
+}
+
 Made made_impulse_invariant(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    const bool true_energy = choice_option(settings, energy_option) == "true";
-    const auto inertia_of = [true_energy](const ModalString& string, const ModalArray& gain) {
-        ModalArray inertia = modal_masses(string);
-        for (int i = 0; i < string.count && !true_energy; ++i) inertia[i] = string.dt * string.dt / gain[i];
-        return inertia;
-    };
-    if (!touches_once_without_loss(scene.strings.front()))
-        return made_of_points<GradientPoints>(descriptor, scene, settings, impulse_gain, inertia_of);
-    ModalString string = modal_string(descriptor, scene, settings);
-    GradientContact contact;
-    contact.law = string.barrier;
-    const ModalArray gain = impulse_gain(string);
-    ModalArray inertia = inertia_of(string, gain);
-    return std::make_unique<ModalThreePoint<GradientContact>>(std::move(string), gain, std::move(inertia), contact);
+    const auto inertia = choice_option(settings, energy_option) == "true" ? ThreePointModes::modal_mass : adapted_inertia;
+    return std::make_unique<Driver<ThreePointModes, GradientRule>>(
+        std::make_unique<ThreePointModes>(descriptor, scene, settings, impulse_gain, inertia), steps_per_row(settings));
 }
 
 // ---- Limits that are known.
@@ -213,7 +110,7 @@ double penalty_margin(const Scene& scene, const Settings& settings) {
     const auto* barrier = std::get_if<LumpedBarrier>(&s.barriers.front());
     if (!barrier || barrier->exponent != 1) return nan;
     if (choice_option(settings, compliance_option) == "matched")
-        return series_margin(modal_explicit_penalty, scene, settings, explicit_gain);
+        return series_margin(modal_explicit_penalty, scene, settings, ThreePointModes::plain_gain);
     const double dt = 1 / settings.sample_rate;
     const Modes modes = modes_of(s, modes_for(s, settings));
     const auto g = footprint_weights(modes, barrier->position, barrier->width);

@@ -133,4 +133,10 @@ ModalString modal_string(const Descriptor& descriptor, const Scene& scene, const
     return m;
 }
 
+bool touches_once_without_loss(const String& s) {
+    if (s.barriers.empty()) return true;
+    const auto* lumped = std::get_if<LumpedBarrier>(&s.barriers.front());
+    return s.barriers.size() == 1 && lumped && lumped->contact_loss == 0;
+}
+
 }  // namespace jvari

@@ -53,6 +53,8 @@ struct PluckSteps {
 };
 PluckSteps pluck_steps(const Pluck&, double dt);
 
+bool touches_once_without_loss(const String&);  // one lumped barrier at most: what the kernels of one contact take
+
 // Modes above half the sample rate would alias.
 void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 

@@ -6,7 +6,8 @@
 // Option `compliance` = own (default, the paper's scheme) | matched: what truncation and step take from the string's compliance stands in
 // series with barrier and thread (contact/compliance.hpp), and its part is added to displacement and nut force.
 // `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
-// Profiles, several barriers, contact loss and a moving body: modal_two_point_points.cpp. Leaves out: polarisation.
+// These are the kernels of one contact. Profiles, several barriers, contact loss and a moving body: the same string as two_point_modes.hpp,
+// by the driver. Leaves out: contact loss and a moving body with compliance=matched; polarisation.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -15,12 +16,15 @@
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
+#include "schemes/body/body_modes.hpp"
+#include "schemes/body/instrument.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
+#include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/modal_string.hpp"
-#include "schemes/modal/modal_two_point_points.hpp"
+#include "schemes/modal/two_point_modes.hpp"
 #include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
@@ -239,7 +243,17 @@ template <Law law>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     if (!needed_by(scene).has(Feature::moving_body) && touches_once_without_loss(scene.strings.front()))
         return std::make_unique<ModalTwoPoint>(descriptor, scene, settings, law);
-    return modal_two_point_points(descriptor, scene, settings, law);
+    matched_without_loss(descriptor, scene, settings);
+    return on_its_support<TwoPointModes, GradientRule>(
+        scene, steps_per_row(settings), [&](const Scene& one) { return std::make_unique<TwoPointModes>(descriptor, one, settings, law); },
+        [&] { return TwoPointBody(scene.body->modes, 1 / settings.sample_rate, law); });
+}
+
+template <class Rule>
+std::unique_ptr<Scheme> made_by(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    matched_without_loss(descriptor, scene, settings);
+    return std::make_unique<Driver<TwoPointModes, Rule>>(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point),
+                                                         steps_per_row(settings));
 }
 
 constexpr Features two_point_features = modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
@@ -265,5 +279,10 @@ extern const Descriptor modal_two_point_trapezoidal = {
     .make = made<trapezoidal>,
     .options = two_point_options,
     .approximates = two_point_approximates};
+
+#define JVARI_MAKER_BY(name, Rule, source) made_by<Rule>,
+extern const Descriptor modal_quadratised;
+extern const StringRow modal_two_point_row;
+const StringRow modal_two_point_row = {&modal_two_point, {JVARI_RULES(JVARI_MAKER_BY)}, {{"quadratised", &modal_quadratised}}};
 
 }  // namespace jvari

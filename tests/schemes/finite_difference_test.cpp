@@ -775,7 +775,8 @@ TEST(ContactLossOnAGrid, IsInTheLedgerAndOfItsSize) {
 }
 
 // A string falls on a broad soft obstacle, which takes more than half of its energy in 20 ms.
-TEST(ContactLossOnAGrid, ConvergesToTheExactSolutionAtOrderOne) {
+// Three-point steps take the loss at the level that they are centred on, the midpoint rule at the older one.
+TEST(ContactLossOnAGrid, ConvergesToTheExactSolutionAtOrderTwoInThreePointStepsAndOneInTwo) {
     Scene s = lossless(c3_free());
     s.duration = 0.02;
     s.strings[0].initial = ModeInitial{1, 1.9e-3};
@@ -793,7 +794,9 @@ TEST(ContactLossOnAGrid, ConvergesToTheExactSolutionAtOrderOne) {
             error.push_back(relative_difference(r.trace.column(0), truth.trace.column(0)));
             EXPECT_NEAR(left(r), left(truth), 0.02 / rate) << name;
         }
-        EXPECT_NEAR(std::log2(error[0] / error[1]) / 2, 1, 0.1) << name << " " << error[0] << " " << error[1];
+        const double order = std::log2(error[0] / error[1]) / 2;
+        if (std::string(name) == "finite_difference_hamiltonian") EXPECT_NEAR(order, 1, 0.1) << error[0] << " " << error[1];
+        else EXPECT_NEAR(order, 1.9, 0.3) << name << " " << error[0] << " " << error[1];
     }
 }
 

@@ -7,7 +7,6 @@
 
 #include "scenes/modes.hpp"
 #include "schemes/run.hpp"
-#include "schemes/spatial/spatial_forces.hpp"
 
 namespace jvari {
 
@@ -363,27 +362,6 @@ std::vector<double> orders(const Damping& damping) {
 
 TEST(ModalSpatialNewton, SmoothForcedMotionIsSecondOrderFromItsFirstStep) {
     for (double order : orders(NoDamping{})) EXPECT_NEAR(order, 2, 0.05);
-}
-
-TEST(ModalSpatialNewton, TheStartIsAStepThatIsItsOwnMirrorImage) {  // u- = u+: static forces at level 1, half of them on the string
-    LinearUpdate update;
-    update.gain = 1e-6;
-    update.ports = {{{0.6, 0.9, 0.3}, 0}, {{0.5, 1.0, 0.2}, 0}};
-    update.reads = 2;
-    String s;
-    s.thread = Thread{0, 0, 2e6, 3.0, 1e-3};
-    const ContactLaw law{1e9, 1.5};
-    SpatialForces forces(s, {{law, 3e-3, 0.1}}, update, 1e-5);
-    const double free[] = {1.9e-3, 0.7e-3}, bb = 1.26e-6, bc = 1.26e-6, cc = 1.29e-6;  // dt^2/m g.g
-    std::copy_n(free, 2, forces.free.data());
-    forces.now = {1.8e-3, 0.6e-3};
-    forces.begin();
-    const double F_b = forces.force[0], F_c = forces.force[1];
-    EXPECT_GT(F_b, 0);
-    EXPECT_NEAR(forces.coming[0], free[0] + 0.5 * (bb * F_b + bc * F_c), 1e-18);
-    EXPECT_NEAR(forces.coming[1], free[1] + 0.5 * (bc * F_b + cc * F_c), 1e-18);
-    EXPECT_NEAR(F_b / law.force(3e-3 - forces.coming[0]), 1, 1e-9);
-    EXPECT_NEAR(F_c / (2e6 * (1e-3 - forces.coming[1])), 1, 1e-9);
 }
 
 TEST(ModalSpatialNewton, LossesOfTheStringMakeForcedMotionFirstOrder) {  // the paper's dt^2/m is e^{sigma dt} too much force on a mode

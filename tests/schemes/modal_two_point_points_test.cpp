@@ -220,11 +220,21 @@ TEST(SeveralQuadratisedPoints, ConvergeToTheExactSolutionOfTheSamePoints) {
     }
 }
 
-TEST(SeveralQuadratisedPoints, TakesThemInTheTwoPointFormWithItsOwnComplianceAlone) {
-    const Scene s = over_two_bridges(0.01);
-    EXPECT_THROW(make_scheme(named("modal_quadratised"), s, {44100, 44100, 40, {{"levels", "3"}}}), Refusal);
-    EXPECT_THROW(make_scheme(named("modal_quadratised"), s, {44100, 44100, 40, {{"compliance", "matched"}}}), Refusal);
-    EXPECT_THROW(make_scheme(named("modal_quadratised_three_point"), s, {44100, 44100, 40, {}}), Refusal);
+TEST(SeveralQuadratisedPoints, KeepTheirEnergyInThreeLevelsAndWithMatchedCompliance) {
+    const Scene s = over_two_bridges(0.005), losing = over_two_bridges(0.005, 0.5);
+    constexpr double rate = 8 * 44100;
+    const OptionValues three = {{"levels", "3"}}, matched = {{"compliance", "matched"}};
+    const auto keeps = [&](const Scene& scene, const OptionValues& options) {
+        const jvari::Run r = run(named("modal_quadratised"), scene, {rate, rate, 80, options}, {.energy = true});
+        EXPECT_EQ(r.status.outcome, Outcome::ok);
+        const auto stored = r.trace.energy_column(0), dissipated = r.trace.energy_column(2);
+        for (long n = 1; n < r.trace.rows; ++n) ASSERT_NEAR(stored[n], stored[n - 1] - dissipated[n], 1e-13 * stored[0]) << n;
+        EXPECT_GT(fact(r, "largest_contact_force"), 0);
+    };
+    keeps(s, three);
+    keeps(losing, three);
+    keeps(s, matched);
+    EXPECT_THROW(make_scheme(named("modal_quadratised"), losing, {rate, rate, 80, matched}), Refusal);
 }
 
 // The small version of bench/suites/distributed.toml: the same points in both.

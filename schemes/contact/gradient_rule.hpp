@@ -1,0 +1,37 @@
+// The discrete gradient of each contact's potential over the step, which takes from it exactly what the contact does on the string:
+//
+//     F_a(r_a) = -[V_a(eta_a - r_a) - V_a(eta_a)]/r_a >= 0
+//
+// Two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 30 and 48; three-point: Issanchou et al. 2016, eq 16. One contact has a closed
+// form with exponent 1 (contact.hpp), several that Theta couples take Newton steps (contact_gram.hpp).
+#pragma once
+
+#include "schemes/contact/obstacle_rule.hpp"
+
+namespace jvari {
+
+class GradientRule {
+public:
+    static constexpr bool conserves = true, iterates = true;
+
+    GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
+        : laws_(laws.begin(), laws.end()), gram_(laws, theta) {}
+    int dofs() const { return 0; }
+    void set(std::span<const double> theta) noexcept { gram_.set(theta); }
+    void begin(const double*) {}
+    bool acts(const BeforeStep& at) const {
+        bool touching = false;
+        for (std::size_t a = 0; a < laws_.size(); ++a) touching = touching || at.older[a] > 0 || at.older[a] + at.b[a] > 0;
+        return touching;
+    }
+    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept { return gram_.solve(at.older, at.b, r, force); }
+    GramSolution start(const BeforeStep& at, double* r, double* force) noexcept { return solve(at, r, force); }
+    double potential(int a, double eta) const { return laws_[a].potential(eta); }
+    std::vector<Fact> facts() const { return {{facts::coupled_contact_points, static_cast<double>(gram_.coupled())}}; }
+
+private:
+    std::vector<ContactLaw> laws_;
+    ContactGram gram_;
+};
+
+}  // namespace jvari

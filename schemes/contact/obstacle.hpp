@@ -1,0 +1,247 @@
+// One step of a string's contacts and thread, given what every string has at hand: the reading of each point at the older level, the
+// force-free increment of each reading over the step, and the compliances between the points.
+//
+//     r = free + Theta F;   contacts: by an obstacle rule, of eta = h - reading   (obstacle_rule.hpp)
+//                           thread:   F_c = -k_c (older_c + r_c/2 - h_c) - r_c (damping)/span
+//
+// span is the time between the older and the newer level: dt in two-point schemes (van Walstijn et al. 2016, eqs 44-48), 2 dt in
+// three-point ones, where the thread so sees the mean of the two outer levels and stays stable at any stiffness. The thread is eliminated
+// (eliminated_thread.hpp).
+//
+// Where contacts lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), each pulls by D_a r_a more, D_a = beta_a V_a'(eta_a^n)/span:
+// known before the step, and never negative. Then r = (I + Theta D)^-1 (free + Theta F) is the same equation with other compliances, solved
+// so only while a lossy contact is closed. It takes sum D_a r_a^2.
+//
+// What the string lacks at its points stands in series with them (compliance.hpp): a compliance C, beside it dampers R. It moves by D, and
+// by the rule at midpoints F = P + (D+ - D)/2 C^-1 + R (D+ - D)/span with P = C^-1 D the force of the spring. So with
+// W = (R C/span + 1/2)^-1 and K = C W,
+//     D+ = D + K (F - P),   P+ = P + W (F - P),   points at reading + C P,   r = free - K P + (Theta + K) F,
+// the equation above with Theta + K for Theta. P' C P/2 is stored, and (D+ - D)' R (D+ - D)/span lost.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include "schemes/contact/contact_loss.hpp"
+#include "schemes/contact/eliminated_thread.hpp"
+#include "schemes/contact/obstacle_rule.hpp"
+#include "schemes/contact/residual.hpp"
+
+namespace jvari {
+
+struct ReadingsBeforeStep {  // of each point [m]
+    const double* older;
+    const double* now;   // of the level that the step is centred on: two-point steps have the older one here
+    const double* free;  // increment from the older to the newer level without the points' forces
+};
+
+// How a three-point scheme starts its thread from rest: by its own equation, in which the outer levels are one, or by that of a two-point
+// step from level 0 to level 1.
+enum class ThreadStart { taut, plain };
+
+template <ObstacleRule Rule>
+class Obstacle {
+public:
+    Obstacle() = default;
+    // theta [m/N]: row-major over the points, the contacts first and then the thread where there is one. levels: that a step spans.
+    Obstacle(const Contacts& contacts, const std::optional<Thread>& thread, std::span<const double> theta, double span, int levels)
+        : contacts_(contacts),
+          thread_(thread, contacts.count(), theta, span),
+          rule_(contacts.laws, thread_.between_contacts(theta), levels),
+          loss_(contacts, thread_.between_contacts(theta), span),
+          theta_(theta.begin(), theta.end()),
+          span_(span),
+          levels_(levels) {
+        for (auto* v : {&eta_, &now_, &b_, &r_}) v->assign(contacts.count(), 0.0);
+        alone_ = contacts.count() == 1 && !thread && contacts.loss[0] == 0;
+    }
+
+    // The first half step of a three-point scheme, from rest: half the compliances, half the span, no contact loss.
+    Obstacle halved(ThreadStart how) const {
+        std::vector<double> half = theta_;
+        for (double& x : half) x *= 0.5;
+        Contacts elastic = contacts_;
+        std::fill(elastic.loss.begin(), elastic.loss.end(), 0.0);
+        std::optional<Thread> thread = thread_.law();
+        if (thread && how == ThreadStart::taut) thread->damping = 0.25 * thread->stiffness * span_;  // so that phi = k
+        return {elastic, thread, half, 0.5 * span_, levels_};
+    }
+    void put_in_series(const MissingMatrix& missing, int levels) {  // levels: how many of them a step spans
+        Series z{Residual(missing, span_), {}, {}, {}, {}};
+        std::vector<double> theta = theta_;
+        for (std::size_t i = 0; i < theta.size(); ++i) theta[i] += z.K[i];
+        *this = Obstacle(Contacts(contacts_), std::optional(thread_.law()), theta, span_, levels_);
+        series_levels_ = levels;
+        for (auto* v : {&z.P[0], &z.P[1], &z.older, &z.now, &z.free}) v->assign(z.points, 0.0);
+        series_ = std::move(z);
+    }
+
+    int contacts() const { return contacts_.count(); }
+    int points() const { return contacts() + (thread_.law() ? 1 : 0); }
+    int dofs() const { return rule_.dofs(); }
+    const Rule& rule() const { return rule_; }
+
+    void clear() { tally_ = {}; }
+    void begin(const double* reading) {  // at rest at t = 0
+        for (int a = 0; a < contacts(); ++a) eta_[a] = contacts_.heights[a] - reading[a];
+        rule_.begin(eta_.data());
+        if (series_)
+            for (auto& P : series_->P) std::fill(P.begin(), P.end(), 0.0);
+    }
+    void follow(const Obstacle& first) {  // after `first` made the first half step
+        rule_ = first.rule_;              // with its state, and other compliances
+        rule_.set(loss_.undamped());
+        if (!series_) return;
+        std::fill(series_->P[0].begin(), series_->P[0].end(), 0.0);
+        series_->P[1] = first.series_->P[0];
+    }
+
+    // Forces on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
+    bool solve(const ReadingsBeforeStep& at, double* force) noexcept {
+        return series_ ? solve_in_series(at, force) : solve_points<false>(at, force);
+    }
+    bool start(const ReadingsBeforeStep& at, double* force) noexcept {
+        return series_ ? solve_in_series(at, force) : solve_points<true>(at, force);
+    }
+
+    // At the readings of one level [J]; level: 0 the one that the next step starts from, 1 the one after it (with something in series).
+    double potential(const double* reading, int level = 0) const {
+        const double* P = series_ ? series_->P[level].data() : nullptr;
+        double sum = series_ ? series_->stored(P) : 0;
+        const auto at = [&](int a) { return reading[a] + (series_ ? series_->yield(a, P) : 0); };
+        for (int a = 0; a < contacts(); ++a) sum += rule_.potential(a, contacts_.heights[a] - at(a));
+        return thread_.law() ? sum + thread_.stored(at(contacts())) : sum;
+    }
+    // Of the last step [W]: of the thread, whose reading moved by r_c, of lossy contacts, of what is in series.
+    double loss(double r_c) const {
+        return thread_.lost(series_ ? series_->thread_moved : r_c) + ((series_ ? series_->lost : 0) + loss_.lost()) / span_;
+    }
+    void forces(int level, double* force) const {  // of each point at that level, of what is in series
+        if (series_) std::copy(series_->P[level].begin(), series_->P[level].end(), force);
+    }
+
+    std::vector<Fact> facts() const {
+        std::vector<Fact> f = {{facts::contact_points, static_cast<double>(contacts())},
+                               {facts::smallest_contact_force, tally_.force.least},
+                               {facts::largest_contact_force, tally_.force.most},
+                               {facts::deepest_penetration, tally_.deepest}};
+        if constexpr (Rule::iterates) {
+            f.push_back({facts::contact_iterations_mean,
+                         tally_.solves > 0 ? static_cast<double>(tally_.iterations) / static_cast<double>(tally_.solves) : 0});
+            f.push_back({facts::contact_iterations_most, static_cast<double>(tally_.most_iterations)});
+            f.push_back({facts::contact_residual, tally_.residual});
+        }
+        for (Fact& fact : rule_.facts()) f.push_back(std::move(fact));
+        return f;
+    }
+
+private:
+    // One contact alone, which loses nothing: the rule's closed form.
+    bool solve_alone(const ReadingsBeforeStep& at, double* force) noexcept {
+        const double eta = contacts_.heights[0] - at.older[0], now = contacts_.heights[0] - at.now[0], b = -at.free[0];
+        const BeforeStep before{&eta, &now, &b};
+        double r = 0;
+        if (!rule_.acts(before)) {
+            force[0] = 0;
+            return true;
+        }
+        const GramSolution s = rule_.solve(before, &r, force);
+        tally_.force.note(force[0]);
+        tally_.deepest = std::max(tally_.deepest, eta - r);
+        note(s);
+        return s.converged;
+    }
+
+    template <bool at_start>
+    bool solve_points(const ReadingsBeforeStep& at, double* force) noexcept {
+        if (!at_start && alone_) return solve_alone(at, force);
+        const int n = contacts();
+        double thread = thread_.alone(at.older, at.free);
+        for (int a = 0; a < n; ++a) {
+            eta_[a] = contacts_.heights[a] - at.older[a];
+            now_[a] = contacts_.heights[a] - at.now[a];
+            b_[a] = -at.free[a] - thread_.coupling(a) * thread;
+        }
+        const BeforeStep before{eta_.data(), now_.data(), b_.data()};
+        bool converged = true;
+        const bool damped = loss_.damp(before, b_.data());
+        if (damped || rule_.acts(before)) {
+            if (damped) rule_.set(loss_.damped());
+            GramSolution s;
+            if constexpr (at_start) s = rule_.start(before, r_.data(), force);
+            else s = rule_.solve(before, r_.data(), force);
+            converged = s.converged;
+            if (damped) {
+                loss_.settle(r_.data(), force);
+                rule_.set(loss_.undamped());
+            }
+            for (int a = 0; a < n; ++a) {
+                thread -= thread_.answer(a, force[a]);
+                tally_.force.note(force[a]);
+                tally_.deepest = std::max(tally_.deepest, eta_[a] - r_[a]);
+            }
+            note(s);
+        } else {
+            for (int a = 0; a < n; ++a) force[a] = 0;
+        }
+        if (thread_.law()) force[n] = thread;
+        return converged;
+    }
+
+    void note(const GramSolution& s) noexcept {
+        ++tally_.solves;
+        tally_.iterations += s.iterations;
+        tally_.most_iterations = std::max(tally_.most_iterations, s.iterations);
+        tally_.residual = std::max(tally_.residual, s.residual);
+    }
+
+    bool solve_in_series(const ReadingsBeforeStep& at, double* force) noexcept {
+        Series& z = *series_;
+        const std::size_t n = z.points;
+        std::vector<double>& P = z.P[0];
+        const double* P_now = z.P[series_levels_ - 1].data();
+        for (std::size_t a = 0; a < n; ++a) {
+            z.older[a] = at.older[a] + z.yield(a, P.data());
+            z.now[a] = at.now[a] + z.yield(a, P_now);
+            z.free[a] = at.free[a] - Residual::times(z.K, a, P.data(), n);
+        }
+        const bool converged = solve_points<false>({z.older.data(), z.now.data(), z.free.data()}, force);
+        if (thread_.law()) z.thread_moved = z.free[n - 1] + Residual::times(theta_, n - 1, force, n);
+        for (std::size_t a = 0; a < n; ++a) z.free[a] = force[a] - P[a];
+        z.lost = z.lost_in(z.free.data());
+        for (std::size_t a = 0; a < n; ++a) P[a] += Residual::times(z.W, a, z.free.data(), n);
+        if (series_levels_ == 2) z.P[0].swap(z.P[1]);
+        return converged;
+    }
+
+    struct Tally {  // over the solves since clear()
+        ForceRange force;
+        double deepest = 0, residual = 0;
+        long solves = 0, iterations = 0;
+        int most_iterations = 0;
+    };
+    struct Series : Residual {
+        std::array<std::vector<double>, 2> P;  // at the two levels [N]
+        std::vector<double> older, now, free;  // of the points where they touch [m]
+        double lost = 0;                       // in the last step [J]
+        double thread_moved = 0;               // in it [m]
+    };
+    Contacts contacts_;
+    ThreadAmongContacts thread_;
+    Rule rule_ = Rule({}, {}, 1);
+    ContactLoss loss_;
+    std::vector<double> theta_;  // of all points [m/N]
+    double span_ = 1;
+    int levels_ = 1, series_levels_ = 1;
+    bool alone_ = false;
+    std::optional<Series> series_;
+    std::vector<double> eta_, now_, b_, r_;
+    Tally tally_;
+};
+
+}  // namespace jvari

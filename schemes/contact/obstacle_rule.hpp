@@ -1,0 +1,47 @@
+// What an obstacle rule is: how the contacts' forces over one step are found. A new rule is a class of this kind and a row of the table.
+//
+// Over a step the readings of the contacts move by r = -b + Theta F: without forces by -b, and by the compliances Theta between them
+// (van Walstijn et al. 2016, eq 48; Issanchou et al. 2016, eq 16). A rule says what F is, of the penetrations eta = h - y before the step
+// and of r. What surrounds the contacts is not its affair: thread, contact loss and what stands in series are in Theta and b when it is
+// asked (obstacle.hpp).
+//
+// The invariant: where `conserves`, the work that the contacts do on the string is what their potential loses,
+//
+//     sum_a F_a r_a/levels = P(older) - P(newer),     P = sum_a potential(a, eta_a), levels = 1 in two-point steps, 2 in three-point ones
+//
+// of which the energy balance of every scheme is made (van Walstijn et al. 2016, eqs 30, 49; Issanchou et al. 2016, eqs 20-21).
+#pragma once
+
+#include <concepts>
+#include <span>
+#include <vector>
+
+#include "schemes/contact/contact_gram.hpp"
+#include "schemes/facts.hpp"
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+struct BeforeStep {       // of each contact
+    const double* older;  // eta at the level that the step starts from [m]
+    const double* now;    // at the level that it is centred on: two-point steps have the older one here
+    const double* b;      // minus the increment without contact forces, from the older to the newer level [m]
+};
+
+template <class Rule>
+concept ObstacleRule = requires(Rule rule, const Rule known, const BeforeStep& at, std::span<const double> theta,
+                                std::span<const ContactLaw> laws, double* out, const double* eta) {
+    Rule(laws, theta, 1);                                        // theta: row-major between the contacts [m/N]; levels that a step spans
+    { Rule::conserves } -> std::convertible_to<bool>;            //
+    { Rule::iterates } -> std::convertible_to<bool>;             // whether it tells of iterations
+    { known.dofs() } -> std::same_as<int>;                       // state of its own
+    rule.set(theta);                                             // other compliances, coupled where the first ones were
+    rule.begin(eta);                                             // at rest at t = 0
+    { known.acts(at) } -> std::same_as<bool>;                    // false: no force, and nothing to be solved
+    { rule.solve(at, out, out) } -> std::same_as<GramSolution>;  // r [m], and F on the string [N]. Allocates nothing
+    { rule.start(at, out, out) } -> std::same_as<GramSolution>;  // the first half of a three-point step, from rest: Theta is half as large
+    { known.potential(1, 0.0) } -> std::same_as<double>;         // of a contact at a penetration [J]
+    { known.facts() } -> std::same_as<std::vector<Fact>>;        // beside those of obstacle.hpp
+};
+
+}  // namespace jvari

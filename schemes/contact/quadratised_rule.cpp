@@ -1,0 +1,216 @@
+// Source: Ducceschi, Bilbao, Willemsen & Serafin 2021; the release and its convex form: quadratised_rule.hpp. Newton's method with a
+// derivative line search (Nocedal & Wright 2006, chapter 3).
+#include "schemes/contact/quadratised_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jvari {
+
+namespace {
+constexpr int most_steps = 60;
+constexpr double rounding = 2e-15, force_change = 1e-9;  // as in contact_gram.cpp
+constexpr double no_psi = 1e-150;                        // [sqrt(J)] its square is no number
+}  // namespace
+
+QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws, std::span<const double> theta, int levels,
+                                         Quadratisation variant)
+    : variant_(variant), levels_(levels), c_(levels == 1 ? 0.5 : 1), theta_(theta.begin(), theta.end()), matrix_(theta_) {
+    const std::size_t n = laws.size();
+    for (const ContactLaw& law : laws) laws_.push_back(QuadratisedLaw::make(law, variant, c_));
+    for (auto* v : {&psi_, &next_, &eta_, &free_, &f_, &gamma_, &scale_, &df_, &work_}) v->assign(n, 0.0);
+    set_.assign(n, 0);
+}
+
+void QuadratisedContacts::begin(const double* eta) {
+    for (int a = 0; a < contacts(); ++a) psi_[a] = laws_[a].psi(eta[a]);
+    seen_ = {};
+}
+
+bool QuadratisedContacts::acts(const BeforeStep& at) const {
+    bool any = false;
+    for (int a = 0; a < contacts(); ++a) any = any || at.now[a] > 0 || psi_[a] != 0;
+    return any;
+}
+
+bool QuadratisedContacts::factor() noexcept {
+    const int n = contacts();
+    for (int i = 0; i < many_; ++i) {
+        double* row = matrix_.data() + i * n;
+        for (int j = 0; j <= i; ++j) {
+            const double* other = matrix_.data() + j * n;
+            double sum = scale_[set_[i]] * theta_[set_[i] * n + set_[j]] * scale_[set_[j]] + (i == j);
+            for (int l = 0; l < j; ++l) sum -= row[l] * other[l];
+            row[j] = i == j ? std::sqrt(sum) : sum / other[j];
+        }
+        if (!(row[i] > 0) || !std::isfinite(row[i])) return false;
+    }
+    return true;
+}
+
+void QuadratisedContacts::back(double* x) const noexcept {
+    const int n = contacts();
+    for (int i = 0; i < many_; ++i) {
+        for (int l = 0; l < i; ++l) x[i] -= matrix_[i * n + l] * x[l];
+        x[i] /= matrix_[i * n + i];
+    }
+    for (int i = many_ - 1; i >= 0; --i) {
+        for (int l = i + 1; l < many_; ++l) x[i] -= matrix_[l * n + i] * x[l];
+        x[i] /= matrix_[i * n + i];
+    }
+}
+
+bool QuadratisedContacts::solve_linearly() noexcept {
+    many_ = 0;
+    for (int a = 0; a < contacts(); ++a) {
+        next_[a] = psi_[a];
+        double gamma = 0;
+        if (eta_[a] > 0) gamma = laws_[a].gamma(eta_[a]) * (variant_ == Quadratisation::constrained && psi_[a] < 0 ? -1 : 1);
+        else if (variant_ == Quadratisation::constrained && free_[a] != 0) gamma = psi_[a] / free_[a];
+        gamma_[a] = gamma;
+        scale_[a] = std::sqrt(c_) * gamma;
+        if (gamma != 0) set_[many_++] = a;
+    }
+    if (!factor()) return false;
+    for (int i = 0; i < many_; ++i) work_[i] = std::sqrt(c_) * (2 * psi_[set_[i]] - gamma_[set_[i]] * free_[set_[i]]);
+    back(work_.data());
+    for (int i = 0; i < many_; ++i) {
+        f_[set_[i]] = scale_[set_[i]] * work_[i];
+        next_[set_[i]] = work_[i] / std::sqrt(c_) - psi_[set_[i]];
+    }
+    return true;
+}
+
+double QuadratisedContacts::falls_short(int a) const noexcept {
+    double sum = free_[a];
+    for (int b = 0; b < contacts(); ++b) sum += theta_[a * contacts() + b] * f_[b];
+    const bool stays = gamma_[a] > 0 && f_[a] >= c_ * gamma_[a] * psi_[a];
+    return sum - (stays ? (2 * psi_[a] - f_[a] / (c_ * gamma_[a])) / gamma_[a] : c_ * psi_[a] * psi_[a] / f_[a]);
+}
+
+bool QuadratisedContacts::release() noexcept {
+    const int n = contacts();
+    for (int a = 0; a < n; ++a) {  // a first guess: each contact alone
+        if (psi_[a] < no_psi) psi_[a] = 0;
+        gamma_[a] = eta_[a] > 0 ? laws_[a].gamma(eta_[a]) : 0;
+        next_[a] = 0;
+        f_[a] = gamma_[a] > 0 || psi_[a] > 0
+                    ? std::max(solve_quadratised(laws_[a], eta_[a], psi_[a], free_[a], theta_[a * n + a]).force, 0.0)
+                    : 0;
+        if (psi_[a] > 0) f_[a] = std::max(f_[a], std::numeric_limits<double>::min());
+    }
+    const auto stays = [this](int a) { return gamma_[a] > 0 && f_[a] >= c_ * gamma_[a] * psi_[a]; };
+    const auto merit_slope = [this, n](double t) {  // along f + t df
+        double sum = 0;
+        for (int a = 0; a < n; ++a) f_[a] += t * df_[a];
+        for (int i = 0; i < many_; ++i) sum += df_[set_[i]] * falls_short(set_[i]);
+        for (int a = 0; a < n; ++a) f_[a] -= t * df_[a];
+        return sum;
+    };
+    bool solved = false;
+    int step = 0;
+    for (; step < most_steps && !solved; ++step) {
+        many_ = 0;
+        for (int a = 0; a < n; ++a) {
+            df_[a] = 0;
+            if (psi_[a] > 0 || (gamma_[a] > 0 && (f_[a] > 0 || falls_short(a) < 0))) set_[many_++] = a;
+        }
+        if (many_ == 0) return true;
+        solved = true;
+        for (int i = 0; i < many_; ++i) {
+            const int a = set_[i];
+            scale_[a] = stays(a) ? std::sqrt(c_) * gamma_[a] : f_[a] / (std::sqrt(c_) * psi_[a]);  // (-dr/dF)^-1/2
+            work_[i] = -scale_[a] * falls_short(a);
+        }
+        if (!factor()) return false;
+        back(work_.data());
+        double t = 1;
+        for (int i = 0; i < many_; ++i) {
+            const int a = set_[i];
+            df_[a] = scale_[a] * work_[i];
+            double reach = std::abs(free_[a]) + std::abs(eta_[a]);
+            for (int b = 0; b < n; ++b) reach += std::abs(theta_[a * n + b] * f_[b]);
+            solved = solved && (std::abs(df_[a]) <= force_change * f_[a] || std::abs(falls_short(a)) <= rounding * reach);
+            if (f_[a] + df_[a] <= 0) t = std::min(t, psi_[a] > 0 ? -0.9 * f_[a] / df_[a] : f_[a] > 0 ? -f_[a] / df_[a] : 1.0);
+        }
+        if (!solved) {
+            const double start = merit_slope(0);
+            if (merit_slope(t) > 0.25 * std::abs(start)) {  // past the minimum: bisect for a point where the slope has fallen by half
+                double low = 0, high = t;
+                for (int i = 0; i < 60; ++i) {
+                    t = 0.5 * (low + high);
+                    const double slope = merit_slope(t);
+                    (slope > 0 ? high : low) = t;
+                    if (slope <= 0 && slope >= 0.5 * start) break;
+                }
+                if (low > 0) t = low;
+            }
+        }
+        for (int i = 0; i < many_; ++i) {
+            const int a = set_[i];
+            f_[a] = std::max(f_[a] + t * df_[a], psi_[a] > 0 ? 0.05 * f_[a] : 0.0);
+        }
+    }
+    iterations_ = step;
+    for (int a = 0; a < n; ++a)
+        if (stays(a)) next_[a] = f_[a] / (c_ * gamma_[a]) - psi_[a];
+    return solved;
+}
+
+GramSolution QuadratisedContacts::solve(const BeforeStep& at, double* r, double* force) noexcept {
+    for (int a = 0; a < contacts(); ++a) {
+        eta_[a] = at.now[a];
+        free_[a] = -at.b[a];
+        f_[a] = 0;
+        next_[a] = psi_[a];
+    }
+    iterations_ = 0;
+    bool solved = true;
+    if (contacts() == 1) {  // in closed form
+        const QuadratisedStep s = solve_quadratised(laws_[0], eta_[0], psi_[0], free_[0], theta_[0]);
+        f_[0] = s.force;
+        next_[0] = s.psi;
+    } else {
+        solved = variant_ == Quadratisation::released ? release() : solve_linearly();
+    }
+    end(at, r, force);
+    return {iterations_, 0, solved};
+}
+
+GramSolution QuadratisedContacts::start(const BeforeStep& at, double* r, double* force) noexcept {
+    many_ = 0;
+    for (int a = 0; a < contacts(); ++a) {
+        eta_[a] = at.now[a];
+        f_[a] = 0;
+        next_[a] = psi_[a];
+        gamma_[a] = eta_[a] > 0 ? laws_[a].gamma(eta_[a]) : 0;
+        scale_[a] = std::sqrt(2.0) * gamma_[a];  // of F/2 by 2 Theta
+        if (gamma_[a] > 0) set_[many_++] = a;
+    }
+    if (!factor()) return {0, 0, false};
+    for (int i = 0; i < many_; ++i) work_[i] = psi_[set_[i]] + gamma_[set_[i]] * at.b[set_[i]];
+    back(work_.data());
+    for (int i = 0; i < many_; ++i) {
+        next_[set_[i]] = std::max(work_[i], 0.0);
+        f_[set_[i]] = 2 * gamma_[set_[i]] * next_[set_[i]];
+    }
+    end(at, r, force);
+    return {};
+}
+
+void QuadratisedContacts::end(const BeforeStep& at, double* r, double* force) noexcept {
+    const int n = contacts();
+    for (int a = 0; a < n; ++a) {
+        r[a] = -at.b[a];
+        for (int b = 0; b < n; ++b) r[a] += theta_[a * n + b] * f_[b];
+    }
+    for (int a = 0; a < n; ++a) {
+        force[a] = f_[a];
+        psi_[a] = next_[a];
+        const double newer = laws_[a].psi(at.older[a] - r[a]), now = laws_[a].psi(at.now[a]);
+        seen_.note(f_[a], psi_[a], at.older[a] - r[a], levels_ == 1 ? newer : std::sqrt(0.5 * (newer * newer + now * now)));
+    }
+}
+
+}  // namespace jvari

@@ -1,0 +1,64 @@
+// Contacts by energy quadratisation: each has a psi of its own, psi = sqrt(2V), stepped as a state (quadratised_contact.hpp; Ducceschi,
+// Bilbao, Willemsen & Serafin 2021, of several collisions). With gamma taken at the level that the step is centred on,
+//
+//     psi+ = psi - gamma r,   F = c gamma (psi + psi+),   r = free + Theta F,   c = 1/2 in two-point steps, 1 in three-point ones
+//
+// so the forces are those of one symmetric system (I + G Theta G) x = sqrt(c) (2 psi - gamma free), G = sqrt(c) gamma, F = G x: one linear
+// solve a step in the raw and constrained forms. Where psi+ would turn negative, and wherever psi > 0 out of contact, the released form has
+// psi+ = 0 and F r = c psi^2. Then each r falls with its F,
+//
+//     r = (2 psi - F/(c gamma))/gamma  where F >= c gamma psi,   else  r = c psi^2/F,
+//
+// and the forces are the minimum of a convex function: Newton steps with a line search, F > 0 throughout. Whatever gamma is, F r is
+// c (psi^2 - psi+^2) contact by contact, so the energy is balanced exactly. In three-point steps psi lives at half steps, and from rest
+// F^0 = 2 gamma psi^{1/2}, psi^{1/2} = psi^0 - gamma (y^1 - y^0).
+#pragma once
+
+#include "schemes/contact/obstacle_rule.hpp"
+#include "schemes/contact/quadratised_contact.hpp"
+
+namespace jvari {
+
+class QuadratisedContacts {
+public:
+    QuadratisedContacts(std::span<const ContactLaw>, std::span<const double> theta, int levels, Quadratisation);
+
+    int dofs() const { return static_cast<int>(laws_.size()); }  // psi
+    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
+    void begin(const double* eta);
+    bool acts(const BeforeStep&) const;
+    GramSolution solve(const BeforeStep&, double* r, double* force) noexcept;
+    GramSolution start(const BeforeStep&, double* r, double* force) noexcept;
+    double potential(int a, double) const { return 0.5 * psi_[a] * psi_[a]; }  // of the half step after, in three-point steps
+    std::vector<Fact> facts() const { return seen_.list(); }
+
+private:
+    bool solve_linearly() noexcept;
+    bool release() noexcept;
+    bool factor() noexcept;                    // I + G Theta G over set_, G = scale_
+    void back(double* x) const noexcept;       // solves with it, in place, by position in set_
+    double falls_short(int a) const noexcept;  // free + Theta f, less the r that f belongs to
+    void end(const BeforeStep&, double* r, double* force) noexcept;
+    int contacts() const { return static_cast<int>(laws_.size()); }
+
+    std::vector<QuadratisedLaw> laws_;
+    Quadratisation variant_;
+    int levels_;
+    double c_;
+    std::vector<double> theta_;
+    std::vector<double> psi_, next_;      // [sqrt(J)]
+    std::vector<double> eta_, free_, f_;  // of the step in hand
+    std::vector<double> gamma_, scale_, df_, matrix_, work_;
+    std::vector<int> set_;
+    int many_ = 0, iterations_ = 0;  // of set_; of the step in hand
+    QuadratisedFacts seen_;
+};
+
+template <Quadratisation variant>
+struct QuadratisedRule : QuadratisedContacts {
+    static constexpr bool conserves = true, iterates = variant == Quadratisation::released;
+    QuadratisedRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
+        : QuadratisedContacts(laws, theta, levels, variant) {}
+};
+
+}  // namespace jvari

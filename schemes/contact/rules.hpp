@@ -1,0 +1,12 @@
+// The obstacle rules that every string is paired with, beside the discrete gradient: the columns of the table of pairings
+// (driver/pairings.hpp). A new rule is a file like explicit_rule.hpp and a row here, with its file above.
+#pragma once
+
+#include "schemes/contact/explicit_rule.hpp"
+#include "schemes/contact/gradient_rule.hpp"
+#include "schemes/contact/quadratised_rule.hpp"
+
+// ROW(name, class, source)
+#define JVARI_RULES(ROW)                                                                                                           \
+    ROW(quadratised, QuadratisedRule<Quadratisation::released>, "Ducceschi et al. 2021, psi released in full where it would pull") \
+    ROW(penalty, ExplicitRule, "the contact force known before the step (conditionally stable control)")

@@ -1,0 +1,186 @@
+// A scheme is a string (string_step.hpp), an obstacle rule (contact/obstacle_rule.hpp) and this driver, which has all that is neither:
+// rows, means of the contact forces, the energy ledger, what stands in series and is moved by the pluck, stopping and failing.
+//
+// Instants. Row n is written when the force of step n is known. A contact force is the mean over the interval that ends at the row: of
+// two-point steps the mean of theirs; of three-point steps, whose force F^n stands for n - 1/2 .. n + 1/2, the trapezoidal mean.
+// Energy: stored(n) - stored(n-1) = supplied - dissipated, over the steps after the former row, where the rule conserves. Stored is the
+// string's own (string_step.hpp) and the points' potential at the same instants, P(n) or [P(n) + P(n+1)]/2.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+
+#include "scenes/excitation.hpp"
+#include "schemes/driver/string_step.hpp"
+
+namespace jvari {
+
+// Means of the forces of a string's contacts and of its thread, from row to row.
+class RowForces {
+public:
+    RowForces(const StringPoints& p, int levels, int steps)
+        : contacts_(p.contacts.count()), points_(p.count()), levels_(levels), steps_(steps) {}
+    void clear() noexcept { bridge_ = thread_ = 0; }
+    void count(const double* force) noexcept {
+        bridge_ += bridge(force);
+        thread_ += thread(force);
+    }
+    struct Means {
+        double bridge, thread;
+    };
+    Means take(const double* last, bool at_start) noexcept {  // last: the forces of the step in hand
+        const double half_b = levels_ == 2 ? 0.5 * bridge(last) : 0, half_c = levels_ == 2 ? 0.5 * thread(last) : 0;
+        const Means m = at_start ? Means{} : Means{(bridge_ - half_b) / steps_, (thread_ - half_c) / steps_};
+        bridge_ = half_b;
+        thread_ = half_c;
+        return m;
+    }
+
+private:
+    double bridge(const double* force) const noexcept {
+        double sum = 0;
+        for (int a = 0; a < contacts_; ++a) sum += force[a];
+        return sum;
+    }
+    double thread(const double* force) const noexcept { return points_ > contacts_ ? force[contacts_] : 0; }
+    int contacts_, points_, levels_, steps_;
+    double bridge_ = 0, thread_ = 0;  // since the last row [N]
+};
+
+template <StringStep String, ObstacleRule Rule>
+class Driver final : public Scheme {
+public:
+    static constexpr int levels = String::levels;
+
+    Driver(std::unique_ptr<String> string, int steps_per_row)
+        : string_(std::move(string)), steps_(steps_per_row), means_(points(), levels, steps_per_row) {
+        obstacle_ = {points().contacts, points().thread, points().theta, levels * points().dt, levels};
+        if constexpr (levels == 2) start_ = obstacle_.halved(string_->thread_start());
+        if (points().series) {
+            obstacle_.put_in_series(*points().series, levels);
+            if constexpr (levels == 2) start_.put_in_series(*points().series, 1);
+        }
+        for (auto* v : {&older_, &free_, &now_, &force_}) v->assign(points().count(), 0.0);
+        plucked_in_series_ = points().series && !points().series->pluck.empty();
+        dt_ = points().dt;
+        Driver::reset();
+    }
+
+    void reset() noexcept override {
+        done_ = 0;
+        status_ = {};
+        supplied_ = dissipated_ = 0;
+        means_.clear();
+        obstacle_.clear();
+        string_->reset();
+        if constexpr (levels == 2) {
+            start_.clear();
+            const ReadingsBeforeStep at = with_pluck(string_->readings(), 0, 0, 1);
+            start_.begin(at.older);
+            if (!start_.start(at, force_.data())) status_ = {Outcome::not_converged, 0};
+            string_->start(force_.data(), 0);
+            obstacle_.follow(start_);
+        } else {
+            string_->reading(0, now_.data());
+            obstacle_.begin(now_.data());
+        }
+        if constexpr (requires { string_->expect(0.0); }) string_->expect(stored());
+    }
+
+    Status advance(const Block& out) noexcept override {
+        for (int row = 0; row < out.rows && status_.outcome == Outcome::ok; ++row) {
+            write(out, row);
+            for (int i = 0; i < steps_ && status_.outcome == Outcome::ok; ++i) {
+                step(out.energy != nullptr, i + 1 == steps_);
+                if (out.stopped(i, String::steps_between_looks)) return {};
+            }
+        }
+        return status_;
+    }
+
+    int dofs() const override { return string_->dofs() + obstacle_.dofs(); }
+    std::vector<FreeMode> free_modes() const override { return string_->free_modes(); }
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> f = string_->facts();
+        if (obstacle_.contacts() == 0) return f;
+        for (Fact& fact : obstacle_.facts()) f.push_back(std::move(fact));
+        if (!points().series) return f;
+        f.push_back({facts::series_compliance, points().series->C[0]});
+        f.push_back({facts::compliance_excess, points().series->excess});
+        return f;
+    }
+
+private:
+    const StringPoints& points() const { return string_->points(); }
+
+    void step(bool probed, bool last_of_row) noexcept {
+        string_->approach(last_of_row);
+        const long n = done_ + levels - 1, before = n + 1 - levels;  // the level that the step is centred on, or starts from; its oldest
+        const ReadingsBeforeStep at = with_pluck(string_->readings(), before, n, n + 1);
+        if (!force_.empty() && !obstacle_.solve(at, force_.data())) status_ = {Outcome::not_converged, done_};
+        means_.count(force_.data());
+        const Spent spent = string_->pass(force_.data(), 0, probed);
+        if (probed) {
+            supplied_ += spent.supplied - by_way_of_series(before, n + 1);
+            dissipated_ += spent.dissipated + dt_ * obstacle_.loss(spent.moved);
+        }
+        if (string_->failed() && status_.outcome == Outcome::ok) status_ = {Outcome::diverged, done_};
+        ++done_;
+    }
+
+    // The pluck moves the points by way of what is in series too.
+    double pluck_at(long n) const { return points().pluck ? jvari::force(*points().pluck, static_cast<double>(n) * points().dt) : 0; }
+    ReadingsBeforeStep with_pluck(const ReadingsBeforeStep& at, long older, long now, long newer) noexcept {
+        if (!plucked_in_series_) return at;
+        const double a = pluck_at(older), b = pluck_at(now), c = pluck_at(newer);
+        for (int p = 0; p < points().count(); ++p) {
+            const double yield = points().series->pluck[p];
+            older_[p] = at.older[p] + yield * a;
+            now_[p] = at.now[p] + yield * b;
+            free_[p] = at.free[p] + yield * (c - a);
+        }
+        return {older_.data(), now_.data(), free_.data()};
+    }
+    double by_way_of_series(long older, long newer) const noexcept {  // the work that the forces do there [J]
+        double work = 0;
+        if (!plucked_in_series_) return work;
+        const double change = pluck_at(newer) - pluck_at(older);
+        for (int p = 0; p < points().count(); ++p) work += force_[p] * points().series->pluck[p] * change;
+        return work / levels;
+    }
+
+    double stored() noexcept {
+        double sum = string_->stored();
+        for (int level = 0; level < levels; ++level) {
+            string_->reading(level, now_.data());
+            if (const double F_e = plucked_in_series_ ? pluck_at(done_ + level) : 0; F_e != 0)
+                for (int p = 0; p < points().count(); ++p) now_[p] += points().series->pluck[p] * F_e;
+            sum += obstacle_.potential(now_.data(), level) / levels;
+        }
+        return sum;
+    }
+
+    void write(const Block& out, int row) noexcept {
+        const auto [bridge, thread] = means_.take(force_.data(), done_ == 0);
+        string_->write(out, row, bridge, thread);
+        if (points().series) {
+            obstacle_.forces(0, now_.data());
+            for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += points().series->on_tap(k, now_.data(), pluck_at(done_));
+        }
+        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
+        supplied_ = dissipated_ = 0;
+    }
+
+    std::unique_ptr<String> string_;
+    int steps_;
+    bool plucked_in_series_ = false;
+    double dt_ = 0;
+    RowForces means_;
+    Obstacle<Rule> obstacle_, start_;
+    std::vector<double> older_, free_, now_, force_;
+    long done_ = 0;                         // steps
+    double supplied_ = 0, dissipated_ = 0;  // since the last row [J]
+    Status status_;
+};
+
+}  // namespace jvari

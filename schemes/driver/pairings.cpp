@@ -1,0 +1,71 @@
+#include "schemes/driver/pairings.hpp"
+
+#include <iterator>
+#include <list>
+
+namespace jvari {
+
+#define JVARI_STRING(name) extern const StringRow name;
+#include "schemes/driver/strings.def"
+#undef JVARI_STRING
+
+namespace {
+struct Column {
+    const char *name, *source;
+    bool conserves;
+};
+#define JVARI_ROW(name, Rule, source) {#name, source, Rule::conserves},
+constexpr Column columns[] = {JVARI_RULES(JVARI_ROW)};
+#undef JVARI_ROW
+
+const std::vector<const StringRow*>& rows() {
+#define JVARI_STRING(name) &name,
+    static const std::vector<const StringRow*> all = {
+#include "schemes/driver/strings.def"
+    };
+#undef JVARI_STRING
+    return all;
+}
+
+const Descriptor* known(const StringRow& row, const Column& column) {
+    for (const StringRow::Known& k : row.known)
+        if (k.rule && std::string(k.rule) == column.name) return k.scheme;
+    return nullptr;
+}
+std::string name_of(const StringRow& row, const Column& column) {
+    const Descriptor* scheme = known(row, column);
+    return scheme ? scheme->name : std::string(row.scheme->name) + "_" + column.name;
+}
+}  // namespace
+
+std::vector<Pairing> pairings() {
+    std::vector<Pairing> all;
+    for (const StringRow* row : rows()) {
+        all.push_back({row->scheme->name, "gradient", row->scheme->name});
+        for (const Column& column : columns) all.push_back({row->scheme->name, column.name, name_of(*row, column)});
+    }
+    return all;
+}
+
+const std::vector<Descriptor>& schemes_of_pairings() {
+    static std::list<std::string> names;
+    static const std::vector<Descriptor> all = [] {
+        std::vector<Descriptor> made;
+        for (const StringRow* row : rows())
+            for (std::size_t c = 0; c < std::size(columns); ++c) {
+                if (known(*row, columns[c])) continue;
+                Descriptor d = *row->scheme;
+                d.name = names.emplace_back(name_of(*row, columns[c])).c_str();
+                d.source = columns[c].source;
+                d.represents = d.represents - Feature::moving_body;
+                d.balance = columns[c].conserves ? Balance::exact : Balance::none;
+                d.make = row->makers[c];
+                d.stand_in_rank = 0;
+                made.push_back(d);
+            }
+        return made;
+    }();
+    return all;
+}
+
+}  // namespace jvari

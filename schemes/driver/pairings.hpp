@@ -1,0 +1,37 @@
+// The table of pairings: a row for each string, a column for each obstacle rule, a scheme in each cell. The schemes of the first column,
+// by the discrete gradient, and some others have names that the field knows, and are in schemes.def. All others are made here, named
+// STRING_RULE, and are found by their name alone: no comparison runs them unasked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schemes/contact/rules.hpp"
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+using MakeScheme = std::unique_ptr<Scheme> (*)(const Descriptor&, const Scene&, const Settings&);
+
+#define JVARI_ROW(name, Rule, source) +1
+constexpr int rule_count = 0 JVARI_RULES(JVARI_ROW);
+#undef JVARI_ROW
+
+struct StringRow {
+    const Descriptor* scheme;       // by the discrete gradient
+    MakeScheme makers[rule_count];  // by each other rule: {JVARI_RULES(JVARI_MAKER)} of a template made<Rule>
+    struct Known {
+        const char* rule;
+        const Descriptor* scheme;
+    };
+    Known known[rule_count] = {};  // cells that have a name already
+};
+#define JVARI_MAKER(name, Rule, source) made<Rule>,
+
+struct Pairing {
+    std::string string, rule, scheme;
+};
+std::vector<Pairing> pairings();                       // all cells, row by row, the discrete gradient first
+const std::vector<Descriptor>& schemes_of_pairings();  // those that are made here
+
+}  // namespace jvari

@@ -1,0 +1,70 @@
+// What a string is between contacts: the motion of its step without the forces of its points, what it reads at them, and what they do to
+// it. A new discretisation of the string is a class of this kind and a row of the table.
+//
+//     r_p = free_p + sum_q Theta_pq F_q        p = 0 .. P-1: contacts, then the thread
+//
+// is all that an obstacle has to know of a step (van Walstijn et al. 2016, eqs 44-48; Issanchou et al. 2016, eq 16): readings of the points
+// at the older level, their increments to the newer one without forces, and the compliances Theta. levels = 1: a two-point step, from n to
+// n+1. levels = 2: a three-point step, centred on n, from n-1 to n+1, and the string is stepped one ahead of its row: at row n it holds
+// the levels n-1, n and n+1.
+//
+// The invariant: with `stored` the energy that belongs to the row (below), a step with forces F takes
+//
+//     stored(n) - stored(n-1) = supplied - dissipated + sum_p F_p r_p/levels,   dissipated >= 0
+//
+// to rounding. Of a two-point string `stored` is that of the instant n, of a three-point one that of the half step n + 1/2, which the
+// forces of step n reach; docs/notation.md states this once for all schemes.
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <vector>
+
+#include "schemes/contact/compliance.hpp"
+#include "schemes/contact/obstacle.hpp"
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+struct StringPoints {  // what a string is to whatever solves for its points
+    Contacts contacts;
+    std::optional<Thread> thread;
+    std::vector<double> positions;        // x_p of each point [m]
+    std::vector<double> theta;            // row-major over the points, and then the moving body where there is one: [m/N], with the body
+                                          // [s^2], of the body alone [kg s^2]
+    std::optional<MissingMatrix> series;  // in series with the points, compliance=matched
+    std::optional<Pluck> pluck;           //
+    double mass = 0, length = 0, tension = 0;  // mu L [kg], L [m], T [N]
+    double dt = 0;                             // [s]
+    int count() const { return static_cast<int>(positions.size()); }
+};
+StringPoints points_of(const String&, double dt);  // without positions, contacts and theta
+void add_lumped(StringPoints&, const String&);     // its barriers, which all are lumped, and its thread
+
+struct Spent {                            // of one step
+    double supplied = 0, dissipated = 0;  // by the pluck, and by the string's own losses [J]
+    double moved = 0;                     // r of the last point [m]
+};
+
+template <class S>
+concept StringStep = requires(S string, const S known, const double* force, double* out, const Block& block) {
+    { S::levels } -> std::convertible_to<int>;                 // 1 or 2
+    { S::steps_between_looks } -> std::convertible_to<long>;   // (Block::stopped)
+    { known.points() } -> std::same_as<const StringPoints&>;   //
+    string.reset();                                            // t = 0 at rest; of two levels: the free motion to level 1, pluck included
+    string.approach(true);                                     // the next step without the points' forces; true: the last of its row
+    { known.readings() } -> std::same_as<ReadingsBeforeStep>;  // of that step
+    { string.pass(force, 0.0, true) } -> std::same_as<Spent>;  // ends it by the forces and w'' of a moving body; true: `Spent` is asked for
+    string.reading(0, out);                                    // of the points at the instant of the row; 1: one step later
+    { string.stored() } -> std::same_as<double>;               // [J], without the points' potential
+    { string.failed() } -> std::same_as<bool>;                 // has diverged
+    string.write(block, 0, 0.0, 0.0);                          // a row of taps; the means of the forces of contacts and thread
+    { known.dofs() } -> std::same_as<int>;                     //
+    { known.facts() } -> std::same_as<std::vector<Fact>>;      //
+    { known.free_modes() } -> std::same_as<std::vector<FreeMode>>;  //
+};
+
+// Of three points also: start(force, a), which ends the first half step, and thread_start(). A string that a moving body can carry has
+// inertia(), pluck(), momentum() and, of three points, share(): schemes/body/instrument.hpp.
+
+}  // namespace jvari

@@ -1,0 +1,40 @@
+// The string of three_point_modes.hpp by the discrete gradient: the recursion of modal_spatial_newton (Issanchou et al. 2016, eqs 14-16),
+// whose contacts act by the weights of their footprints instead of at the nodes of a grid. Leaves out: contact loss with
+// compliance=matched; polarisation; a body that moves.
+#include "schemes/driver/driver.hpp"
+#include "schemes/driver/pairings.hpp"
+#include "schemes/making.hpp"
+#include "schemes/modal/three_point_modes.hpp"
+
+namespace jvari {
+
+namespace {
+template <class Rule>
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    matched_without_loss(descriptor, scene, settings);
+    return std::make_unique<Driver<ThreePointModes, Rule>>(
+        std::make_unique<ThreePointModes>(descriptor, scene, settings, ThreePointModes::plain_gain, ThreePointModes::modal_mass),
+        steps_per_row(settings));
+}
+constexpr Option options[] = {compliance_option, profile_points_option};
+constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
+}  // namespace
+
+extern const Descriptor modal_three_point, modal_quadratised_three_point, modal_explicit_penalty;
+const Descriptor modal_three_point = {.name = "modal_three_point",
+                                      .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
+                                      .represents = modal_features | Features(Feature::profile_barrier) |
+                                                    Features(Feature::several_barriers) | Features(Feature::contact_loss),
+                                      .balance = Balance::exact,
+                                      .clock = Clock::stepped,
+                                      .make = made<GradientRule>,
+                                      .options = options,
+                                      .approximates = approximates,
+                                      .stand_in_rank = 0};
+
+extern const StringRow modal_three_point_row;
+const StringRow modal_three_point_row = {&modal_three_point,
+                                         {JVARI_RULES(JVARI_MAKER)},
+                                         {{"quadratised", &modal_quadratised_three_point}, {"penalty", &modal_explicit_penalty}}};
+
+}  // namespace jvari

@@ -1,0 +1,79 @@
+// A string in its modes by two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 38-43, and 49, 51, 52 for its energy. In modes scaled
+// by sqrt(J/xi)
+//
+//     s = u + sum_p g_p F_p,   y <- y + s,   u <- s + sum_p g_p F_p - loss s - c y;   r_p = g_p.s, Theta_pq = g_p.g_q
+//
+// which is one fused pass over the modes for one contact and a thread (kernels/modal_pass.hpp: u' = a s - (u + c y), a = 2 (1 - A)/J). Here
+// J = 1 + A + B, c = 4 A/J, loss = 2 B/J, xi = dt^2/2m, and A, B of eq 33 (exact) or 32. The momentum is q = J u/2 + A y. On a body
+// that moves (schemes/body) its acceleration is one more force.
+#pragma once
+
+#include "schemes/driver/string_step.hpp"
+#include "schemes/modal/kernels/modal_pass.hpp"
+#include "schemes/modal/modal_string.hpp"
+
+namespace jvari {
+
+struct TwoPointCoefficients {  // of one mode (van Walstijn et al. 2016, eqs 32-33)
+    double A, B;
+};
+using TwoPointLaw = TwoPointCoefficients (*)(double omega0, double sigma, double dt);
+TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt);  // eq 33
+
+class TwoPointModes {
+public:
+    static constexpr int levels = 1;
+    static constexpr long steps_between_looks = 64;  // a step of many coupled points takes tens of microseconds
+
+    TwoPointModes(const Descriptor&, const Scene&, const Settings&, TwoPointLaw);
+
+    const StringPoints& points() const { return p_; }
+    void reset() noexcept;
+    void approach(bool) noexcept;
+    ReadingsBeforeStep readings() const { return {older_.data(), older_.data(), free_.data()}; }
+    Spent pass(const double* force, double a, bool probed) noexcept;
+    void reading(int, double* out) const noexcept;
+    double stored() const noexcept;  // (49)
+    bool failed() const { return !(std::abs(sum_) < modal_overflow); }
+    void write(const Block&, int row, double bridge, double thread) const noexcept;
+    int dofs() const { return 2 * count_; }
+    std::vector<Fact> facts() const;
+    std::vector<FreeMode> free_modes() const { return free_modes_; }
+
+    double inertia() const;   // sum mu_i v_i'' without forces [N]
+    double momentum() const;  // sum mu_i v_i' [kg m/s]
+    double pluck() const { return F_e_; }
+
+private:
+    struct TapOfModes {
+        Quantity quantity;
+        ModalArray on_y, on_u;  // on_u: velocity only
+    };
+    struct AtBody {                 // what a body that moves reads of the string, and pushes: empty without one
+        ModalArray mu, on_y, on_u;  // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
+        double theta_e = 0;         // of the pluck [s^2]
+    };
+    void push(const double* force, double a) noexcept;
+
+    int count_ = 0;
+    double dt_ = 0;
+    StringPoints p_;
+    ModalArray A_, c_, loss_, inverse_J_, y0_, u0_, y_, u_, push_;
+    std::vector<ModalArray> g_;  // scaled; the contacts in order, then the thread
+    ModalArray g_e_;             // the pluck's
+    std::vector<double> theta_e_;
+    std::vector<double> pluck_;  // its mean force in the step pluck_first_ + n [N]
+    long pluck_first_ = 0;
+    AtBody body_;
+    ModalArray a_;     // of the fused pass: 2 - loss - c
+    ModalPass fused_;  // of one contact and a thread at most, on no body
+    ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
+    std::vector<TapOfModes> taps_;
+    std::vector<FreeMode> free_modes_;
+    std::vector<double> older_, free_;
+    double compliance_ = 0;  // of one contact under a steady force, relative to the true one of the same modes; else 0
+    long step_ = 0;
+    double F_e_ = 0, sum_ = 0;  // of the step: the pluck's force [N]; the points' readings added up [m]
+};
+
+}  // namespace jvari

@@ -1,0 +1,132 @@
+// What surrounds an obstacle rule: whatever the rule, the thread and the losses, the work on the string is what the potentials lose less
+// what is dissipated, over steps of random points (the invariant of contact/obstacle_rule.hpp).
+#include "schemes/contact/obstacle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "schemes/contact/explicit_rule.hpp"
+#include "schemes/contact/gradient_rule.hpp"
+#include "schemes/contact/quadratised_rule.hpp"
+
+namespace jvari {
+namespace {
+
+constexpr int many = 3;
+constexpr double span = 1e-5;
+
+struct Points {
+    Contacts contacts;
+    std::optional<Thread> thread;
+    std::vector<double> theta;
+    int count() const { return contacts.count() + (thread ? 1 : 0); }
+};
+
+Points points_of(std::mt19937& random, bool thread, double beta) {
+    std::uniform_real_distribution<double> unit(-1, 1);
+    Points p;
+    for (int a = 0; a < many; ++a) p.contacts.add({std::pow(10, 7 + unit(random)), 1 + 0.5 * (a % 2)}, 1e-4 * unit(random), beta);
+    if (thread) p.thread = Thread{0, 0, 1e5, 1.2, 1e-5};
+    const int n = p.count();
+    std::vector<double> g(n * 5);
+    for (double& x : g) x = 1e-4 * unit(random);
+    p.theta.assign(n * n, 0.0);
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b)
+            for (int i = 0; i < 5; ++i) p.theta[a * n + b] += g[a * 5 + i] * g[b * 5 + i];
+    return p;
+}
+
+template <class Rule>
+void balances(int levels, bool threaded, double beta) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    int touched = 0;
+    for (int draw = 0; draw < 200; ++draw) {
+        const Points p = points_of(random, threaded, beta);
+        const int n = p.count();
+        Obstacle<Rule> obstacle(p.contacts, p.thread, p.theta, span, levels);
+        std::vector<double> older(n), now(n), free(n), force(n), newer(n);
+        for (int k = 0; k < n; ++k) {
+            older[k] = 1e-4 * unit(random);
+            free[k] = 1e-4 * unit(random);
+            now[k] = levels == 1 ? older[k] : older[k] + 0.5 * free[k];
+        }
+        obstacle.begin(older.data());
+        const double before = obstacle.potential(older.data());
+        ASSERT_TRUE(obstacle.solve({older.data(), now.data(), free.data()}, force.data()));
+        double work = 0;
+        for (int k = 0; k < n; ++k) {
+            newer[k] = older[k] + free[k];
+            for (int m = 0; m < n; ++m) newer[k] += p.theta[k * n + m] * force[m];
+            const double moved = newer[k] - older[k];
+            // of three-point steps psi has half the weight of the thread's two levels
+            work += force[k] * moved * (levels == 2 && k < many && obstacle.dofs() > 0 ? 0.5 : 1);
+        }
+        double lost = span * obstacle.loss(threaded ? newer.back() - older.back() : 0);
+        if (levels == 2 && obstacle.dofs() > 0) {  // psi's share of the losses likewise
+            const double of_thread = threaded ? p.thread->damping * std::pow(newer.back() - older.back(), 2) / span : 0;
+            lost = of_thread + 0.5 * (lost - of_thread);
+        }
+        const double after = obstacle.potential(newer.data());
+        EXPECT_NEAR(work, before - after - lost, 1e-12 * (before + after + std::abs(work) + lost)) << draw;
+        for (int a = 0; a < many; ++a) touched += force[a] != 0;
+    }
+    EXPECT_GT(touched, 100) << "nothing was tested";
+}
+
+template <class Rule>
+class Conserving : public testing::Test {};
+using Rules = testing::Types<GradientRule, QuadratisedRule<Quadratisation::released>, QuadratisedRule<Quadratisation::constrained>,
+                             QuadratisedRule<Quadratisation::raw>>;
+TYPED_TEST_SUITE(Conserving, Rules, );
+
+TYPED_TEST(Conserving, TheWorkOnTheStringIsWhatThePotentialsLoseLessTheLosses) {
+    for (const int levels : {1, 2})
+        for (const bool threaded : {false, true})
+            for (const double beta : {0.0, 0.5}) balances<TypeParam>(levels, threaded, beta);
+}
+
+TEST(Obstacle, ATautThreadStartsByItsForceAtTheNewerLevel) {  // u- = u+: k (h - (u+ + u-)/2)
+    std::mt19937 random(4);
+    const Points p = points_of(random, true, 0);
+    const int n = p.count();
+    Obstacle<GradientRule> start = Obstacle<GradientRule>(p.contacts, p.thread, p.theta, span, 2).halved(ThreadStart::taut);
+    const std::vector<double> older(n, 2e-4), free(n, -3e-4);
+    std::vector<double> force(n);
+    start.begin(older.data());
+    ASSERT_TRUE(start.start({older.data(), older.data(), free.data()}, force.data()));
+    double newer = older.back() + free.back();
+    for (int m = 0; m < n; ++m) newer += 0.5 * p.theta[(n - 1) * n + m] * force[m];
+    EXPECT_NEAR(force.back(), p.thread->stiffness * (p.thread->height - newer), 1e-9 * std::abs(force.back()));
+    EXPECT_GT(force.front() + force[1] + force[2], 0) << "no contact";
+}
+
+TEST(Obstacle, OneContactInClosedFormIsOneOfSeveral) {  // beside one that is never touched
+    const double theta = 1e-6, apart[] = {theta, 0, 0, theta}, older[] = {-1e-5, 1}, free[] = {2e-5, 0};
+    Contacts one, two;
+    one.add({1e8, 1.5}, 0, 0);
+    two.add(one);
+    two.add({1e8, 1}, 0, 0);
+    const auto force = [&]<class Rule>(Rule*, const Contacts& contacts, std::span<const double> compliances) {
+        Obstacle<Rule> obstacle(contacts, {}, compliances, span, 1);
+        obstacle.begin(older);
+        double F[2] = {};
+        EXPECT_TRUE(obstacle.solve({older, older, free}, F));
+        return F[0];
+    };
+    const auto agree = [&](auto* rule) {
+        const double alone = force(rule, one, std::span(&theta, 1)), among = force(rule, two, apart);
+        EXPECT_GT(alone, 0);
+        EXPECT_NEAR(among, alone, 1e-9 * alone);
+    };
+    agree(static_cast<GradientRule*>(nullptr));
+    agree(static_cast<ExplicitRule*>(nullptr));
+    agree(static_cast<QuadratisedRule<Quadratisation::released>*>(nullptr));
+    agree(static_cast<QuadratisedRule<Quadratisation::raw>*>(nullptr));
+}
+
+}  // namespace
+}  // namespace jvari
