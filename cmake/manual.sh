@@ -47,7 +47,7 @@ _jvari() {
         --scheme | --schemes | --reference) words="$(_jvari_names schemes) $(_jvari_names references)" ;;
         --out | --plugin | --plot | --junit) compopt -o default; return ;;
         --history) compopt -o dirnames; return ;;
-        --wav-format) words="float64 float32 pcm24 pcm16" ;;
+        --wav-format) words="pcm24 pcm16" ;;
         --print) words=slurm ;;
         new) words="INSTRUMENTS" ;;
         run | compare | certify | trim) [ "$COMP_CWORD" = 2 ] && compopt -o default && words=$(_jvari_names scenes) ;;

@@ -25,6 +25,7 @@ offers work-precision jvari suite wo
 offers --within jvari trim x --w
 offers guitar jvari new gu
 offers facts jvari list fa
+offers pcm16 jvari run x --wav-format pcm
 if command -v zsh > /dev/null; then zsh -n "$dir/_jvari"; fi
 if command -v fish > /dev/null; then fish -n "$dir/jvari.fish"; fi
 for verb in $verbs; do
