@@ -14,13 +14,16 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 struct ReportRequest : Common {
-    std::string folder;
+    std::string folder, width;
+    report::Print print;
 };
 
 int report_command(const ReportRequest& r) {
     const Console console(r.json, r.quiet);
+    report::Print print = r.print;
+    if (!r.width.empty()) print.width = report::width_of(r.width);
     Json files = Json::array();
-    for (const std::string& name : report::write_report(r.folder, console)) {
+    for (const std::string& name : report::write_report(r.folder, console, print)) {
         files.push_back((fs::path(r.folder) / name).string());
         console.print("written: " + files.back().get<std::string>());
     }
@@ -33,6 +36,8 @@ Act report_verb(CLI::App& program) {
     const auto r = std::make_shared<ReportRequest>();
     CLI::App* verb = program.add_subcommand("report", "page and pictures, made again from a folder that compare or suite wrote");
     verb->add_option("folder", r->folder, "holds manifest.json and cells.csv, maps.csv or both")->required()->type_name("DIR");
+    verb->add_option("--width", r->width, "of the pictures, as 85mm for a column of a paper")->type_name("WIDTH");
+    verb->add_flag("--pdf", r->print.pdf, "each picture as PDF too, by rsvg-convert");
     verb->footer("Example: jvari report report");
     add_common(*verb, *r);
     return [r] { return report_command(*r); };

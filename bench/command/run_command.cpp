@@ -38,7 +38,7 @@ struct RunRequest : Common {
     bool energy = false;
     std::vector<std::string> set;
     std::vector<std::string> options;
-    std::string out, wav_format, plot;
+    std::string out, wav_format, plot, width;
     bool mono = false;
 };
 
@@ -172,10 +172,12 @@ Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
 
 // Before a long run: that its picture can be drawn.
 std::optional<report::Vega> vega_for(const RunRequest& r) {
+    if (r.plot.empty() && !r.width.empty()) throw store::UsageError("--width goes with --plot FILE");
     if (r.plot.empty()) return std::nullopt;
+    if (!r.width.empty()) report::width_of(r.width);  // refused before the run
     const std::string extension = std::filesystem::path(r.plot).extension();
-    if (extension != ".svg" && extension != ".html")
-        throw store::UsageError("--plot " + r.plot + ": expected a name that ends in .svg or .html");
+    if (extension != ".svg" && extension != ".html" && extension != ".pdf")
+        throw store::UsageError("--plot " + r.plot + ": expected a name that ends in .svg, .pdf or .html");
     store::must_be_writable(r.plot);
     report::Vega vega = report::find_vega();
     if (!vega.missing.empty()) throw store::UsageError("--plot " + r.plot + ": " + vega.missing);
@@ -183,15 +185,22 @@ std::optional<report::Vega> vega_for(const RunRequest& r) {
 }
 
 void draw(const std::string& file, const Descriptor& d, const study::Summary& s, const Scene& scene, const Trace& trace,
-          const report::Vega& vega) {
+          const report::Vega& vega, const std::string& width) {
     const std::string rate = std::isnan(s.rate) ? "continuous time" : fmt::format("{:g} kHz", s.rate / 1000);
     const std::string flags = names_of(study::flags_of(s));
     const std::string subtitle = fmt::format("{}, {}{}", rate, scene.source, flags.empty() ? "" : "; not to be trusted: " + flags);
-    const Json data = report::run_data({fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, trace});
+    Json data = report::run_data({fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, trace});
     if (file.ends_with(".html")) return store::write_fresh(file, report::page_of(data, report::vega_scripts(vega).value_or("")));
+    if (!width.empty()) data["width"] = report::width_of(width) * report::pixels_per_mm;
     const report::Drawn drawn = report::draw(vega, data);
     if (drawn.svgs.empty()) throw store::Unwritable(file + ": " + (drawn.notes.empty() ? "nothing was drawn" : drawn.notes.front()));
-    store::write_fresh(file, drawn.svgs.front().second);
+    const bool pdf = file.ends_with(".pdf");
+    const std::string svg = pdf ? file + ".svg" : file;
+    store::write_fresh(svg, drawn.svgs.front().second);
+    if (!pdf) return;
+    const std::string why = report::write_pdf(svg, file);
+    std::filesystem::remove(svg);
+    if (!why.empty()) throw store::Unwritable(file + ": " + why);
 }
 
 int run_command(const RunRequest& r) {
@@ -240,8 +249,8 @@ int run_command(const RunRequest& r) {
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
     }
     if (vega) {
-        if (drawn > 0) draw(r.plot, d, summary, own, part_of(result.trace, 0, own), *vega);
-        else draw(r.plot, d, summary, own, result.trace, *vega);
+        if (drawn > 0) draw(r.plot, d, summary, own, part_of(result.trace, 0, own), *vega, r.width);
+        else draw(r.plot, d, summary, own, result.trace, *vega, r.width);
         json["plot"] = r.plot;
         text += fmt::format("\n  {:<28}{}", "drawn", r.plot);
     }
@@ -268,6 +277,7 @@ Act run_verb(CLI::App& program) {
         ->transform(hertz);
     verb->add_flag("--energy", r->energy, "probe the energy: three more columns, and the residuals of the balance");
     verb->add_option("--out", r->out, "writes the trace: .csv or .h5; .wav or .flac: what is heard of it")->type_name("FILE");
+    verb->add_option("--width", r->width, "of the picture, as 85mm for a column of a paper")->type_name("WIDTH");
     verb->add_option("--plot", r->plot,
                      "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)")
         ->type_name("FILE");

@@ -1,6 +1,7 @@
 // jvari trim: no more than a scene needs. DIR gets trimmed.toml, needs.csv, path.csv, manifest.json, the report and cells/.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -13,8 +14,10 @@
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
+#include "bench/store/sound.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/trim/trim_record.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari::bench::command {
 
@@ -66,6 +69,31 @@ std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
     return text;
 }
 
+// The whole scene and the trimmed model, to be heard one after the other: sounds.csv, sounds/*.wav. The whole stands as what the other is
+// against.
+void keep_sounds(const fs::path& folder, const trim::Trimmed& t, const trim::Judge& judge) {
+    constexpr double longest = 2;  // [s]
+    std::vector<store::Sound> sounds;
+    for (const trim::Step* step : {&t.full(), &t.last()}) {
+        Scene scene = judge.scene_of(step->model);
+        scene.duration = std::min(t.own_duration, longest);
+        const Run r = run(*step->model.scheme, scene, step->model.settings);
+        const auto tap = std::ranges::find(r.trace.names, judge.tap().name);
+        if (r.status.outcome != Outcome::ok || tap == r.trace.names.end()) return;
+        sounds.push_back(store::sound_of(r.trace.column(static_cast<int>(tap - r.trace.names.begin())), r.trace.tap_rate));
+        if (sounds.back().samples.empty()) return;
+    }
+    const trim::Model& model = t.last().model;
+    const auto named = [&](std::vector<std::string> who, const char* file, const store::Sound& sound, const char* reference) {
+        return store::NamedSound{std::move(who), file, judge.tap().name, name_of(judge.tap().quantity), &sound, reference};
+    };
+    store::write_sounds(folder, {"scheme", "options", "rate", "modes", "what"},
+                        {named({"reference", "", "", "", "the whole scene"}, "whole", sounds[0], ""),
+                         named({model.scheme->name, store::options_text(model.settings.options), store::text_of(model.settings.sample_rate),
+                                std::to_string(model.settings.modes), "the trimmed model"},
+                               "trimmed", sounds[1], "whole")});
+}
+
 int trim_command(const TrimCall& r) {
     must_be_assignments(r.set);
     const Console console(r.json, r.quiet);
@@ -90,6 +118,7 @@ int trim_command(const TrimCall& r) {
             files.push_back((folder / name).string());
         };
         if (t.path.found) write("trimmed.toml", trim::trimmed_toml(t, judge));
+        if (t.path.found) keep_sounds(folder, t, judge);
         write("needs.csv", store::csv(needs));
         write("path.csv", store::csv(path));
         write("manifest.json", manifest + "\n");

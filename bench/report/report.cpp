@@ -103,9 +103,15 @@ Json data_of(const Results& r) {
     for (const auto& [name, table] : r.tables)
         if (!table.columns.empty()) data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
     const auto derived = derived_tables(r);
+    const store::Table cheapest = derived.contains("cheapest") ? derived.at("cheapest") : store::Table{};
+    if (store::Table motion = r.tables.at("motion"); !motion.rows.empty()) {  // references, the answers, each scheme at its highest rate
+        store::Table few{motion.columns, {}};
+        for (std::size_t i = 0; i < motion.rows.size(); ++i)
+            if (place_of(motion, i, cheapest) <= 2) few.rows.push_back(motion.rows[i]);
+        data["tables"]["motion"] = store::csv(few);
+    }
     for (const auto& [name, table] : derived) data["tables"][name] = store::csv(table);
-    data["sounds"] = heard(r, derived.contains("cheapest") ? derived.at("cheapest") : store::Table{}, longest_heard, sounds_limit,
-                           data["left_out"]["sounds"]);
+    data["sounds"] = heard(r, cheapest, longest_heard, sounds_limit, data["left_out"]["sounds"]);
     data["levels"] = kept_levels(r);
     data["pictures"] = Json::array();
     return data;
@@ -170,7 +176,7 @@ std::string fitting_page_of(Json data, const std::string& scripts, std::size_t l
     return page_of(data, scripts);
 }
 
-std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener) {
+std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener, const Print& print) {
     const Results results = read_results(folder);
     store::must_be_writable(folder / "report.html");
     Json data = data_of(results);
@@ -179,11 +185,17 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     std::string scripts;
     if (vega.missing.empty()) {
         scripts = vega_scripts(vega).value_or("");
-        const Drawn drawn = draw(vega, with_figures(data, results));
+        Json drawing = with_figures(data, results);
+        if (print.width > 0) drawing["width"] = print.width * pixels_per_mm;
+        const Drawn drawn = draw(vega, drawing);
         for (const auto& [name, svg] : drawn.svgs) {
             store::write_fresh(folder / name, svg);
             written.push_back(name);
             if (!name.starts_with("figure-")) own.push_back(name);
+            if (!print.pdf || !name.ends_with(".svg")) continue;
+            const std::string pdf = fs::path(name).replace_extension(".pdf").string(), why = write_pdf(folder / name, folder / pdf);
+            if (why.empty()) written.push_back(pdf);
+            else listener.note(pdf + ": " + why);
         }
         for (const std::string& note : drawn.notes) listener.note(note);
     } else {

@@ -136,7 +136,7 @@ Results read_results(const fs::path& folder) {
         throw store::UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
     read_manifest(r);
     r.tables["cells"] = read_cells(folder);
-    for (const char* name : {"dispersion", "convergence", "scaling", "maps", "boundaries", "sounds", "path", "needs"})
+    for (const char* name : {"dispersion", "convergence", "scaling", "maps", "boundaries", "sounds", "motion", "path", "needs"})
         r.tables[name] = read_table(folder / (std::string(name) + ".csv"));
     for (auto& [name, table] : r.tables)
         if (name != "path" && name != "needs" && !table.columns.empty()) name_rows(table, r.name);

@@ -16,13 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 using Json = nlohmann::ordered_json;
 
-template <class Samples>
-std::string text_of(const Samples& samples, std::size_t count) {  // least significant byte first
-    std::string bytes;
-    for (std::size_t n = 0; n < count; ++n)
-        for (const int shift : {0, 8}) bytes += static_cast<char>(samples[n] >> shift & 255);
-    return store::base64(bytes);
-}
+}  // namespace
 
 int place_of(const store::Table& t, std::size_t i, const store::Table& cheapest) {
     if (t.at(i, "scheme") == "reference") return 0;
@@ -39,17 +33,16 @@ int place_of(const store::Table& t, std::size_t i, const store::Table& cheapest)
     const double rate = t.number(i, "rate");
     return !(rate < highest) ? 2 : rate <= lowest ? 3 : 4;
 }
-}  // namespace
 
 Json json_of(const study::Levels& l) {
     return {{"start", l.start},   {"hop", l.hop},   {"row_hz", l.row_hz},
-            {"frames", l.frames}, {"rows", l.rows}, {"level", text_of(l.level, l.level.size())}};
+            {"frames", l.frames}, {"rows", l.rows}, {"level", store::base64(std::vector<std::int16_t>(l.level.begin(), l.level.end()))}};
 }
 
 Json json_of(const store::Sound& s, double longest) {
     return {{"rate", s.rate},
             {"peak", s.peak},
-            {"samples", text_of(s.samples, std::min(s.samples.size(), static_cast<std::size_t>(longest * s.rate)))}};
+            {"samples", store::base64(std::span(s.samples).first(std::min(s.samples.size(), static_cast<std::size_t>(longest * s.rate))))}};
 }
 
 fs::path sound_file(const Results& r, std::size_t row) {

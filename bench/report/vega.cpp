@@ -12,8 +12,10 @@
 
 #include "bench/report/page.hpp"
 #include "bench/report/page_text.hpp"
+#include "bench/store/records.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/program.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::report {
 
@@ -90,7 +92,7 @@ Drawn draw(const Vega& v, const Json& data) {
         return static_cast<bool>(std::ofstream(path, std::ios::binary) << text);
     };
     const std::string program = "const page = JSON.parse(require(\"fs\").readFileSync(\"page.json\", \"utf8\"));\n" + shared_program() +
-                                page_text("figures.js") + page_text("draw.js") + "draw_all();\n";
+                                page_text("figures.js") + page_text("plot.js") + page_text("draw.js") + "draw_all();\n";
     if (scratch.path.empty() || !write(file("draw.js"), program) ||
         !write(file("page.json"), data.dump(-1, ' ', false, Json::error_handler_t::replace))) {
         drawn.notes.push_back("no picture: cannot write to " + temporary().string());
@@ -110,6 +112,25 @@ Drawn draw(const Vega& v, const Json& data) {
     for (const std::string name : told.at("drawn")) drawn.svgs.emplace_back(name, whole(file(name.c_str())).value_or(""));
     for (const Json& one : told.at("failed")) drawn.notes.push_back(one.at(0).get<std::string>() + ": " + one.at(1).get<std::string>());
     return drawn;
+}
+
+double width_of(const std::string& text) {
+    const auto unit = text.find_first_not_of("0123456789.");
+    const double x = store::number_of(text.substr(0, unit)), mm = unit == text.npos           ? x
+                                                                  : text.substr(unit) == "mm" ? x
+                                                                  : text.substr(unit) == "cm" ? 10 * x
+                                                                  : text.substr(unit) == "in" ? 25.4 * x
+                                                                                              : store::nan;
+    if (!(mm >= 40 && mm <= 1000))
+        throw store::UsageError("--width " + text + ": expected a width from 40mm to 1000mm, as 85mm, 8.5cm or 3.3in");
+    return mm;
+}
+
+std::string write_pdf(const fs::path& svg, const fs::path& pdf) {
+    const store::Said said =
+        store::run_program({"rsvg-convert", "--format=pdf", "--output=" + pdf.string(), svg.string()}, store::Errors::with_the_rest);
+    if (said.code == 127) return "no PDF: rsvg-convert is missing (Debian: apt-get install librsvg2-bin)";
+    return said.code == 0 ? "" : "no PDF: rsvg-convert failed: " + said.text.substr(0, 200);
 }
 
 }  // namespace jvari::bench::report

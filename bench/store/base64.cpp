@@ -21,6 +21,15 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
+std::string base64(std::span<const std::int16_t> samples) {
+    std::string bytes;
+    for (const std::int16_t v : samples) {
+        bytes += static_cast<char>(v & 255);
+        bytes += static_cast<char>(v >> 8 & 255);
+    }
+    return base64(std::string_view(bytes));
+}
+
 std::string bytes_of_base64(std::string_view text) {
     std::array<int, 256> value;
     value.fill(-1);

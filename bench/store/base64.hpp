@@ -1,12 +1,15 @@
 // Base64 (RFC 4648, section 4): bytes as text, in a record and in a page.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace jvari::bench::store {
 
 std::string base64(std::string_view bytes);
-std::string bytes_of_base64(std::string_view text);  // throws std::runtime_error where the text is none
+std::string base64(std::span<const std::int16_t> samples);  // least significant byte first, as in a .wav
+std::string bytes_of_base64(std::string_view text);         // throws std::runtime_error where the text is none
 
 }  // namespace jvari::bench::store

@@ -3,6 +3,7 @@
 #include "bench/suite/dispersion_facet.hpp"
 #include "bench/suite/ensemble_facet.hpp"
 #include "bench/suite/figure_rows.hpp"
+#include "bench/suite/motion_facet.hpp"
 #include "bench/suite/sound_facet.hpp"
 
 namespace jvari::bench::suite {
@@ -13,6 +14,8 @@ std::span<const Facet> facets() {
         {measured::cost, "by the clock; with errors alone: no speed without an error"},
         {measured::spectrogram, "of the tap"},
         {"sound", "of cell and reference, to be heard", sound_rows, write_sound_rows},
+        {"motion", "of the string, frame by frame, beside its reference's: what the page's moving string is drawn of", motion_rows,
+         write_motion},
         {"dispersion", "pitch and decay of each mode", dispersion_rows},
         {measured::ensemble, "is the cell statistically its reference?", ensemble_rows},
         {"trace", "every row of a tap in windows", trace_rows, nullptr, trace_key},

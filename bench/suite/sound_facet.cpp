@@ -15,15 +15,6 @@
 namespace jvari::bench::suite {
 
 namespace {
-std::string text_of_samples(const store::Sound& s) {  // least significant byte first, as in a .wav
-    std::string bytes;
-    for (const std::int16_t v : s.samples) {
-        bytes += static_cast<char>(v & 255);
-        bytes += static_cast<char>(v >> 8 & 255);
-    }
-    return store::base64(bytes);
-}
-
 std::vector<std::int16_t> samples_of(const std::string& text) {
     const std::string bytes = store::bytes_of_base64(text);
     std::vector<std::int16_t> samples;
@@ -42,7 +33,7 @@ store::Table sound_rows(const MeasuredCell& c) {
     if (own.samples.empty()) return t;
     const store::Sound reference = c.reference ? store::sound_of(c.reference->column(tap), c.reference->tap_rate) : store::Sound{};
     t.rows.push_back({c.scene.taps.at(tap).name, name_of(c.scene.taps.at(tap).quantity), store::text_of(own.rate), store::text_of(own.peak),
-                      text_of_samples(own), store::text_of(reference.peak), text_of_samples(reference)});
+                      store::base64(own.samples), store::text_of(reference.peak), store::base64(reference.samples)});
     return t;
 }
 

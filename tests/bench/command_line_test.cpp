@@ -645,7 +645,7 @@ TEST(Plot, DrawsTheRunOnOnePicture) {
     const std::string run = "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --plot ";
     const Outcome wrong = jvari(scratch, run + (scratch / "a.png"));
     EXPECT_EQ(wrong.code, 2);
-    EXPECT_NE(wrong.err.find(".svg or .html"), std::string::npos) << wrong.err;
+    EXPECT_NE(wrong.err.find(".svg, .pdf or .html"), std::string::npos) << wrong.err;
     EXPECT_EQ(jvari(scratch, run + (scratch / "a.svg"), "JVARI_NODE_MODULES=/nowhere").code, 2);  // said before the run
     EXPECT_EQ(scratch.files(), 0);
     if (!bench::report::find_vega().missing.empty()) GTEST_SKIP() << bench::report::find_vega().missing;

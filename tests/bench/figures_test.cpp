@@ -1,12 +1,15 @@
 // Figures of a suite: what the file may say, the rows that facets make, and the pictures that Vega-Lite makes of them.
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "bench/report/vega.hpp"
 #include "bench/sound/radiation.hpp"
+#include "bench/store/base64.hpp"
 #include "bench/study/columns.hpp"
 #include "bench/study/run.hpp"
 #include "bench/suite/figure_rows.hpp"
+#include "bench/suite/motion_facet.hpp"
 #include "bench/suite/suite_plan.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
@@ -250,6 +253,36 @@ TEST(FigureRows, ACellWithAnotherWindowIsAnotherCell) {
     other.replace(other.find("[0.1, 0.11]"), 11, "[0.1, 0.12]");
     EXPECT_NE(plan_of(bench::suite::parse_suite(one_mode, "a"), bench::compare::Catalogue(), {}).jobs[0].id,
               plan_of(bench::suite::parse_suite(other, "a"), bench::compare::Catalogue(), {}).jobs[0].id);
+}
+
+TEST(FigureRows, OfAMotionAreTheStringsShapeFrameByFrame) {
+    const OneMode m;
+    const bench::compare::Catalogue catalogue;
+    Settings settings;
+    settings.sample_rate = settings.tap_rate = 44100;
+    settings.modes = 1;
+    const bench::suite::CellSet set;
+    const bench::store::Table t =
+        bench::suite::motion_rows({m.scene, catalogue.find("modal_two_point"), settings, Trace(), nullptr, 0, set});
+    ASSERT_EQ(t.rows.size(), 1u);
+    const auto numbers = [](const std::string& text) {
+        std::istringstream in(text);
+        return std::vector<double>(std::istream_iterator<double>(in), {});
+    };
+    const std::vector<double> x = numbers(t.at(0, "positions")), scale = numbers(t.at(0, "scales"));
+    const std::string bytes = bench::store::bytes_of_base64(t.at(0, "shape"));
+    ASSERT_EQ(x.size(), 48u);
+    const std::size_t frames = bytes.size() / 2 / x.size();
+    EXPECT_NEAR(static_cast<double>(frames), 120, 3);
+    const double step = t.number(0, "step_s");
+    for (std::size_t k = 0; k < frames; ++k)
+        for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+            const auto low = static_cast<unsigned char>(bytes[2 * (k * x.size() + i)]),
+                       high = static_cast<unsigned char>(bytes[2 * (k * x.size() + i) + 1]);
+            const double y = static_cast<std::int16_t>(low | high << 8) * scale[i] / 32767;
+            EXPECT_NEAR(y, m.y(x[i], static_cast<double>(k) * step), 1e-3 * m.amplitude) << k << " " << i;
+        }
+    EXPECT_EQ(t.at(0, "reference_shape"), "");
 }
 
 // ---- The pictures

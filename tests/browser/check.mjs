@@ -74,7 +74,7 @@ const in_page = {
     drawn: `(() => {${helpers} return [...document.querySelectorAll(".chart")].map(c => ({name: c.getAttribute("aria-label"), marks: marks(c)})); })()`,
     menus: `(async () => {${helpers}
         const dead = [];
-        for (const select of document.querySelectorAll(".menus select")) {
+        for (const select of document.querySelectorAll(".menus[data-chart] select")) {
             const chart = document.getElementById(select.closest(".menus").dataset.chart), before = picture(chart);
             select.selectedIndex = [...select.options].findLastIndex(option => !option.disabled);
             await select.onchange();
@@ -83,7 +83,7 @@ const in_page = {
             await select.onchange();
             if (picture(chart) !== before) dead.push(select.closest("label").textContent.slice(0, 30) + " does not go back");
         }
-        return {menus: document.querySelectorAll(".menus select").length, dead};
+        return {menus: document.querySelectorAll(".menus[data-chart] select").length, dead};
     })()`,
     // The player: it sounds, another key is heard in the middle of the sound and at once, nothing but the scene's own sounds is offered.
     sound: `(async () => {
@@ -109,9 +109,48 @@ const in_page = {
         const column = () => { const k = [...table.querySelectorAll("th")].indexOf(heading("rate")); return [...table.querySelectorAll("tbody tr")].map(tr => Number(tr.cells[k].textContent)); };
         return {button: document.activeElement === heading("rate").querySelector("button"), sort: heading("rate").getAttribute("aria-sort"), column: column()};
     })()`,
+    // The string moves: what is drawn differs from frame to frame, the reference and the scheme are two lines, and the picture can be held.
+    motion: `(async () => {
+        const section = document.getElementById("motion"), lines = () => [...section.querySelectorAll("path[fill=none]")].map(p => p.getAttribute("d")).join(), wait = ms => new Promise(resolve => setTimeout(resolve, ms));
+        const button = section.querySelector("button"), first = lines();
+        for (let k = 0; k < 100 && lines() === first; ++k) await wait(50);
+        const moves = lines() !== first;
+        button.click();
+        await wait(50);
+        const held = lines();
+        await wait(400);
+        const still = lines() === held;
+        button.click();
+        return {moves, still, lines: section.querySelectorAll("path[fill=none][stroke-dasharray]").length, dashed: section.querySelectorAll("path[stroke-dasharray='6 4']").length, text: section.textContent};
+    })()`,
+    // The first chart's axes after each zoom button, and after the wheel with Ctrl.
+    zoom: `(async () => {
+        const chart = document.querySelector("#work-precision .chart"), buttons = [...document.querySelectorAll("#work-precision .zoom button")];
+        const ticks = () => [...chart.querySelectorAll(".role-axis-label text")].map(t => t.textContent + t.getAttribute("transform")).sort().join("|");
+        const changed = async (act, wanted) => {  // what the axes say then
+            const before = ticks();
+            act();
+            for (let k = 0; k < 60 && (wanted === undefined ? ticks() === before : ticks() !== wanted); ++k) await new Promise(resolve => setTimeout(resolve, 50));
+            return ticks();
+        };
+        const seen = [ticks()];
+        for (const [k, button] of buttons.entries()) seen.push(await changed(() => button.click(), k === 2 ? seen[0] : undefined));
+        const plot = chart.querySelector("svg"), at = plot.getBoundingClientRect();
+        const wheel = await changed(() => plot.dispatchEvent(new WheelEvent("wheel", {deltaY: -240, ctrlKey: true, bubbles: true, cancelable: true, clientX: at.left + 300, clientY: at.top + 150})));
+        await changed(() => buttons.at(-1).click(), seen[0]);
+        return {buttons: buttons.length, zoomed: seen[1] !== seen[0], out: seen[2] !== seen[1], whole: seen[3] === seen[0], wheel: wheel !== seen[0], back: ticks() === seen[0], named: document.querySelectorAll("#work-precision .zoom button[aria-label]").length};
+    })()`,
     width: "document.documentElement.scrollWidth",
     // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that failed, and whether the error is one that the scene has.
     scenes: `(async () => {${helpers}
+        // Parts of the page that show another scene than the menu says.
+        const behind = name => name === null ? [] : [
+            ...[...document.querySelectorAll(".chart")].filter(c => c.dataset.scene !== name && !c.closest("section, details").textContent.includes("No runs of " + name)).map(c => c.getAttribute("aria-label") + " shows " + c.dataset.scene),
+            ...(document.querySelector("h1").textContent === report.verdicts.find(v => v.scene === name)?.finding ? [] : ["the title"]),
+            ...([...document.querySelectorAll("#verdict .card strong")].map(e => e.textContent).join() === report.verdicts.find(v => v.scene === name)?.answers.map(a => spoken(a.scheme)).join() ? [] : ["the answers"]),
+            ...(typeof player === "undefined" || !player.sounds.some(s => s.problem === name) || player.shown.every(s => s.problem === name) ? [] : ["the player"]),
+            ...(!drawn_sounds().some(s => s.problem === name) || [...document.querySelectorAll("#sounds .menus select option")].every(o => !o.value || !drawn_sounds().some(s => s.problem !== name && spoken(s.name) + ", " + s.detail === o.value) || drawn_sounds().some(s => s.problem === name && spoken(s.name) + ", " + s.detail === o.value)) ? [] : ["the menu of traces"]),
+            ...(document.getElementById("motion") && !document.getElementById("motion").hidden && !motions().some(m => m.problem === name) ? ["the moving string"] : [])];
         const select = document.getElementById("scene"), told = [], every = document.querySelector("#work-precision .every");
         if (every) { every.checked = true; await every.onchange(); }
         for (const name of select ? [...select.options].map(o => o.value) : [null]) {
@@ -131,6 +170,7 @@ const in_page = {
                        failed: rows.filter(c => !["ok", "refused"].includes(c.status) && cost(c) > 0).length,
                        points: chart.querySelectorAll(".mark-symbol.role-mark path[opacity='1']").length,
                        drawable: rows.filter(c => c.status === "ok" && error_of(c, error) > 0 && cost(c) > 0).length,
+                       behind: behind(name),
                        title: document.querySelector("h1").textContent, verdict: document.querySelectorAll("#verdict .card").length,
                        heard: typeof player === "undefined" || player.shown.every(s => name === null || s.problem === name || !player.sounds.some(o => o.problem === name))});
         }
@@ -353,6 +393,7 @@ async function read_in(browser, name) {  // what must hold however the page is l
         expect(told.empty.length === 0, `${name}, ${told.name}: every chart is drawn: ${told.empty.join("; ")}`);
         expect(told.crosses === told.failed, `${name}, ${told.name}: ${told.crosses} crosses, ${told.failed} runs failed`);
         expect(told.points >= told.drawable && told.drawable > 0, `${name}, ${told.name}: ${told.points} points for ${told.drawable} runs that have the error`);
+        expect(told.behind.length === 0, `${name}, ${told.name}: no part of the page shows another scene: ${told.behind.join("; ")}`);
         expect(told.verdict > 0 && told.title !== "", `${name}, ${told.name}: there is an answer, and a title`);
         expect(told.heard, `${name}, ${told.name}: the player has the scene's sounds alone`);
     }
@@ -393,6 +434,12 @@ async function check(browser, name, file, charts) {
     const names = await browser.evaluate(in_page.names);
     expect(names.legend.length >= (name === "made-up" ? 1 : 2) && names.legend.length <= 8 && names.samples === names.legend.length && names.idle.length === 0, `the legend has at most 8 names, all drawn: ${JSON.stringify(names)}`);
     expect(names.labels > 0 && names.overlaps.length === 0, `names beside the lines do not overlap: ${JSON.stringify(names)}`);
+    if (name === "demo") {
+        const motion = await browser.evaluate(in_page.motion);
+        expect(motion.moves && motion.still && motion.dashed >= 1 && motion.text.includes("slowed"), `the string moves and can be held: ${JSON.stringify(motion)}`);
+    }
+    const zoom = await browser.evaluate(in_page.zoom);
+    expect(zoom.buttons === 3 && zoom.named === 3 && zoom.zoomed && zoom.out && zoom.whole && zoom.wheel && zoom.back, `the first chart zooms by button and by wheel, and back: ${JSON.stringify(zoom)}`);
     await read_in(browser, "light, 1400 px");
     const lengths = await browser.evaluate(in_page.menu_lengths);
     for (const label of ["error", "cost"]) expect(lengths.some(([text, length]) => text === label && length <= 12), `a menu of its own, and short, for ${label}: ${lengths.join("; ")}`);

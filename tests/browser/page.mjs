@@ -8,7 +8,7 @@ import {join} from "node:path";
 
 const [program, results, sources, modules] = process.argv.slice(2), only = process.argv[6];
 const scratch = mkdtempSync(join(tmpdir(), "jvari-page-"));
-const files = ["data", "looks", "work_precision", "along", "maps", "sound_charts", "run", "verdict", "figures"].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
+const files = ["data", "looks", "work_precision", "along", "maps", "sound_charts", "run", "verdict", "figures", "plot"].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
 const css = readFileSync(join(sources, "page.css"), "utf8");
 let folders = 0, failures = 0;
 
@@ -219,6 +219,14 @@ test("orders are those of the file where it has them, else of the cells", () => 
     assert.ok(!s.table.columns.includes("series"));
     assert.equal(s.table.rows.length, 4);
 });
+test("no order stands where its interval is wider than the order, or where there is none", () => {
+    const text = on({tables: {}})("order_text");
+    assert.equal(text(0.84, 2.9), "");
+    assert.equal(text(1, Infinity), "");
+    assert.equal(text(1, NaN), "");
+    assert.equal(text(1.99, 0.05), "1.99 \u00b1 0.05");
+    assert.equal(text(2, 1), "2.00 \u00b1 1");
+});
 test("errors below their noise floor have no order", () => {
     const s = section(on(report(folder_of(["manifest.json", "cells.csv"]))), "convergence"), at = name => s.table.columns.indexOf(name);
     const rows = s.table.rows.filter(row => row[at("scene")] === problems[0] && row[at("scheme")] === "one" && row[at("error")] === "error_l2_50ms");
@@ -410,6 +418,20 @@ test("each figure of the library names a table that suites write", () => {
             for (const part of layers(spec)) if (part.data?.name) assert.ok(++count && tables.includes(part.data.name), `${file}: ${name}`);
     }
     assert.ok(count >= 30);
+});
+
+test("plot.py draws the lines of the chart from the rows of the table", () => {
+    const of = sample(), text = of("plot_program()"), [, lines] = text.match(/# scene: [^]*?\n(SCENES = {[^]*?\n})\n/);
+    assert.match(lines, /\["a","#[0-9a-f]{6}","[a-zA-Z^<>]",\[1,0\],\[0,1\]\]/);
+    assert.ok(!lines.includes('"c"'));
+    assert.equal(spawnSync("python3", ["-c", "import ast, sys; ast.parse(sys.stdin.read())"], {input: text}).status, 0);
+});
+test("a moving string has the frames, places and forces of its table", () => {
+    const shape = [[0, 100], [50, -32767]].flat(), csv = "problem,series,scheme,options,rate,from_s,step_s,positions,scales,shape,force_scale,force,obstacle\n" +
+        `s,reference,reference,,,0,0.001,0 1,1 0.002,${base64(shape)},1.9,${base64([0, 32767])},0.1:-0.01 0.2:0\n`;
+    const [m] = new Function("page", `"use strict"; ${files.join("\n")}; ${readFileSync(join(sources, "motion.js"), "utf8")}; return motions();`)({tables: {motion: csv}, schemes: []});
+    assert.ok(m.reference);
+    assert.deepEqual([m.x, m.frames.length, m.frames[1][1], m.force[1], m.obstacle], [[0, 1], 2, -0.002, 1.9, [[0.1, -0.01], [0.2, 0]]]);
 });
 
 // ---- And Vega draws them

@@ -2,9 +2,9 @@
 // elements (scaling.csv).
 
 // ---- Error against rate
+// No order where its interval is wider than the order itself, or where two rates leave no interval: then nothing is known of it.
 function order_text(order, half_width) {
-  if (!Number.isFinite(order)) return "";
-  return Number.isFinite(half_width) ? `${order.toFixed(2)} \u00b1 ${digits(half_width, 2)}` : order.toFixed(2);
+  return Number.isFinite(order) && 2 * half_width <= Math.abs(order) ? `${order.toFixed(2)} \u00b1 ${digits(half_width, 2)}` : "";
 }
 // The column that a row of convergence.csv speaks of: window "50ms", tap "" or "nut".
 function error_of_order({window, tap}) {
@@ -31,12 +31,12 @@ function convergence_spec(choice, print) {
   });
   const layer = [
     {data: {values: all}, mark: "line", encoding: {color, strokeDash, strokeWidth: {condition: {test: "datum.control", value: 0.8}, value: 1.6}, opacity: brought_out}},
-    {data: {values: all}, ...points({color, shape, opacity: brought_out})},
+    {data: {values: all}, ...points({color, shape, opacity: brought_out}), ...(print || choice.narrow ? {} : zoomed("x", "y"))},
     {data: {values: labels}, mark: {type: "text", align: "left", dx: 7, fontSize: 10}, encoding: {text: {field: "text"}}},
     {data: {values: triangles}, mark: {type: "line", strokeWidth: 1, color: "#888", tooltip: null}, encoding: {detail: {field: "p"}, order: {field: "corner"}}},
     {data: {values: triangles.filter(t => t.corner === 2)}, mark: {type: "text", align: "left", baseline: "top", dy: 4, fontSize: 10}, encoding: {text: {field: "text"}}}, above(title)];
   const x = quantity("rate", {...decades("x", "format(datum.value / 1000, ',~r')"), labelExpr: "format(datum.value / 1000, ',~r')", title: "sample rate [kHz]"}, log(30));
-  return {legend: names, spec: framed({height: 420, encoding: {x, y: quantity("y", error_axis(error), log(20))}, layer},
+  return {legend: names, zooms: choice.narrow ? null : {x: "zoom_rate", y: "zoom_y"}, spec: framed({height: print ? Math.min(420, Math.max(220, 0.75 * print_width())) : 420, encoding: {x, y: quantity("y", error_axis(error), log(20))}, layer},
     {title: `${choice.scene}: convergence`, subtitle: "error against sample rate; at the lines' ends the observed order, at the lower left those of 1 and 2", names}, print)};
 }
 
@@ -49,7 +49,7 @@ function convergence_section() {
   const of_cells = found.filter(o => wanted(o.error)).map(o => [o.problem, o.series, o.error, number(o.order).toFixed(4), o.half_width, o.points]);
   const own = {columns: ["scene", "scheme", "error", "order", "half_width", "points"], rows: of_cells};
   return {id: "convergence", heading: "Convergence", charts: [{name: "error against sample rate of each scheme", menus, scenes, spec: convergence_spec, twins}],
-          notes: ["The number at a line's end is the observed order p of error \u221d rate^\u2212p over the rates drawn; hover for its 95 % interval. The triangles at the lower left fall as orders 1 and 2 do. Near contact the order is about 1, and late windows saturate."],
+          notes: ["The number at a line's end is the observed order p of error \u221d rate^\u2212p over the rates drawn; hover for its 95 % interval. There is no number where that interval is wider than the order. The triangles at the lower left fall as orders 1 and 2 do. Near contact the order is about 1, and late windows saturate."],
           table: records("convergence").length ? without(table("convergence"), ["problem", "series"]) : scenes.length > 1 ? own : without(own, ["scene"])};
 }
 

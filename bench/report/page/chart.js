@@ -67,13 +67,16 @@ function chart_of(chart, section, first) {
       return button;
     }));
   }
-  function fill_zoom(zooms) {  // of a chart that can be zoomed: buttons, for who has no wheel
+  function fill_zoom(zooms) {  // of a chart that can be zoomed: buttons, for who has no wheel; zooms: channel, its signal
     const by = factor => async () => {
-      const [from, to] = vega_view.scale("x").domain(), middle = (from + to) / 2, half = factor * (to - from) / 2;
-      vega_view.signal("zoom_ms", factor === null ? null : [middle - half, middle + half]);
+      for (const [channel, signal] of Object.entries(zooms)) {
+        const scale = vega_view.scale(channel), [near, far] = scale.range(), middle = (near + far) / 2, half = factor * (far - near) / 2;
+        vega_view.signal(signal, factor === null ? null : [scale.invert(middle - half), scale.invert(middle + half)].sort((a, b) => a - b));
+      }
       await vega_view.runAsync();
     };
-    zoom.replaceChildren(...(zooms ? [["+", "zoom in", 0.5], ["\u2212", "zoom out", 2]] : []).map(([text, name, factor]) => element("button", {type: "button", title: name, ariaLabel: name, onclick: by(factor)}, text)));
+    const buttons = [["+", "zoom in", 0.7], ["\u2212", "zoom out", 1 / 0.7], ["whole", "the whole chart", null]];
+    zoom.replaceChildren(...(zooms ? buttons : []).map(([text, name, factor]) => element("button", {type: "button", title: name, ariaLabel: name, onclick: by(factor)}, text)));
   }
   async function draw() {
     frame.setAttribute("data-drawn", "false");
@@ -88,14 +91,17 @@ function chart_of(chart, section, first) {
     fill_legend(names);
     fill_zoom(zooms);
     vega_view.signal("picked", picked);
-    if (labels && !narrow.matches && names.length <= 8) vega_view.data("labels", line_labels(names, labels, vega_view.scale("x"), vega_view.scale("y"), vega_view.width(), vega_view.height()));
+    const label = () => vega_view.data("labels", narrow.matches || names.length > 8 ? [] : line_labels(names, labels, vega_view.scale("x"), vega_view.scale("y"), vega_view.width(), vega_view.height()));
+    if (labels) label();
     await vega_view.runAsync();
+    for (const signal of labels && zooms ? Object.values(zooms) : []) vega_view.addSignalListener(signal, () => requestAnimationFrame(() => label().runAsync()));
     // what has no name is no picture to a reader's ear; the chart as a whole has one, and the tables its numbers
     for (const part of frame.querySelectorAll("svg [role]:not([aria-label])")) {
       part.removeAttribute("role");
       part.removeAttribute("aria-roledescription");
     }
     frame.querySelector("summary")?.setAttribute("aria-label", "save the picture of " + chart.name);
+    frame.dataset.scene = scene;
     frame.setAttribute("data-drawn", "true");
   }
   on_scene.push(async name => {
@@ -119,6 +125,6 @@ function chart_of(chart, section, first) {
   frame.setAttribute("role", "group");
   frame.setAttribute("aria-label", "chart: " + chart.name);
   every.onchange = draw;
-  const whole = [frame, legend, zoom, said];
+  const whole = [frame, element("div", {className: "below"}, legend, zoom), said];
   return {parts: first && chart.main ? [...whole, folded("Another error or cost, every scheme", [menus])] : [menus, ...whole], draw};
 }

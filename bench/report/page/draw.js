@@ -1,5 +1,5 @@
-// Under node, after the other files: node draw.js makes of page.json beside it every picture of the charts, and of figures.json those of the suite, each
-// a Vega-Lite specification that names a table of the folder as its data. What cannot be drawn says why. In drawn.json stand the pictures' names.
+// Under node, after the other files: node draw.js makes of page.json beside it every picture of the charts, the suite's figures (figures.js), and
+// plot.py, which draws the first chart with matplotlib. drawn.json lists what was written, and what could not be drawn with the reason.
 async function draw_all() {
   const fs = require("fs"), vega = require("vega"), lite = require("vega-lite"), drawn = [], failed = [];
   const draw = async (file, make) => {
@@ -15,6 +15,11 @@ async function draw_all() {
   for (const section of sections_of())
     for (const chart of section.charts)
       for (const twin of chart.twins) await draw(twin.file, () => chart.spec(twin.choice, true).spec);
+  const plot = page.run ? "" : plot_program();
+  if (plot) {
+    fs.writeFileSync("plot.py", plot);
+    drawn.push("plot.py");
+  }
   for (const [name, figure] of Object.entries(page.figures ?? {})) await draw(`figure-${name}.svg`, () => figure_spec(figure));
   fs.writeFileSync("drawn.json", JSON.stringify({drawn, failed}));
 }

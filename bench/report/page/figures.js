@@ -18,14 +18,6 @@ function fields_of(spec) {  // columns that are asked for by name
   if (spec === null || typeof spec !== "object") return [];
   return Object.entries(spec).flatMap(([key, value]) => key === "field" && typeof value === "string" ? [value] : key === "data" ? [] : fields_of(value));
 }
-// Text is wrapped: without a screen Vega takes a letter for 0.8 of the font's size and makes the picture as wide as its longest line.
-function wrapped(text, length) {
-  const lines = [""];
-  for (const word of text.split(" "))
-    if (lines.at(-1) && lines.at(-1).length + 1 + word.length > length) lines.push(word);
-    else lines[lines.length - 1] += (lines.at(-1) && " ") + word;
-  return lines;
-}
 const figure_config = {font, aria: false, axis: {gridOpacity: 0.45, labelFontSize: 11, titleFontSize: 12}, title: {fontSize: 16, subtitleFontSize: 12, anchor: "start", offset: 14, subtitlePadding: 5}, header: {title: null, labelFontSize: 12, labelFontWeight: "bold", labelAnchor: "start"},
                        line: {strokeWidth: 1.4, clip: true}, mark: {color: families[0][2]}, legend: {title: null, orient: "bottom", direction: "horizontal", columns: 3, labelFontSize: 12, labelLimit: 500, symbolStrokeWidth: 3}, range: {category: families.slice(0, -1).map(f => f[2])}};
 function figure_spec(figure) {

@@ -64,9 +64,20 @@ function encodings_of(names, field = "series") {
 }
 
 const vega_lite = "https://vega.github.io/schema/vega-lite/v5.json", font = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif";
-const print_width = () => page.width ?? 760;  // [px] of a picture's plot
+const print_width = () => page.width ? page.width - 76 : 760;  // [px] of a picture's plot; beside it stands an axis
 const chart_config = {font, view: {stroke: null}, axis: {gridOpacity: 0.45, domainOpacity: 0.6, labelFontSize: 11}, title: {fontSize: 16, subtitleFontSize: 12}};
-const title_of = (text, subtitle) => ({text, subtitle, anchor: "start", offset: 26, subtitlePadding: 5});
+// Text is wrapped: without a screen Vega takes a letter for 0.8 of the font's size and makes the picture as wide as its longest line.
+function wrapped(text, length) {
+  const lines = [""];
+  for (const word of text.split(" "))
+    if (lines.at(-1) && lines.at(-1).length + 1 + word.length > length) lines.push(word);
+    else lines[lines.length - 1] += (lines.at(-1) && " ") + word;
+  return lines;
+}
+function title_of(text, subtitle) {
+  const size = print_width() < 500 ? 12 : 16, small = print_width() < 500 ? 9 : 12, across = print_width() + 40;
+  return {text: wrapped(text, Math.floor(across / (0.8 * size))), subtitle: subtitle ? wrapped(subtitle, Math.floor(across / (0.8 * small))) : "", fontSize: size, subtitleFontSize: small, anchor: "start", offset: 26, subtitlePadding: 5};
+}
 
 // A chart as the page has it, as wide as its place and in its colours, or as a picture: on white with a title and a legend.
 function framed(spec, {title, subtitle = "", names = []}, print) {
@@ -84,11 +95,11 @@ function legend_layers(names, top) {  // each name with its line and its marker
   const part = (mark, encoding, rows = data) => ({data: rows, mark: {tooltip: null, y, ...mark}, encoding: {x: null, y: null, ...encoding}});
   const ends = {values: data.values.flatMap(row => [row, {...row, left: row.left + 34}])};
   return [part({type: "line", strokeWidth: 1.8, x: at("datum.left")}, {color, strokeDash}, ends), part({type: "point", filled: true, opacity: 1, size: 60, x: at("datum.left + 17")}, {color, shape}),
-          part({type: "text", align: "left", fontSize: 11, x: at("datum.left + 42")}, {text: {field: "text"}})];
+          part({type: "text", align: "left", fontSize: print_width() < 500 ? 9 : 11, x: at("datum.left + 42")}, {text: {field: "text"}})];
 }
 
 // ---- Parts that many charts have
-const once = mark => ({data: {values: [{}]}, mark: {tooltip: null, ...mark}, encoding: {x: null, y: null}});  // a mark without rows
+const once = mark => ({data: {values: [{}]}, mark: {tooltip: null, clip: false, ...mark}, encoding: {x: null, y: null}});  // a mark without rows
 const above = text => once({type: "text", x: 0, y: -10, align: "left", fontSize: 12, fontWeight: "bold", text});  // an axis' name, upright
 const quantity = (field, axis = {}, scale = {}) => ({field, type: "quantitative", scale, axis: {title: null, labelOverlap: true, ...axis}});
 const log = padding => ({type: "log", nice: false, padding});
@@ -105,4 +116,6 @@ const brought_out = {condition: {test: "!length(picked) || indexof(picked, datum
 // What hovering shows: what has a value, each under its name.
 const told = pairs => Object.fromEntries(pairs.filter(([, value]) => value !== "" && value !== null && value !== undefined));
 const hover = {tooltip: {field: "told", type: "nominal"}};
+// By wheel or pinch with Ctrl, by dragging, and by the page's buttons (chart.js), which set the signals zoom_FIELD.
+const zoomed = (...channels) => ({params: [{name: "zoom", select: {type: "interval", encodings: channels, zoom: "wheel![event.ctrlKey]"}, bind: "scales"}]});
 const points = (encoding, more = {}) => ({mark: {type: "point", filled: true, opacity: 1, size: 60, ...more}, encoding: {...encoding, ...hover}});

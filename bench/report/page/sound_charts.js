@@ -12,7 +12,7 @@ function sounds() {
   if (all_sounds) return all_sounds;
   all_sounds = page.sounds.map(sound => {
     const row = records("sounds")[sound.row] ?? sound, reference = row.scheme === "reference";
-    return {...row, ...sound, reference, detail: reference ? "" : kilohertz(number(row.rate)), name: reference ? `reference ${reference_name(row.problem)}` : row.series ?? row.name};
+    return {...row, ...sound, reference, detail: reference ? "" : kilohertz(number(row.rate)), name: row.what || (reference ? `reference ${reference_name(row.problem)}` : row.series ?? row.name)};
   });
   return all_sounds;
 }
@@ -41,7 +41,7 @@ function wave_spec(choice, print) {
   const own = drawn_sounds().find(s => s.file === choice.sound_field), against = sounds().find(s => s.file === own.reference_file);
   const wave = wave_of(own), truth = against && wave_of(against), from = truth ? lively_from(truth) : 0, rows = [];
   const hue = looks_of([own.series]).get(own.series).colour, domain = truth ? ["reference", "scheme", "difference"] : ["scheme"], grey = families[control_family][2];
-  const color = {field: "who", type: "nominal", scale: {domain, range: truth ? [grey, hue, ink[0]] : [hue]}, legend: {title: null, symbolType: "stroke", symbolStrokeWidth: 3}};
+  const color = {field: "who", type: "nominal", scale: {domain, range: truth ? [grey, hue, ink[0]] : [hue]}, legend: {title: null, symbolType: "stroke", symbolStrokeWidth: 3, ...(print && print_width() < 500 ? {orient: "bottom"} : {})}};
   const title = {title: print ? `${page.title} ${own.tap}: ${own.name}${own.detail && ", " + own.detail}` : "", subtitle: "50 ms, with the difference"}, y = quantity("value", {format: "~g", labelOverlap: false});
   const x = quantity("ms", {title: "time [ms]", grid: false}, {nice: false}), head = above(`${own.tap} [${unit_of(own.quantity)}]`);
   if (choice.until_field > beginning) {
@@ -55,9 +55,8 @@ function wave_spec(choice, print) {
     for (const [who, value] of Object.entries({reference, scheme, difference: scheme - reference})) if (Number.isFinite(value)) rows.push({ms, who, value});
   }
   const mark = {type: "line", clip: true, strokeJoin: "round", tooltip: null}, size = {condition: {test: "datum.who == 'reference'", value: 3.5}, value: 1.2};
-  const zoom = {params: [{name: "zoom", select: {type: "interval", encodings: ["x"], zoom: "wheel![event.ctrlKey || event.shiftKey]"}, bind: "scales"}]};
-  const layer = [{data: {values: rows}, ...(print ? {} : zoom), mark, encoding: {y, color, size, detail: {field: "who"}}}, head];
-  return {legend: [], zooms: true, spec: framed({height: 300, encoding: {x}, layer}, title, print)};
+  const layer = [{data: {values: rows}, ...(print ? {} : zoomed("x")), mark, encoding: {y, color, size, detail: {field: "who"}}}, head];
+  return {legend: [], zooms: {x: "zoom_ms"}, spec: framed({height: 300, encoding: {x}, layer}, title, print)};
 }
 function waveform_section() {
   const drawn = drawn_sounds(), scenes = distinct(drawn.map(s => s.problem)), longest = Math.max(...sounds().map(s => s.samples.length * 3 / 8 / s.rate));
@@ -68,7 +67,7 @@ function waveform_section() {
   const charts = drawn.length ? [{name: "a scheme's trace over its reference's", menus, scenes, spec: wave_spec, twins: [{file: "waveforms.svg", choice: first_choice(menus(scenes[0]), scenes[0])}]}] : [];
   return {id: "sounds", heading: "Traces, to look at and to listen to", charts, left_out: page.left_out.sounds,
           notes: [`Tap ${tap} (${of}), as the scheme gives it: ${of === "nut_force" ? "the force that drives the body, " : ""}not differentiated, no body. Sounds are level-matched: the same root mean square, their mean taken away.`,
-                  "Drag the picture to move along, turn the wheel with Ctrl held or pinch to zoom, double-click to go back."]};
+                  "Drag the picture to move along. Pinch, turn the wheel with Ctrl held, or press + and \u2212 to zoom; double-click to go back."]};
 }
 
 // ---- Spectrograms: 0-8 kHz, in decibels below their common maximum, as rectangles. Equal neighbours in time are one, what lies 80 dB below the maximum is

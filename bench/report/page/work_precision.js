@@ -80,7 +80,7 @@ function band(level, name, color, opacity) {
   if (level === null) return [];
   const at = `clamp(scale('y', ${level}), 0, height)`;
   return [once({type: "rect", x: 0, x2: {expr: "width"}, y: {expr: at}, y2: {expr: "height"}, color, opacity}),
-          once({type: "text", x: 6, y: {expr: at}, dy: 10, align: "left", fontSize: 10, text: {expr: `${at} < height - 14 ? '${name}' : ''`}})];
+          once({type: "text", x: 6, y: {expr: at}, dy: 10, align: "left", fontSize: 10, text: {expr: `${at} < height - 14 && width > 400 ? '${name}' : ''`}})];
 }
 function real_time(cost) {  // where a scheme takes a second for a second
   const at = "scale('x', 1)", there = `${at} > 0 && ${at} < width`;
@@ -121,15 +121,15 @@ function work_precision_spec(choice, print) {
     ...(print ? [{data: {values: goals}, mark: {type: "text", x: {expr: "width - 6"}, dy: -6, align: "right", fontSize: 10, limit: {expr: "width - 12"}, opacity: {expr: "width < 500 ? 0 : 1"}}, encoding: {x: null, text: {field: "text"}}}] : []),
     ...[[10, front_edge], [7, front_track]].map(([strokeWidth, tone]) => ({data: {values: front}, mark: {type: "line", strokeWidth, color: tone[0], strokeCap: "round", strokeJoin: "round", tooltip: null}, encoding: {order: {field: "x"}, detail: {field: "machine"}}})),
     {data: {values: sound.filter(p => p.from > 0 && p.to > 0)}, mark: {type: "rule", strokeWidth: 1}, encoding: {x: {field: "from", type: "quantitative"}, x2: {field: "to"}, color, opacity}},
-    lines(true, 0.8), lines(false, 1.8), marks(true, {}), marks(false, {filled: false, strokeWidth: 1.6}),  // hollow: not to be trusted
+    lines(true, 0.8), lines(false, 1.8), {...marks(true, {}), ...(print || choice.narrow ? {} : zoomed("x", "y"))}, marks(false, {filled: false, strokeWidth: 1.6}),  // hollow: not to be trusted
     print ? front_labels(front, all) : line_labels_layer(),
     {data: {values: failed}, mark: {type: "text", text: "\u2715", fontSize: 14, fontWeight: "bold", y: 8}, encoding: {y: null, color, opacity, ...hover}},
     ...span_and_silence(every, sound, bands), above(title),
-    once({type: "text", x: {expr: "width"}, y: {expr: "height + 36"}, align: "right", fontSize: 12, fontWeight: "bold", text: {expr: `width < 400 ? '${cost_title.split(",")[0]}' : '${cost_title}'`}})];
+    once({type: "text", x: {expr: "width"}, y: {expr: "height + 36"}, align: "right", fontSize: 12, fontWeight: "bold", text: {expr: `width < 400 ? '${cost === "cost_s_per_s" ? "computing time per second" : cost_title.split(",")[0]}' : '${cost_title}'`}})];
   const encoding = {x: quantity("x", decades("x", cost === "cost_s_per_s" ? time : plain_number), log(36)), y: quantity("y", error_axis(error), log(36))};
   const one = scenes_of_cells().length === 1, about = page.manifest?.reference ? page.about.split("; ").slice(0, -1).join("; ") : page.source;
-  const spec = framed({height: print ? 470 : choice.narrow ? 260 : 400, encoding, layer}, {title: `${one ? page.title : choice.scene}: error and cost`, subtitle: about, names}, print);
-  return {spec, legend: drawn, labels: sound, few: in_order(every.map(p => p.series)).length <= 8};
+  const spec = framed({height: print ? Math.min(470, Math.max(220, 0.75 * print_width())) : choice.narrow ? 260 : 400, encoding, layer}, {title: `${one ? page.title : choice.scene}: error and cost`, subtitle: about, names}, print);
+  return {spec, legend: drawn, labels: sound, zooms: choice.narrow ? null : {x: "zoom_x", y: "zoom_y"}, few: in_order(every.map(p => p.series)).length <= 8};
 }
 
 // Names beside the ends of lines, where the page has found room for them.
