@@ -136,7 +136,8 @@ const in_page = {
         const seen = [ticks()];
         for (const [k, button] of buttons.entries()) seen.push(await changed(() => button.click(), k === 2 ? seen[0] : undefined));
         const plot = chart.querySelector("svg"), at = plot.getBoundingClientRect();
-        const wheel = await changed(() => plot.dispatchEvent(new WheelEvent("wheel", {deltaY: -240, ctrlKey: true, bubbles: true, cancelable: true, clientX: at.left + 300, clientY: at.top + 150})));
+        const under = document.elementFromPoint(at.left + 300, at.top + 150);  // what a mouse would turn its wheel over
+        const wheel = await changed(() => under.dispatchEvent(new WheelEvent("wheel", {deltaY: -240, ctrlKey: true, bubbles: true, cancelable: true, clientX: at.left + 300, clientY: at.top + 150})));
         await changed(() => buttons.at(-1).click(), seen[0]);
         return {buttons: buttons.length, zoomed: seen[1] !== seen[0], out: seen[2] !== seen[1], whole: seen[3] === seen[0], wheel: wheel !== seen[0], back: ticks() === seen[0], named: document.querySelectorAll("#work-precision .zoom button[aria-label]").length};
     })()`,
