@@ -30,7 +30,7 @@ function sample_of(look) {
 }
 
 function chart_of(chart, section, first) {
-  const frame = element("div", {className: chart.scrolls ? "chart wide" : "chart", id: "chart-" + drawings.length});
+  const frame = element("div", {className: chart.scrolls || chart.wide_on_phones ? "chart wide" : "chart", id: "chart-" + drawings.length});
   const menus = element("div", {className: "menus"}), said = element("p", {className: "soft"}), legend = element("div", {className: "legend"}), zoom = element("div", {className: "zoom"});
   menus.dataset.chart = frame.id;
   legend.setAttribute("role", "group");
@@ -120,7 +120,7 @@ function chart_of(chart, section, first) {
     next = requestAnimationFrame(draw);
   };
   for (const media of [dark, narrow]) media.addEventListener("change", () => { if (vega_view) draw_again(); });
-  if (chart.scrolls) frame.tabIndex = 0;
+  if (chart.scrolls || chart.wide_on_phones) frame.tabIndex = 0;
   frame.dataset.drawn = "later";
   frame.setAttribute("role", "group");
   frame.setAttribute("aria-label", "chart: " + chart.name);

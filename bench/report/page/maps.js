@@ -81,15 +81,15 @@ function shares() {
 function overview_spec(choice, print) {
   const values = shares().map(s => ({...s, share: 100 * s.sound / s.runs, told: told([["scheme", spoken(s.series)], ["map", s.map], ["sound runs", `${s.sound} of ${s.runs}`]])}));
   const axis = {title: null, grid: false, domain: false, ticks: false};
-  const encoding = {x: {field: "map", type: "nominal", sort: null, axis: {...axis, labelAngle: -50, labelLimit: 130}}, y: {field: "series", type: "nominal", sort: null, axis: {...axis, labelLimit: 250}}};
+  const encoding = {x: {field: "map", type: "nominal", sort: null, axis: {...axis, labelAngle: -50, labelLimit: 130}}, y: {field: "series", type: "nominal", sort: null, axis: {...axis, labelLimit: choice.narrow ? 150 : 250}}};
   const layer = [{mark: {type: "rect", cornerRadius: 2}, encoding: {color: {field: "share", type: "quantitative", scale: {scheme: "viridis", domain: [0, 100]}, legend: null}, ...hover}},
                  {mark: {type: "text", fontSize: 9, tooltip: null}, encoding: {text: {field: "share", format: ".0f"}, color: {condition: {test: "datum.share > 43", value: "#000"}, value: "#fff"}}}];
-  return {legend: [], spec: framed({height: {step: 20}, data: {values}, encoding, layer}, {title: "Sound runs, per cent", subtitle: page.title}, print)};
+  return {legend: [], spec: framed({...(choice.narrow ? {width: {step: 24}} : {}), height: {step: 20}, data: {values}, encoding, layer}, {title: "Sound runs, per cent", subtitle: page.title}, print)};
 }
 function overview_section() {
   if (!records("maps").length) return null;
   const rows = shares().map(s => [s.series, s.map, String(s.sound), String(s.runs)]);
-  return {id: "overview", heading: "How often each scheme stays sound", charts: [{name: "the share of sound runs of each scheme on each map", menus: () => [], spec: overview_spec, twins: [{file: "overview.svg", choice: {}}]}],
+  return {id: "overview", heading: "How often each scheme stays sound", charts: [{name: "the share of sound runs of each scheme on each map", wide_on_phones: true, menus: () => [], spec: overview_spec, twins: [{file: "overview.svg", choice: {}}]}],
           notes: ["Per cent of the runs of a map that end sound. Refused runs do not count; where nothing stands the scheme was not run on the map."], table: {columns: ["scheme", "map", "sound", "runs"], rows}};
 }
 function finding_of_maps() {
