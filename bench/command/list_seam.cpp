@@ -119,15 +119,17 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
 Listing list_pairings() {
     constexpr int string_width = 31, cell_width = 44;
     Json json = Json::array();
-    std::string text = "pairings of a string and an obstacle rule", head, body, row;
+    std::string head, body, row, notes;
     for (const Pairing& p : pairings()) {
-        json.push_back({{"string", p.string}, {"rule", p.rule}, {"scheme", p.scheme}});
+        json.push_back({{"string", p.string}, {"rule", p.rule}, {"scheme", p.scheme}, {"why_not", p.why_not}});
         if (p.string != row) body += fmt::format("\n  {:<{}}", p.string, string_width);
         if (row.empty() || (p.string == row && std::ranges::count(body, '\n') == 1)) head += fmt::format("{:<{}}", p.rule, cell_width);
-        body += fmt::format("{:<{}}", p.scheme, cell_width);
+        body += fmt::format("{:<{}}", p.scheme.empty() ? "-" : p.scheme, cell_width);
+        if (p.scheme.empty()) notes += fmt::format("  no {} of {}: {}\n", p.rule, p.string, p.why_not);
         row = p.string;
     }
-    return {std::move(json), fmt::format("{}\n  {:<{}}{}{}\n", text, "string", string_width, head, body), ""};
+    return {std::move(json),
+            fmt::format("pairings of a string and an obstacle rule\n  {:<{}}{}{}\n{}", "string", string_width, head, body, notes), ""};
 }
 
 Listing list_options(const std::vector<const Descriptor*>& schemes) {

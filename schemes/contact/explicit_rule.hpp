@@ -8,7 +8,7 @@ namespace jvari {
 
 class ExplicitRule {
 public:
-    static constexpr bool conserves = false, iterates = false;
+    static constexpr bool conserves = false, iterates = false, known_before = true;
 
     ExplicitRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
         : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {}

@@ -12,7 +12,7 @@ namespace jvari {
 
 class GradientRule {
 public:
-    static constexpr bool conserves = true, iterates = true;
+    static constexpr bool conserves = true, iterates = true, known_before = false;
 
     GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
         : laws_(laws.begin(), laws.end()), gram_(laws, theta) {}

@@ -56,7 +56,7 @@ private:
 
 template <Quadratisation variant>
 struct QuadratisedRule : QuadratisedContacts {
-    static constexpr bool conserves = true, iterates = variant == Quadratisation::released;
+    static constexpr bool conserves = true, iterates = variant == Quadratisation::released, known_before = false;
     QuadratisedRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
         : QuadratisedContacts(laws, theta, levels, variant) {}
 };

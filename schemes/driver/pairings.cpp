@@ -12,9 +12,9 @@ namespace jvari {
 namespace {
 struct Column {
     const char *name, *source;
-    bool conserves;
+    bool conserves, known_before;
 };
-#define JVARI_ROW(name, Rule, source) {#name, source, Rule::conserves},
+#define JVARI_ROW(name, Rule, source) {#name, source, Rule::conserves, Rule::known_before},
 constexpr Column columns[] = {JVARI_RULES(JVARI_ROW)};
 #undef JVARI_ROW
 
@@ -27,22 +27,28 @@ const std::vector<const StringRow*>& rows() {
     return all;
 }
 
-const Descriptor* known(const StringRow& row, const Column& column) {
+struct Cell {
+    const Descriptor* known = nullptr;
+    std::string why_not;
+};
+Cell cell(const StringRow& row, const Column& column) {
     for (const StringRow::Known& k : row.known)
-        if (k.rule && std::string(k.rule) == column.name) return k.scheme;
-    return nullptr;
+        if (k.rule && std::string(k.rule) == column.name) return {k.scheme, k.why_not};
+    return {nullptr, column.known_before && row.levels == 1 ? "its force, known before the step, would act half a step late" : ""};
 }
 std::string name_of(const StringRow& row, const Column& column) {
-    const Descriptor* scheme = known(row, column);
-    return scheme ? scheme->name : std::string(row.scheme->name) + "_" + column.name;
+    const auto [known, why_not] = cell(row, column);
+    if (!why_not.empty()) return "";
+    return known ? known->name : std::string(row.scheme->name) + "_" + column.name;
 }
 }  // namespace
 
 std::vector<Pairing> pairings() {
     std::vector<Pairing> all;
     for (const StringRow* row : rows()) {
-        all.push_back({row->scheme->name, "gradient", row->scheme->name});
-        for (const Column& column : columns) all.push_back({row->scheme->name, column.name, name_of(*row, column)});
+        all.push_back({row->scheme->name, "gradient", row->scheme->name, ""});
+        for (const Column& column : columns)
+            all.push_back({row->scheme->name, column.name, name_of(*row, column), cell(*row, column).why_not});
     }
     return all;
 }
@@ -53,7 +59,7 @@ const std::vector<Descriptor>& schemes_of_pairings() {
         std::vector<Descriptor> made;
         for (const StringRow* row : rows())
             for (std::size_t c = 0; c < std::size(columns); ++c) {
-                if (known(*row, columns[c])) continue;
+                if (cell(*row, columns[c]).known || name_of(*row, columns[c]).empty()) continue;
                 Descriptor d = *row->scheme;
                 d.name = names.emplace_back(name_of(*row, columns[c])).c_str();
                 d.source = columns[c].source;

@@ -42,7 +42,10 @@ extern const Descriptor finite_difference_hamiltonian = {.name = "finite_differe
                                                          .options = options,
                                                          .approximates = grid_approximates};
 
+static constexpr const char* hamiltonian_quadratised =
+    "gamma of the older level and the warp of the midpoint rule add up: 2.4 % at 176.4 kHz on a soft profile, more than a scheme may err";
 extern const StringRow finite_difference_hamiltonian_row;
-const StringRow finite_difference_hamiltonian_row = {&finite_difference_hamiltonian, {JVARI_RULES(JVARI_MAKER)}};
+const StringRow finite_difference_hamiltonian_row = {
+    &finite_difference_hamiltonian, 1, {JVARI_RULES(JVARI_MAKER)}, {{"quadratised", nullptr, hamiltonian_quadratised}}};
 
 }  // namespace jvari

@@ -34,6 +34,7 @@ const Descriptor modal_three_point = {.name = "modal_three_point",
 
 extern const StringRow modal_three_point_row;
 const StringRow modal_three_point_row = {&modal_three_point,
+                                         2,
                                          {JVARI_RULES(JVARI_MAKER)},
                                          {{"quadratised", &modal_quadratised_three_point}, {"penalty", &modal_explicit_penalty}}};
 

@@ -399,6 +399,6 @@ extern const Descriptor modal_spatial_newton = {
     .stand_in_rank = 3};
 
 extern const StringRow modal_spatial_newton_row;
-const StringRow modal_spatial_newton_row = {&modal_spatial_newton, {JVARI_RULES(JVARI_MAKER)}};
+const StringRow modal_spatial_newton_row = {&modal_spatial_newton, 2, {JVARI_RULES(JVARI_MAKER)}};
 
 }  // namespace jvari

@@ -110,7 +110,7 @@ TEST(MovingBody, ContactsOnItLoseEnergy) {
             return 1 - r.trace.energy[r.trace.rows - 1] / r.trace.energy[0];
         };
         EXPECT_LT(std::abs(lost(0)), 1e-11) << d->name;
-        EXPECT_GT(lost(100), 1e-3) << d->name;
+        EXPECT_GT(lost(50), 1e-3) << d->name;
     }
 }
 

@@ -273,13 +273,21 @@ void expect_enough(const Descriptor& d, Scene scene, const std::vector<std::pair
         << d.name;
 }
 
+Scene softened(Scene scene) {  // so that explicit schemes stand it: one that diverges ends its row itself
+    for (Barrier& barrier : scene.strings.front().barriers) {
+        if (auto* lumped = std::get_if<LumpedBarrier>(&barrier)) lumped->stiffness.k = 1e3;
+        else std::get<ProfileBarrier>(barrier).stiffness.K = 1e3;
+    }
+    return scene;
+}
+
 TEST(LongRow, OfEverySchemeCanBeEndedWithinIt) {
     int tried = 0;
     for (const Descriptor& d : schemes())
         for (const Scene& scene : {c3_pluck(), with_profile(c3_release()), sitar()}) {
             if (!(needed_by(scene) - d.represents).empty()) continue;
             const bool grid = std::string_view(d.name).starts_with("finite");
-            expect_enough(d, scene,
+            expect_enough(d, d.balance == Balance::none ? softened(scene) : scene,
                           grid ? std::vector<std::pair<std::string, std::string>>{{"grid", "40"}}
                                : std::vector<std::pair<std::string, std::string>>{});
             ++tried;
