@@ -9,6 +9,7 @@
 
 #include "bench/compare/record/pareto.hpp"
 #include "bench/compare/record/spread.hpp"
+#include "bench/report/derived.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
@@ -142,6 +143,16 @@ TEST(Report, IsMadeOfARecordsErrorsAndCostsAsOfItsCells) {
     const Outcome o = jvari(record, "report " + record.path.string(), "JVARI_NODE_MODULES=/nowhere");
     EXPECT_EQ(o.code, 2);
     EXPECT_NE(o.err.find("cost.csv: its rows are not those of errors.csv"), std::string::npos) << o.err;
+}
+
+TEST(Report, AnErrorThatIsBoundedStandsAtItAndItsCertificateTogether) {
+    const MadeUp folder({"manifest.json"});
+    std::ofstream(folder / "cells.csv") << "scene,scheme,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms\n"
+                                           "a,b,44100,10,ok,,1e-2,6e-4\na,b,88200,10,ok,,1e-3,6e-4\n";
+    const bench::store::Table bounds = bench::report::derived_tables(bench::report::read_results(folder.path)).at("bounds");
+    ASSERT_EQ(bounds.rows.size(), 1u);  // 6 % of the first: as measured
+    EXPECT_EQ(bounds.at(0, "row"), "1");
+    EXPECT_NEAR(bounds.number(0, "shown"), 1.6e-3, 1e-12);
 }
 
 TEST(Report, ABusyMachineIsSaid) {
