@@ -163,9 +163,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
     std::vector<std::pair<std::string, store::Table>> tables;
     unlocked(
         [&] {
-            map::Truths truths(catalogue);
-            const map::MapRun maps = map::run_maps(
-                suite.maps, truths, {store::program_identity(files), suite.maps.empty() ? folder : below("points"), resume, jobs}, Ear());
+            const map::MapRun maps = map::run_maps(suite.maps, catalogue, {store::program_identity(files), folder, resume, jobs}, Ear());
             const study::Study run = study::run(plan, below("cells"), resume, jobs, Ear());
             tables.emplace_back("cells", compare::with_bounds(compare::with_front(study::table_of(plan, run.records))));
             tables.emplace_back("maps", map::maps_table(maps));

@@ -3,7 +3,7 @@
 //
 // Each bound with its reason. Partials: what the matrix pencil hears of a recursion agrees with it to 2e-8 cents (smoke suite); 1e-3 cents
 // is far from that, and far below any change of an equation. A map: what maps call diverged, not_converged or energy_gaining
-// (bench/map/verdict.hpp), on the side of its stability limit where it is sound. That its contacts do not pull is a promise of its own.
+// (bench/study/verdict.hpp), on the side of its stability limit where it is sound. That its contacts do not pull is a promise of its own.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -100,8 +100,11 @@ Verdict stays_sound_over_a_map(const Case& c) {
         if (!takes(d, p.scene, p.settings)) continue;
         if (d.limit.margin && d.limit.margin(p.scene, p.settings) < 0) continue;  // on the unsound side, as it says itself
         const jvari::Run r = run(d, p.scene, p.settings, {.energy = true});
-        const map::Judgement j = map::judge(map::figures_of(d, p.scene, r, nullptr));
-        if (j.verdict == map::Verdict::diverged || j.verdict == map::Verdict::not_converged || j.verdict == map::Verdict::energy_gaining)
+        study::Cell cell{&d, p.settings};
+        cell.summary = study::summary_of(d, p.scene, p.settings, r);
+        const study::Judgement j = study::judge(cell, std::nan(""));
+        if (j.verdict == study::Verdict::diverged || j.verdict == study::Verdict::not_converged ||
+            j.verdict == study::Verdict::energy_gaining)
             return broken(fmt::format("{} with {}: {}", name_of(j.verdict), p.name, j.detail));
         ++sound;
     }

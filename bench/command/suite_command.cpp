@@ -18,7 +18,7 @@
 #include "bench/compare/record/pareto.hpp"
 #include "bench/compare/record/scaling_table.hpp"
 #include "bench/compare/record/spread.hpp"
-#include "bench/map/map_report.hpp"
+#include "bench/map/map_tables.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"

@@ -145,7 +145,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     }
     std::vector<std::string> plugins;
     for (const LoadedPlugin& l : loaded_plugins()) plugins.push_back(l.path);
-    study::address(c.plan, plugins);
+    study::address(c.plan, store::program_identity(plugins));
 
     study::References references(c.plan.jobs);
     KnownOf known;

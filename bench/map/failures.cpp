@@ -15,6 +15,10 @@ namespace jvari::bench::map {
 namespace {
 namespace fs = std::filesystem;
 
+long steps_of(const JudgedPoint& p) {
+    return p.tried.record.cell.summary.steps;
+}
+
 std::string scene_text(const Reproducer& r) {
     const Trial& t = r.trial;
     std::string how = fmt::format("--scheme {} --rate {} --tap-rate {} --energy", t.scheme->name, store::text_of(t.settings.sample_rate),
@@ -39,36 +43,37 @@ bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Repr
 
 std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalogue& catalogue, const MapRequest& request,
                                        const store::Listener& listener) {
-    std::map<std::pair<std::string, Verdict>, const JudgedPoint*> cheapest;
+    std::map<std::pair<std::string, study::Verdict>, const JudgedPoint*> cheapest;
     for (const JudgedPoint& p : run.points) {
-        const Verdict v = p.tried.judgement.verdict;
-        if (v == Verdict::sound || v == Verdict::unjudged || v == Verdict::refused || !p.at.map->reproduce) continue;
+        const study::Verdict v = p.tried.judgement.verdict;
+        if (v == study::Verdict::sound || v == study::Verdict::unjudged || v == study::Verdict::refused || !p.at.map->reproduce) continue;
         const JudgedPoint*& kept = cheapest[{p.at.scheme->name, v}];
-        if (!kept || p.tried.steps < kept->tried.steps) kept = &p;
+        if (!kept || steps_of(p) < steps_of(*kept)) kept = &p;
     }
     std::vector<Reproducer> all;
     for (const auto& [key, point] : cheapest)
         all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)), trial_at(point->at), point->tried.judgement});
-    Truths truths(catalogue);
     store::side_by_side(std::vector<double>(all.size(), 1), request.jobs, listener, "failures", [&](std::size_t i, store::Done& done) {
         Reproducer& r = all[i];
-        const std::string identity = request.program + identity_of(r.trial) + name_of(r.expected.verdict);
-        const fs::path folder = request.folder.empty() ? fs::path() : request.folder / store::hash_of(identity);
+        Trials trials(catalogue);  // nobody else's: a minimisation waits for nothing
+        const std::string address = trials.plan_of(r.trial).jobs.front().id + name_of(r.expected.verdict) + request.program;
+        const fs::path folder = request.folder.empty() ? fs::path() : request.folder / "points" / store::hash_of(address);
         const store::FileLock lock(folder, "minimises how " + std::string(r.trial.scheme->name) + " fails");
         if (request.resume && read_back(folder, catalogue, r)) return;
-        const study::ProgressOf look = [&done](long, long) { done.look(); };
-        const Verdict wanted = r.expected.verdict;
-        r.trial = minimised(r.trial, [&](const Trial& t) { return run_trial(t, truths, look).judgement.verdict == wanted; });
+        const study::Verdict wanted = r.expected.verdict;
+        r.trial = minimised(r.trial, [&](const Trial& t) { return trials(t, done).judgement.verdict == wanted; });
         r.trial.scene.name += "_minimised";
-        r.expected = run_trial(r.trial, truths, look).judgement;
+        r.expected = trials(r.trial, done).judgement;
         if (folder.empty()) return;
-        fs::create_directories(folder);
         write_failures(folder, {r});
     });
     return all;
 }
 
 void write_failures(const fs::path& folder, const std::vector<Reproducer>& all) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    store::must_be_writable(folder / "index.csv");
     store::Table index;
     index.columns = {"file", "scheme", "rate", "modes", "options", "reference", "reference_modes", "outcome", "step", "detail"};
     for (const Reproducer& r : all) {
@@ -99,7 +104,7 @@ std::vector<Reproducer> read_failures(const fs::path& folder, const compare::Cat
         s.modes = static_cast<int>(index.number(i, "modes"));
         std::istringstream options(index.at(i, "options"));
         for (std::string word; options >> word;) s.options.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
-        r.expected = {verdict_named(index.at(i, "outcome")), index.at(i, "detail"), static_cast<long>(index.number(i, "step"))};
+        r.expected = {study::verdict_named(index.at(i, "outcome")), index.at(i, "detail"), static_cast<long>(index.number(i, "step"))};
         all.push_back(std::move(r));
     }
     return all;

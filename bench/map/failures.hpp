@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "bench/map/map_tables.hpp"
+#include "bench/map/map_run.hpp"
 
 namespace jvari::bench::map {
 
 struct Reproducer {
     std::string file;  // within its folder
     Trial trial;
-    Judgement expected;
+    study::Judgement expected;
 };
 
 // Of each scheme and outcome that is neither sound nor refused, the failure that took the fewest steps, among maps that reproduce theirs.

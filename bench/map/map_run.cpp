@@ -3,85 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
 
 #include "bench/map/map_theory.hpp"
-#include "bench/store/checksum.hpp"
-#include "bench/store/fresh_file.hpp"
-#include "bench/store/kept.hpp"
-#include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "bench/store/whole.hpp"
 
 namespace jvari::bench::map {
 
 namespace {
-using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
-
-std::string text_of(const Tried& t, const std::string& identity) {
-    return store::kept_text(identity, {{"outcome", name_of(t.judgement.verdict)},
-                                       {"detail", t.judgement.detail},
-                                       {"step", t.judgement.step},
-                                       {"status", name_of(t.figures.status.outcome)},
-                                       {"displacement", store::text_of(t.figures.displacement)},
-                                       {"energy_gain", store::text_of(t.figures.energy_gain)},
-                                       {"pull", store::text_of(t.figures.pull)},
-                                       {"error", store::text_of(t.figures.error)},
-                                       {"reference", t.reference},
-                                       {"steps", t.steps}});
-}
-
-Tried tried_in(const Json& j) {
-    Tried t;
-    t.judgement = {verdict_named(j.at("outcome")), j.at("detail"), store::whole<long>(j.at("step"))};
-    t.figures.status = {store::outcome_named(j.at("status")), store::whole<long>(j.at("step"))};
-    t.figures.displacement = store::number_of(j.at("displacement"));
-    t.figures.energy_gain = store::number_of(j.at("energy_gain"));
-    t.figures.pull = store::number_of(j.at("pull"));
-    t.figures.error = store::number_of(j.at("error"));
-    t.reference = j.at("reference");
-    t.steps = store::whole<long>(j.at("steps"));
-    return t;
-}
-
-class Laboratory {  // tries points, and keeps what came of them
-public:
-    Laboratory(Truths& truths, const MapRequest& request) : truths_(truths), request_(request) {}
-
-    Tried operator()(const PointPlace& at, const store::Done& done) {  // throws Busy where another process or thread tries it
-        const Trial trial = trial_at(at);
-        const std::string identity = Json{{"program", request_.program}, {"trial", Json::parse(identity_of(trial))}}.dump();
-        const fs::path file = request_.folder.empty() ? fs::path() : request_.folder / (store::hash_of(identity) + ".json");
-        const auto kept = [&] { return request_.resume && !file.empty() ? store::read_kept(file, identity, tried_in) : std::nullopt; };
-        std::optional<Tried> tried = kept();
-        if (!tried) {
-            const store::FileLock lock(file, fmt::format("tries {} on map {}", at.scheme->name, at.map->name));
-            tried = kept();
-            if (!tried) {
-                tried = run_trial(trial, truths_, [&done](long, long) { done.look(); });
-                if (!file.empty()) store::write_fresh(file, text_of(*tried, identity));
-                ++ran_;
-            }
-        }
-        tried->figures.balance = at.scheme->balance;
-        return std::move(*tried);
-    }
-
-    int ran() const { return ran_; }
-
-private:
-    Truths& truths_;
-    const MapRequest& request_;
-    std::atomic<int> ran_ = 0;
-};
-
 std::vector<const Descriptor*> schemes_of(const Map& m, const compare::Catalogue& catalogue) {
     std::vector<const Descriptor*> chosen;
     for (const std::string& name : m.schemes) chosen.push_back(&catalogue.find(name));
@@ -116,12 +48,12 @@ double theory_along(const PointPlace& row) {
     const auto side = [&row](double x) {
         const Trial t = trial_at({row.map, row.scheme, axis_text(row.map->x, x), row.y});
         const double margin = theory_margin(row.map->theory, *t.scheme, t.scene, t.settings);
-        return std::isnan(margin) ? Verdict::refused : margin > 0 ? Verdict::sound : Verdict::diverged;
+        return std::isnan(margin) ? study::Verdict::refused : margin > 0 ? study::Verdict::sound : study::Verdict::diverged;
     };
     std::size_t first = 0;
-    while (first + 1 < axis.at.size() && side(axis.at[first]) == Verdict::refused) ++first;
+    while (first + 1 < axis.at.size() && side(axis.at[first]) == study::Verdict::refused) ++first;
     const Bracket ends{axis.at[first], axis.at.back(), side(axis.at[first]), side(axis.at.back())};
-    if (ends.at_low == ends.at_high || ends.at_low == Verdict::refused || ends.at_high == Verdict::refused)
+    if (ends.at_low == ends.at_high || ends.at_low == study::Verdict::refused || ends.at_high == study::Verdict::refused)
         return std::numeric_limits<double>::quiet_NaN();
     const Bracket b = bisect(ends, 60, axis.whole, side);
     return 0.5 * (b.low + b.high);
@@ -133,7 +65,7 @@ void compare_with_theory(std::vector<Boundary>& all) {
         while (end < all.size() && all[end].map == all[i].map && all[end].scheme == all[i].scheme && all[end].y == all[i].y) ++end;
         const double theory = theory_along({all[i].map, all[i].scheme, "", all[i].y});
         const auto distance = [theory](const Boundary& b) {
-            if (b.low != Verdict::sound && b.high != Verdict::sound) return HUGE_VAL;
+            if (b.low != study::Verdict::sound && b.high != study::Verdict::sound) return HUGE_VAL;
             return std::abs(0.5 * (store::number_of(b.x_low) + store::number_of(b.x_high)) - theory);
         };
         const auto nearest = std::min_element(all.begin() + static_cast<long>(i), all.begin() + static_cast<long>(end),
@@ -159,13 +91,14 @@ double Boundary::relative_difference() const {
     return 0.5 * (store::number_of(x_low) + store::number_of(x_high)) / theory - 1;
 }
 
-MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const MapRequest& request, const store::Listener& listener) {
-    const std::vector<PointPlace> places = places_of(maps, truths.catalogue());
+MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogue, const MapRequest& request,
+                const store::Listener& listener) {
+    const std::vector<PointPlace> places = places_of(maps, catalogue);
     for (const PointPlace& p : places) trial_at(p);  // scenes and keys that are none are said before anything runs
-    Laboratory laboratory(truths, request);
+    Trials trials(catalogue, request);
     std::vector<Tried> tried(places.size());
     store::side_by_side(std::vector<double>(places.size(), 1), request.jobs, listener, "points",
-                        [&](std::size_t i, store::Done& done) { tried[i] = laboratory(places[i], done); });
+                        [&](std::size_t i, store::Done& done) { tried[i] = trials(trial_at(places[i]), done); });
 
     std::vector<std::size_t> changes;  // between this point and the next
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
@@ -179,7 +112,7 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const MapRequest& 
     store::side_by_side(
         std::vector<double>(changes.size(), 1), request.jobs, listener, "boundaries", [&](std::size_t i, store::Done& done) {
             const PointPlace &low = places[changes[i]], &high = places[changes[i] + 1];
-            const Verdict at_low = tried[changes[i]].judgement.verdict, at_high = tried[changes[i] + 1].judgement.verdict;
+            const study::Verdict at_low = tried[changes[i]].judgement.verdict, at_high = tried[changes[i] + 1].judgement.verdict;
             const MapAxis& axis = low.map->x;
             asked[i] = 0;  // it may have been begun before, and have met a point that was busy
             const Bracket b =
@@ -187,7 +120,7 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const MapRequest& 
                     PointPlace at = low;
                     at.x = axis_text(axis, x);
                     ++asked[i];
-                    return laboratory(at, done).judgement.verdict;
+                    return trials(trial_at(at), done).judgement.verdict;
                 });
             result.boundaries[i] = {low.map,
                                     low.scheme,
@@ -200,7 +133,7 @@ MapRun run_maps(const std::vector<Map>& maps, Truths& truths, const MapRequest& 
         });
     for (std::size_t i = 0; i < places.size(); ++i) result.points.push_back({places[i], std::move(tried[i])});
     compare_with_theory(result.boundaries);
-    result.ran = laboratory.ran();
+    result.ran = trials.ran();
     result.read_back = std::accumulate(asked.begin(), asked.end(), static_cast<int>(places.size())) - result.ran;
     return result;
 }

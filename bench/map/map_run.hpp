@@ -3,7 +3,6 @@
 // each point once.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ struct Boundary {
     const Map* map;
     const Descriptor* scheme;
     std::string y;
-    Verdict low, high;                   // outcomes on its sides
+    study::Verdict low, high;            // outcomes on its sides
     std::string x_low, x_high;           // between them it lies
     double theory;                       // NaN where there is none
     double relative_difference() const;  // of the middle from theory
@@ -38,21 +37,15 @@ struct MapRun {
     int ran = 0, read_back = 0;        // points, those of bisections included
 };
 
-struct MapRequest {
-    std::string program;           // program_identity: counts into the address of what is kept
-    std::filesystem::path folder;  // that exists, where points are kept; "" for nowhere
-    bool resume = false;           // what lies there is read back
-    int jobs = 0;                  // 0: as many as there are cores
-};
 // Throws what a scene or a name that is none throws, before anything is run.
-MapRun run_maps(const std::vector<Map>&, Truths&, const MapRequest&, const store::Listener&);
+MapRun run_maps(const std::vector<Map>&, const compare::Catalogue&, const MapRequest&, const store::Listener&);
 
 // Bisection of a change between two outcomes along one axis: `verdict_at(x)` is asked at most `times` times, at the geometric mean of
 // positive numbers and the arithmetic of others, and not between neighbours where only `whole` numbers count. Where a third outcome lies
 // between, the search goes on towards the side that is sound, of two that are not towards the lower: what is found is where soundness ends.
 struct Bracket {
     double low, high;
-    Verdict at_low, at_high;
+    study::Verdict at_low, at_high;
 };
 template <class VerdictAt>
 Bracket bisect(Bracket b, int times, bool whole, VerdictAt verdict_at);
@@ -67,8 +60,8 @@ jvari::bench::map::Bracket jvari::bench::map::bisect(Bracket b, int times, bool 
         double middle = b.low > 0 ? std::sqrt(b.low) * std::sqrt(b.high) : 0.5 * (b.low + b.high);
         if (whole) middle = std::round(middle);
         if (!(middle > b.low && middle < b.high)) break;
-        const Verdict v = verdict_at(middle);
-        const bool lower = v == b.at_low || (v != b.at_high && b.at_high == Verdict::sound);
+        const study::Verdict v = verdict_at(middle);
+        const bool lower = v == b.at_low || (v != b.at_high && b.at_high == study::Verdict::sound);
         if (lower) b.low = middle, b.at_low = v;
         else b.high = middle, b.at_high = v;
     }

@@ -2,27 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "bench/compare/compare.hpp"
 #include "bench/store/records.hpp"
-#include "bench/trust/kept_run.hpp"
 #include "reference/certificate.hpp"
 #include "scenes/modes.hpp"
-#include "scenes/scene_file.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::map {
 
 namespace {
-using Json = nlohmann::ordered_json;
+constexpr double listening_points[] = {0.3, 0.437};  // of the length: no low mode has a node at both
 
-Settings reference_settings(const Descriptor& reference, const Trial& t) {
-    Settings s;
-    s.sample_rate = reference.clock == Clock::continuous ? 0 : 8 * t.settings.sample_rate;
-    s.tap_rate = t.settings.tap_rate;
-    s.modes = t.reference_modes > 0 ? t.reference_modes : t.settings.modes > 0 ? t.settings.modes : modes_for(t.scene, t.settings);
-    return s;
+double worst_nut(const study::Errors& errors, const Scene& scene) {
+    double worst = store::nan;
+    for (std::size_t k = 0; k < errors.size(); ++k)
+        if (scene.taps[k].quantity == Quantity::nut_force) worst = std::fmax(worst, errors[k][study::measure("error_l2_whole")]);
+    return worst;
 }
 }  // namespace
 
@@ -53,78 +50,71 @@ Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::st
     return t;
 }
 
-std::string identity_of(const Trial& t) {
-    Json options = Json::array();
-    for (const auto& [name, value] : t.settings.options) options.push_back({name, value});
-    return Json{{"scene", t.scene.name},
-                {"scene_hash", scene_hash(t.scene)},
-                {"scheme", t.scheme->name},
-                {"rate", store::text_of(t.settings.sample_rate)},
-                {"tap_rate", store::text_of(t.settings.tap_rate)},
-                {"modes", t.settings.modes},
-                {"options", options},
-                {"reference", t.reference},
-                {"reference_modes", t.reference_modes}}
-        .dump();
-}
-
-const Truths::Truth& Truths::of(const Trial& t, const study::ProgressOf& progress) {
-    static const Truth none;
-    if (t.reference == "none") return none;
-    const Descriptor& named = !t.reference.empty()            ? catalogue_.find(t.reference)
-                              : catalogue_.references.empty() ? *t.scheme
-                                                              : *catalogue_.references.front();
-    const Settings s = reference_settings(named, t);
-    const std::string key =
-        Json{scene_hash(t.scene), t.reference, store::text_of(s.sample_rate), store::text_of(s.tap_rate), s.modes, s.options}.dump();
-    Truth* truth;
-    {
-        const std::lock_guard lock(mutex_);
-        auto& kept = truths_[key];
-        if (!kept) kept = std::make_unique<Truth>();
-        truth = kept.get();
+Scene listened(Scene scene) {
+    scene.taps.clear();
+    scene = unfiltered(std::move(scene));
+    for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) {
+        const double L = scene.strings[k].length;
+        const std::string of = k == 0 ? "" : std::to_string(k);
+        scene.taps.push_back({"y" + of, Quantity::displacement, k, listening_points[0] * L});
+        scene.taps.push_back({"z" + of, Quantity::displacement, k, listening_points[1] * L});
+        scene.taps.push_back({"nut" + of, Quantity::nut_force, k, 0});
     }
-    std::call_once(truth->once, [&] { make(*truth, t, progress); });
-    return *truth;
+    return scene;
 }
 
-void Truths::make(Truth& truth, const Trial& t, const study::ProgressOf& progress) const {
-    RunOptions options;
-    options.progress = progress;
+Trials::Trials(const compare::Catalogue& catalogue, const MapRequest& request) : catalogue_(catalogue), request_(request) {
+    if (request.folder.empty()) return;
+    keep_.folder = request.folder / "points";
+    keep_.resume = request.resume;
+    std::error_code error;
+    std::filesystem::create_directories(keep_.folder, error);
+    store::must_be_writable(keep_.folder / "any");
+}
+
+// The references that represent the scene, or the one that is named, whatever it is: a scheme takes eight times the rate.
+std::vector<study::ReferenceChoice> Trials::references_of(const Trial& t) const {
+    std::vector<study::ReferenceChoice> choices;
+    if (t.reference == "none") return choices;
     std::vector<const Descriptor*> candidates = catalogue_.references;
     if (!t.reference.empty()) candidates = {&catalogue_.find(t.reference)};
-    for (const Descriptor* d : candidates) try {
-            if (!(needed_by(t.scene) - d->represents).empty()) continue;
-            const Scene scene = listened(t.scene);
-            const Settings s = reference_settings(*d, t);
-            Run r = trust::kept_run(
-                catalogue_.is_reference(*d) ? folder_ : "", trust::run_key(*d, scene, s), [&] { return run(*d, scene, s, options); }, 0);
-            if (r.status.outcome != Outcome::ok) continue;
-            truth.name = d->name;
-            truth.trace = std::move(r.trace);
-            return;
-        } catch (const Refusal&) {
-        }
+    for (const Descriptor* d : candidates) {
+        if (!(needed_by(t.scene) - d->represents).empty()) continue;
+        Settings s;
+        s.sample_rate = d->clock == Clock::continuous ? 0 : 8 * t.settings.sample_rate;
+        s.tap_rate = t.settings.tap_rate;
+        s.modes = t.reference_modes > 0 ? t.reference_modes : t.settings.modes > 0 ? t.settings.modes : modes_for(t.scene, t.settings);
+        study::ReferenceChoice c{d, s, ""};
+        c.kept = catalogue_.is_reference(*d) && !request_.folder.empty();
+        if (request_.resume) c.kept_in = request_.folder / "references";
+        choices.push_back(std::move(c));
+    }
+    return choices;
 }
 
-Tried run_trial(const Trial& t, Truths& truths, const study::ProgressOf& progress) {
-    Tried tried;
-    const Scene scene = listened(t.scene);
-    RunOptions probed;
-    probed.energy = true;
-    probed.progress = progress;
-    try {
-        const Run r = run(*t.scheme, scene, t.settings, probed);
-        const Truths::Truth& truth = truths.of(t, progress);
-        tried.steps = r.steps;
-        tried.reference = truth.name;
-        tried.figures = figures_of(*t.scheme, scene, r, truth.name.empty() ? nullptr : &truth.trace);
-        tried.judgement = judge(tried.figures);
-    } catch (const Refusal& e) {
-        tried.figures = {{}, store::nan, store::nan, store::nan, store::nan, t.scheme->balance};
-        tried.judgement = {Verdict::refused, e.what(), 0};
-    }
-    return tried;
+study::Plan Trials::plan_of(const Trial& t) const {
+    study::Plan plan;
+    study::Point& point = plan.points.emplace_back();
+    point.scene = listened(t.scene);
+    point.taps = point.scene.taps.size();
+    point.references = references_of(t);
+    point.truth_modes = std::nullopt;
+    point.alone = true;
+    study::Job& job = plan.jobs.emplace_back(study::Job{&point, {t.scheme, t.settings}});
+    job.judged = !point.references.empty();
+    job.errors = {study::measure("error_l2_whole")};
+    study::address(plan, request_.program);
+    return plan;
+}
+
+Tried Trials::operator()(const Trial& t, const store::Done& done) {
+    const study::Plan plan = plan_of(t);
+    const study::Job& job = plan.jobs.front();
+    if (job.judged) references_.hold(*job.point);
+    const study::Record r = study::record_of(job, references_, keep_, done, [&done](long, long) { done.look(); });
+    if (r.cell.failure == "error") throw std::runtime_error(study::what_of(job) + ": " + r.cell.reason);
+    const double error = worst_nut(r.cell.errors, job.point->scene);
+    return {r, error, study::judge(r.cell, error)};
 }
 
 }  // namespace jvari::bench::map

@@ -1,17 +1,15 @@
-// One point of a map: a scheme at its settings on one scene, run for as long as the scene says and judged.
+// One point of a map: a scheme at its settings on one scene, run for as long as the scene says and judged. A trial is what is varied; a job
+// of bench/study is what is run of it.
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/compare_plan.hpp"
 #include "bench/map/map_file.hpp"
-#include "bench/map/verdict.hpp"
+#include "bench/study/run.hpp"
+#include "bench/study/verdict.hpp"
 
 namespace jvari::bench::map {
 
@@ -30,35 +28,39 @@ Trial trial_of(const std::string& scene, const Descriptor&, const std::string& r
 
 double row_rate(double sample_rate);
 
-std::string identity_of(const Trial&);  // JSON: all that its judgement depends on, the program aside
+// What maps listen to in place of the scene's own taps: the displacement of every string at two points, and its nut force. The worst string
+// decides.
+Scene listened(Scene);
+
+struct MapRequest {
+    std::string program;           // program_identity: counts into the address of what is kept
+    std::filesystem::path folder;  // DIR, in whose points/ records are kept, and references in references/; "" for nowhere
+    bool resume = false;           // what lies there is read back
+    int jobs = 0;                  // 0: as many as there are cores
+};
 
 struct Tried {
-    Judgement judgement;
-    Figures figures;
-    std::string reference;  // that was compared with; "" for none
-    long steps = 0;         // taken
+    study::Record record;
+    double error;  // relative L2 of the worst string's nut force, NaN where there is none
+    study::Judgement judgement;
 };
 
-// Runs of references, kept for the trials that share one; in a folder, for those of other processes too.
-class Truths {
+// Runs trials as jobs. Their references are kept as long as it lives.
+class Trials {
 public:
-    explicit Truths(const compare::Catalogue& c, std::filesystem::path folder = {}) : catalogue_(c), folder_(std::move(folder)) {}
-    struct Truth {
-        std::once_flag once;
-        std::string name;  // "": none represents the scene, or none came to the end
-        Trace trace;
-    };
-    const Truth& of(const Trial&, const study::ProgressOf& = {});
-    const compare::Catalogue& catalogue() const { return catalogue_; }
+    explicit Trials(const compare::Catalogue&, const MapRequest& = {"{}", {}, false, 0});
+
+    // Throws Busy where another process or thread has it, and what no row of a map tells: an error that is no refusal.
+    Tried operator()(const Trial&, const store::Done& = {});
+    study::Plan plan_of(const Trial&) const;  // of one job
+    int ran() const { return keep_.ran; }
 
 private:
-    void make(Truth&, const Trial&, const study::ProgressOf&) const;
+    std::vector<study::ReferenceChoice> references_of(const Trial&) const;
     const compare::Catalogue& catalogue_;
-    const std::filesystem::path folder_;
-    std::mutex mutex_;
-    std::map<std::string, std::unique_ptr<Truth>> truths_;
+    const MapRequest request_;
+    study::References references_;
+    study::Kept keep_;
 };
-
-Tried run_trial(const Trial&, Truths&, const study::ProgressOf& = {});  // what that throws ends it
 
 }  // namespace jvari::bench::map

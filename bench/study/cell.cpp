@@ -30,9 +30,4 @@ void fail(Cell& cell, const std::exception& e) {
     cell.reason = e.what();
 }
 
-void judge(Cell& cell, const Trace& done, const Trace& truth, const Trace* model, int taps) {
-    cell.errors = errors_of(done, truth, taps);
-    cell.in_model = !model ? Errors{} : model == &truth ? cell.errors : errors_of(done, *model, taps);
-}
-
 }  // namespace jvari::bench::study

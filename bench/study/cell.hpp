@@ -39,7 +39,5 @@ struct Cell {
 using ProgressOf = std::function<void(long done, long rows)>;
 Trace run_cell(Cell&, const Scene& scene, const ProgressOf& progress);
 void fail(Cell&, const std::exception&);  // what running it threw: its failure and the reason
-// Fills its errors on the first `taps` taps: from the truth, and from a reference of its own modes; nullptr: there is none.
-void judge(Cell&, const Trace& done, const Trace& truth, const Trace* model, int taps);
 
 }  // namespace jvari::bench::study

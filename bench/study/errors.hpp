@@ -1,6 +1,7 @@
 // The errors of one cell: every measure on every tap, and which of them stand in the headline.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 
 namespace jvari::bench::study {
 
+class Pair;  // of a tap's signals: the run's and the reference's
+
 struct Measure {
     std::string column;  // "error_l2_50ms"
     std::string unit;    // "1", "s", "dB", "Hz"
@@ -16,13 +19,18 @@ struct Measure {
     bool bridge;         // the headline figure is of the bridge tap, else of the nut tap
     bool less_is_better;
     double window;  // [s] of the run that it is of; infinite: the whole
+    double (*of)(Pair&);
 };
 const std::vector<Measure>& measures();
+std::size_t measure(const std::string& column);  // its place among them
+
+using Measures = std::vector<std::size_t>;  // places; none: all
 
 // One row per tap, one column per measure; NaN where the reference says nothing (a window that it does not cover), +inf for a run
 // that stopped inside the window.
 using Errors = std::vector<std::vector<double>>;
-Errors errors_of(const Trace& candidate, const Trace& reference, int taps = -1);  // of the first `taps`; -1: of all
+// Of the first `taps`; -1: of all. NaN for measures that are not asked for.
+Errors errors_of(const Trace& candidate, const Trace& reference, int taps = -1, const Measures& only = {});
 
 // The taps of the headline columns: the first nut force and the first bridge force, else the first driving force, else the first tap.
 struct Headline {

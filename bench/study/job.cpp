@@ -7,7 +7,6 @@
 #include <set>
 
 #include "bench/store/checksum.hpp"
-#include "bench/store/machine.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::study {
@@ -26,8 +25,8 @@ Json references_json(const Point& p) {
 }
 }  // namespace
 
-void address(Plan& plan, const std::vector<std::string>& plugins) {
-    const Json program = Json::parse(store::program_identity(plugins));
+void address(Plan& plan, const std::string& of_program) {
+    const Json program = Json::parse(of_program);
     for (Point& p : plan.points) {
         const Json references = references_json(p);
         const std::string limit = store::text_of(p.time_limit);
@@ -52,6 +51,8 @@ void address(Plan& plan, const std::vector<std::string>& plugins) {
                       {"measured", job.measured}};
         if (job.judged) identity["references"] = references_json(p);
         if (job.judged && p.truth_modes) identity["reference_modes"] = *p.truth_modes;
+        if (!job.errors.empty()) identity["errors"] = job.errors;
+        if (p.alone) identity["reference_alone"] = true;
         if (job.repeats > 0) identity["repeats"] = job.repeats;
         if (p.element && is_added(*p.element)) identity[name_of(*p.element)] = true;
         if (!std::isinf(p.time_limit)) identity["time_limit_s"] = p.time_limit;

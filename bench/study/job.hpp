@@ -24,6 +24,7 @@ struct Point {
     std::optional<Element> element;                          // that the scene is without; an added one: that is on while it is timed
     std::vector<ReferenceChoice> references;
     std::optional<int> truth_modes = 0;  // 0: found by doubling; none: the reference with the cells' modes is all there is
+    bool alone = false;                  // nothing is asked of what the reference is uncertain by
     double time_limit = HUGE_VAL;        // of each run, of a reference too [s]
     std::string hash{};                  // of the scene
     std::string reference_key{};         // points that share it share the reference's run
@@ -41,6 +42,7 @@ struct Job {
     const Point* point;
     Cell cell;
     bool judged = true;                                  // against the point's reference
+    Measures errors{};                                   // by these
     bool sounds = false;                                 // its headline's nut tap is to be heard
     int repeats = 0;                                     // of the clock; 0: it is not timed
     int set = 0;                                         // jobs of one set are timed in one interleaved run
@@ -56,8 +58,8 @@ struct Plan {
     std::vector<std::string> notes;
 };
 
-// Fills keys and identities, and leaves each job once. `plugins` are files whose contents count as part of the program.
-void address(Plan&, const std::vector<std::string>& plugins);
+// Fills keys and identities, and leaves each job once. `program`: store::program_identity.
+void address(Plan&, const std::string& program);
 
 std::string what_of(const Job&);                // for people: "tanpura_c3_release: modal_two_point at 44100 Hz"
 std::vector<store::Rows> sets_of(const Plan&);  // indices of jobs by the set they are of

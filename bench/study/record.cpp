@@ -53,6 +53,8 @@ void each_number(Summary_& s, Number number) {
     number("smallest_contact_force", s.smallest_contact_force);
     number("largest_contact_force", s.largest_contact_force);
     number("deepest_penetration", s.deepest_penetration);
+    number("energy_gain", s.energy_gain);
+    number("largest_displacement", s.largest_displacement);
 }
 
 Json summary_json(const Summary& s) {

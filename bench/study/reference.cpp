@@ -68,7 +68,7 @@ void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene, c
 }  // namespace
 
 Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const store::Listener& listener,
-                        double time_limit) {
+                        double time_limit, bool alone) {
     std::string refusals;
     bool ordered = false;
     std::vector<ReferenceChoice> in_turn = choices;
@@ -82,7 +82,7 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
             }
             const ReferenceChoice& choice = in_turn[k];
             Reference r{choice, {}, {}, {}};
-            store::side_by_side({1, 1}, jobs, listener, "reference", [&](std::size_t i, store::Done& done) {
+            store::side_by_side(std::vector<double>(alone ? 1 : 2, 1), jobs, listener, "reference", [&](std::size_t i, store::Done& done) {
                 const ProgressOf progress = store::within(time_limit, told_to(done));
                 if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress);
                 else if (choice.oversampled) run_oversampled(r, scene, progress);
@@ -92,7 +92,11 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
                 refusals += fmt::format("; {} failed at its start", choice.scheme->name);
                 continue;
             }
-            if (!choice.oversampled) r.trust = trust::trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
+            if (alone && r.run.status.outcome != Outcome::ok) {
+                refusals += fmt::format("; {} {}", choice.scheme->name, name_of(r.run.status.outcome));
+                continue;
+            }
+            if (!choice.oversampled && !alone) r.trust = trust::trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
             return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();

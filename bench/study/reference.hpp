@@ -30,6 +30,9 @@ struct Reference {
 // The first of the choices that represents the scene and gets going, its two runs side by side where `jobs` are not 1; of the schemes that
 // may stand in the one that estimates its own error least goes first. Throws Refusal where none does, and PastItsLimit where one of the two
 // runs computes for longer than `time_limit` [s]: another in its place would make the errors a matter of the machine.
-Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const store::Listener&, double time_limit = HUGE_VAL);
+//
+// `alone`: the first that reaches its end, by one run; `moved` and `trust` are empty.
+Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const store::Listener&, double time_limit = HUGE_VAL,
+                        bool alone = false);
 
 }  // namespace jvari::bench::study

@@ -18,7 +18,8 @@ public:
         if (made_) return;
         try {
             truth_ = std::make_unique<Truth>(run());
-            floor_ = errors_of(truth_->reference.moved.trace, truth_->reference.run.trace, static_cast<int>(taps));
+            const Run& moved = truth_->reference.moved;
+            if (moved.trace.rows > 0) floor_ = errors_of(moved.trace, truth_->reference.run.trace, static_cast<int>(taps));
         } catch (const store::Busy& busy) {
             busy_ = busy;
             again_ = Clock::now() + std::chrono::milliseconds(500);
@@ -34,7 +35,9 @@ public:
     }
     void hold() { ++needed_by_; }
     void release() {
-        if (--needed_by_ == 0) truth_.reset();
+        if (--needed_by_ > 0) return;
+        truth_.reset();
+        made_ = false;
     }
     const Truth* truth() const { return truth_.get(); }
     const Errors& floor() const { return floor_; }
@@ -60,24 +63,27 @@ Against References::Of::against() const {
 
 References::References(std::span<const Job> jobs) {
     for (const Job& job : jobs)
-        if (job.judged) {
-            for (const std::string& key : {job.point->reference_key, job.point->truth_key})
-                if (auto& shared = all_[key]; !shared) shared = std::make_unique<Shared>();
-            hold(*job.point);
-        }
+        if (job.judged) hold(*job.point);
 }
 
 References::~References() = default;
 
+References::Shared& References::of(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    auto& shared = all_[key];
+    if (!shared) shared = std::make_unique<Shared>();
+    return *shared;
+}
+
 void References::each_of(const Point& p, void (Shared::*act)()) {
-    (all_.at(p.reference_key).get()->*act)();
-    if (!p.truth_key.empty()) (all_.at(p.truth_key).get()->*act)();
+    (of(p.reference_key).*act)();
+    if (!p.truth_key.empty()) (of(p.truth_key).*act)();
 }
 
 References::Of References::make(const Point& p, int jobs, const store::Listener& listener) {
-    Shared& model = *all_.at(p.reference_key);
-    model.make([&] { return Truth{run_reference(p.references, p.scene, jobs, listener, p.time_limit), {}, {}}; }, p.taps);
-    Shared& truth = p.truth_key.empty() ? model : *all_.at(p.truth_key);
+    Shared& model = of(p.reference_key);
+    model.make([&] { return Truth{run_reference(p.references, p.scene, jobs, listener, p.time_limit, p.alone), {}, {}}; }, p.taps);
+    Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
     if (p.truth_modes) truth.make([&] { return run_truth(p.references, p.scene, *p.truth_modes, jobs, listener, p.time_limit); }, p.taps);
     return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(), truth.refused()};
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 
@@ -13,7 +14,7 @@ namespace jvari::bench::study {
 
 class References {
 public:
-    explicit References(std::span<const Job>);
+    explicit References(std::span<const Job> = {});  // holds what they need
     ~References();
 
     struct Of {                            // one point
@@ -33,7 +34,9 @@ public:
 
 private:
     class Shared;
+    Shared& of(const std::string& key);
     void each_of(const Point&, void (Shared::*)());
+    std::mutex mutex_;                                    // of `all_`
     std::map<std::string, std::unique_ptr<Shared>> all_;  // by reference_key and truth_key
 };
 

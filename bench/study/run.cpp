@@ -16,19 +16,20 @@ namespace jvari::bench::study {
 namespace {
 namespace fs = std::filesystem;
 
-Record record_of(const Job& job, References& references, store::Done& done) {
+Record run_job(const Job& job, References& references, const store::Done& done, const ProgressOf& progress) {
     const Point& point = *job.point;
     References::Of known;
     if (job.judged) known = references.make(point, 1, store::PartOf(done));
     Record r{job.cell, {}, {}, {}};
     Cell& cell = r.cell;
-    const auto told = [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
     const Trace* truth = known.truth ? &known.truth->reference.run.trace : nullptr;
     try {
-        const Trace trace = run_cell(cell, point.scene, store::within(point.time_limit, told));
+        const Trace trace = run_cell(cell, point.scene, store::within(point.time_limit, progress));
         if (truth) {
+            const auto errors_from = [&](const Trace& t) { return errors_of(trace, t, static_cast<int>(point.taps), job.errors); };
             const Reference* own = known.model ? of_modes(cell, *known.model, *known.truth) : nullptr;
-            judge(cell, trace, *truth, own ? &own->run.trace : nullptr, static_cast<int>(point.taps));
+            cell.errors = errors_from(*truth);
+            if (own) cell.in_model = &own->run.trace == truth ? cell.errors : errors_from(own->run.trace);
         }
         if (job.sounds && cell.reason.empty()) cell.sound = store::sound_of(trace.column(headline_of(point.scene).nut), trace.tap_rate);
         if (job.measure) job.measure({point, cell, trace, truth}, r);
@@ -40,6 +41,11 @@ Record record_of(const Job& job, References& references, store::Done& done) {
     return r;
 }
 
+std::optional<Record> kept_record(const Job& job, const Kept& keep) {
+    if (!keep.resume || keep.folder.empty()) return std::nullopt;
+    return read_record(keep.folder / (job.id + ".json"), job.identity, job.cell);
+}
+
 // Of the jobs that are not there: run here, or read back where another process has run them meanwhile.
 void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, References& references, Kept& keep, int threads,
                  const store::Listener& listener, Study& into) {
@@ -47,27 +53,16 @@ void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, Refe
     for (const std::size_t i : missing)
         sizes.push_back(std::max(plan.jobs[i].cell.settings.sample_rate, 44100.0) * std::max(1, plan.jobs[i].cell.settings.modes) *
                         plan.jobs[i].point->scene.duration);
-    std::atomic<int> ran = 0;
     store::side_by_side(
         sizes, threads, listener, "errors",
         [&](std::size_t k, store::Done& done) {
             const Job& job = plan.jobs[missing[k]];
             if (job.judged) references.look(*job.point);
-            const fs::path file = keep.folder.empty() ? fs::path() : keep.folder / (job.id + ".json");
-            const store::FileLock lock(file, "runs " + what_of(job));
-            std::optional<Record> record;
-            if (keep.resume && !file.empty()) record = read_record(file, job.identity, job.cell);
-            if (!record) {
-                record = record_of(job, references, done);
-                if (!file.empty()) store::write_fresh(file, json_of(*record, job.identity));
-                ++ran;
-            }
+            into.records[missing[k]] = record_of(
+                job, references, keep, done, [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); });
             if (job.judged) references.release(*job.point);
-            into.records[missing[k]] = std::move(*record);
-            ++keep.kept;
         },
         [&](std::size_t k) { return what_of(plan.jobs[missing[k]]); });
-    into.ran = ran;
 }
 
 void show_clock(Cell& cell, const KeptClock& clock) {
@@ -131,13 +126,28 @@ void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Lis
 }
 }  // namespace
 
+Record record_of(const Job& job, References& references, Kept& keep, const store::Done& done, const ProgressOf& progress) {
+    std::optional<Record> record = kept_record(job, keep);
+    if (!record) {
+        const fs::path file = keep.folder.empty() ? fs::path() : keep.folder / (job.id + ".json");
+        const store::FileLock lock(file, "runs " + what_of(job));
+        record = kept_record(job, keep);
+        if (!record) {
+            record = run_job(job, references, done, progress);
+            if (!file.empty()) store::write_fresh(file, json_of(*record, job.identity));
+            ++keep.ran;
+        }
+    }
+    ++keep.kept;
+    return std::move(*record);
+}
+
 Study run(const Plan& plan, References& references, Kept& keep, int threads, const store::Listener& listener) {
     Study result;
     std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
         const Job& job = plan.jobs[i];
-        std::optional<Record> kept;
-        if (keep.resume && !keep.folder.empty()) kept = read_record(keep.folder / (job.id + ".json"), job.identity, job.cell);
+        std::optional<Record> kept = kept_record(job, keep);
         if (!kept) missing.push_back(i);
         else if (job.judged) references.release(*job.point);
         result.records.push_back(kept ? std::move(*kept) : Record{job.cell, {}, {}, {}});
@@ -145,6 +155,7 @@ Study run(const Plan& plan, References& references, Kept& keep, int threads, con
     keep.of = static_cast<int>(plan.jobs.size());
     keep.kept = keep.of - static_cast<int>(missing.size());
     if (!missing.empty()) run_missing(plan, missing, references, keep, threads, listener, result);
+    result.ran = keep.ran;
     result.read_back = keep.of - result.ran;
     time_sets(plan, keep, result, listener);
     return result;

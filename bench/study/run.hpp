@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/store/system/side_by_side.hpp"
 #include "bench/study/references.hpp"
 
 namespace jvari::bench::study {
@@ -18,7 +19,12 @@ struct Kept {                           // where records and clocks lie
     std::filesystem::path folder{};     // "": nothing is kept
     bool resume = false;                // what lies there is read back
     std::atomic<int> kept = 0, of = 0;  // how many records lie there, of how many
+    std::atomic<int> ran = 0;           // by this process
 };
+
+// One job: read back where it lies there, else run under the lock of its file and kept. Throws Busy where another process or thread has it,
+// or runs its reference.
+Record record_of(const Job&, References&, Kept&, const store::Done&, const ProgressOf&);
 
 struct Study {
     std::vector<Record> records;            // of each job of the plan

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +19,27 @@ int modes_used(const Scene& scene, const Settings& settings, const std::vector<F
     if (const double n = fact(facts, facts::interior_nodes); n == n) return static_cast<int>(n);
     if (const double n = fact(facts, facts::grid_intervals); n == n) return static_cast<int>(n) - 1;
     return modes_for(scene, settings);
+}
+
+double largest(std::span<const double> values) {  // infinite where a value is not finite
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::isfinite(x) ? std::abs(x) : HUGE_VAL);
+    return most;
+}
+
+// Of all displacement taps, over what `energy` could make of a string under its tension: |y| <= sqrt(E L/(2 T)).
+double displacement_of(const Scene& scene, const Trace& trace, double energy) {
+    double displacement = store::nan;
+    for (int k = 0; k < trace.taps(); ++k) {
+        const Tap& tap = scene.taps[k];
+        if (tap.quantity != Quantity::displacement) continue;
+        const String& s = scene.strings[*tap.string];
+        const double most = largest(trace.column(k));
+        displacement = std::fmax(displacement, std::isinf(most) ? most
+                                               : energy > 0     ? most / std::sqrt(energy * s.length / (2 * s.tension))
+                                                                : store::nan);
+    }
+    return displacement;
 }
 }  // namespace
 
@@ -54,6 +76,9 @@ Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& sett
     s.smallest_contact_force = fact(run.facts, facts::smallest_contact_force);
     s.largest_contact_force = fact(run.facts, facts::largest_contact_force);
     s.deepest_penetration = fact(run.facts, facts::deepest_penetration);
+    const EnergyGain gain = energy_gain(run.trace);
+    s.energy_gain = gain.largest;
+    s.largest_displacement = displacement_of(scene, run.trace, gain.budget);
     const auto told_above = [](const Fact& f) {
         return f.name == facts::smallest_contact_force.name || f.name == facts::largest_contact_force.name ||
                f.name == facts::deepest_penetration.name;

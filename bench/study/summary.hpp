@@ -20,7 +20,9 @@ struct Summary {
     double energy_residual_per_step, energy_residual_accumulated;  // relative to the largest stored energy; NaN unless probed
     double smallest_contact_force, largest_contact_force;          // [N]; NaN where the scheme does not say
     double deepest_penetration;                                    // [m]
-    std::vector<Fact> facts;                                       // the others
+    double energy_gain;           // the largest excess of stored energy over the ledger, of the energy that was there (analysis/energy.hpp)
+    double largest_displacement;  // of the displacement taps: |y| over sqrt(E L/(2T)), what that energy could make; NaN where there is none
+    std::vector<Fact> facts;      // the others
 };
 
 Summary summary_of(const Descriptor&, const Scene&, const Settings&, const Run&);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/compare_plan.hpp"
+#include "bench/store/machine.hpp"
 #include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
@@ -86,7 +87,7 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue, con
             }
         }
     }
-    study::address(all, plugins);
+    study::address(all, store::program_identity(plugins));
     return all;
 }
 

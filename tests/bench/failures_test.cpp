@@ -21,11 +21,11 @@ const bench::compare::Catalogue& catalogue() {
 }
 
 TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
-    bench::map::Truths truths(catalogue());
+    bench::map::Trials trials(catalogue());
     const auto all = bench::map::read_failures(JVARI_FAILURES, catalogue());
     ASSERT_FALSE(all.empty());
     for (const bench::map::Reproducer& r : all) {
-        const bench::map::Tried t = bench::map::run_trial(r.trial, truths);
+        const bench::map::Tried t = trials(r.trial);
         EXPECT_STREQ(name_of(t.judgement.verdict), name_of(r.expected.verdict)) << r.file << ": " << t.judgement.detail;
         EXPECT_LE(t.judgement.step, 2 * r.expected.step) << r.file;  // a growth from rounding is as long as its logarithm
         EXPECT_GE(2 * t.judgement.step, r.expected.step) << r.file;
@@ -42,12 +42,11 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
         m.fixed = {{"duration", "0.001"}, {"modes", "10"}, {"string.0.initial.amplitude", "-1e-6"}};
         m.reference = "none";
         m.reproduce = reproduce;
-        bench::map::Truths truths(catalogue());
         const std::vector<bench::map::Map> maps = {m};
         const bench::map::MapRequest request{"\"tests\"", {}, false, 1};
-        const bench::map::MapRun run = bench::map::run_maps(maps, truths, request, bench::store::Listener());
+        const bench::map::MapRun run = bench::map::run_maps(maps, catalogue(), request, bench::store::Listener());
         ASSERT_EQ(run.points.size(), 1u);
-        EXPECT_EQ(run.points[0].tried.judgement.verdict, bench::map::Verdict::diverged);
+        EXPECT_EQ(run.points[0].tried.judgement.verdict, bench::study::Verdict::diverged);
         EXPECT_EQ(reproducers_of(run, catalogue(), request, bench::store::Listener()).size(), reproduce ? 1u : 0u);
     }
 }
@@ -69,15 +68,16 @@ bench::map::Trial large() {
 }
 
 TEST(Failures, EveryOutcomeHasOne) {
-    std::set<bench::map::Verdict> seen;
+    std::set<bench::study::Verdict> seen;
     bool gains = false;
     for (const bench::map::Reproducer& r : bench::map::read_failures(JVARI_FAILURES, catalogue())) {
         seen.insert(r.expected.verdict);
         gains = gains || (r.trial.scheme->name == std::string("modal_impulse_invariant") &&
-                          r.expected.verdict == bench::map::Verdict::energy_gaining);
+                          r.expected.verdict == bench::study::Verdict::energy_gaining);
     }
-    for (const bench::map::Verdict v : {bench::map::Verdict::inaccurate, bench::map::Verdict::adhesive, bench::map::Verdict::energy_gaining,
-                                        bench::map::Verdict::not_converged, bench::map::Verdict::diverged})
+    for (const bench::study::Verdict v :
+         {bench::study::Verdict::inaccurate, bench::study::Verdict::adhesive, bench::study::Verdict::energy_gaining,
+          bench::study::Verdict::not_converged, bench::study::Verdict::diverged})
         EXPECT_TRUE(seen.contains(v)) << bench::map::name_of(v);
     EXPECT_TRUE(gains);  // where modal_two_point is sound; its inaccurate points are everyone's
 }
@@ -109,23 +109,21 @@ TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
 }
 
 TEST(Minimiser, WhatItWritesReadsBackAsTheSameFailure) {
-    bench::map::Truths truths(catalogue());
+    bench::map::Trials trials(catalogue());
     bench::map::Trial t = large();
     t.scheme = &catalogue().find("modal_explicit_penalty");
-    const auto diverges = [&truths](const bench::map::Trial& x) {
-        return bench::map::run_trial(x, truths).judgement.verdict == bench::map::Verdict::diverged;
-    };
+    const auto diverges = [&trials](const bench::map::Trial& x) { return trials(x).judgement.verdict == bench::study::Verdict::diverged; };
     ASSERT_TRUE(diverges(t));
     t = bench::map::minimised(t, diverges);
     EXPECT_LT(t.settings.modes, 133);
     const auto folder = std::filesystem::temp_directory_path() / ("jvari-failures-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
-    bench::map::write_failures(folder, {{"a.toml", t, bench::map::run_trial(t, truths).judgement}});
+    bench::map::write_failures(folder, {{"a.toml", t, trials(t).judgement}});
     const auto back = bench::map::read_failures(folder, catalogue());
     std::filesystem::remove_all(folder);
     ASSERT_EQ(back.size(), 1u);
-    EXPECT_EQ(identity_of(back[0].trial), identity_of(t));
-    EXPECT_EQ(back[0].expected.verdict, bench::map::Verdict::diverged);
+    EXPECT_EQ(trials.plan_of(back[0].trial).jobs[0].identity, trials.plan_of(t).jobs[0].identity);
+    EXPECT_EQ(back[0].expected.verdict, bench::study::Verdict::diverged);
 }
 
 }  // namespace

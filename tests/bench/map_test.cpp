@@ -83,10 +83,10 @@ TEST(MapFile, MorePointsThanCanBeRunAreRefusedWithTheirNumber) {
 TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
     int asked = 0;
     const auto past_pi = [&asked](double x) {
-        return ++asked, x < 3.14159265 ? bench::map::Verdict::sound : bench::map::Verdict::diverged;
+        return ++asked, x < 3.14159265 ? bench::study::Verdict::sound : bench::study::Verdict::diverged;
     };
     const bench::map::Bracket b =
-        bench::map::bisect({1, 100, bench::map::Verdict::sound, bench::map::Verdict::diverged}, 20, false, past_pi);
+        bench::map::bisect({1, 100, bench::study::Verdict::sound, bench::study::Verdict::diverged}, 20, false, past_pi);
     EXPECT_EQ(asked, 20);
     EXPECT_LT(b.low, 3.14159265);
     EXPECT_GE(b.high, 3.14159265);
@@ -94,25 +94,26 @@ TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
 }
 
 TEST(Bisection, OfWholeNumbersEndsAtNeighbours) {
-    const auto past = [](double x) { return x <= 137 ? bench::map::Verdict::sound : bench::map::Verdict::refused; };
-    const bench::map::Bracket b = bench::map::bisect({100, 400, bench::map::Verdict::sound, bench::map::Verdict::refused}, 60, true, past);
+    const auto past = [](double x) { return x <= 137 ? bench::study::Verdict::sound : bench::study::Verdict::refused; };
+    const bench::map::Bracket b =
+        bench::map::bisect({100, 400, bench::study::Verdict::sound, bench::study::Verdict::refused}, 60, true, past);
     EXPECT_EQ(b.low, 137);
     EXPECT_EQ(b.high, 138);
 }
 
 TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereSoundnessEnds) {
     const auto three = [](double x) {
-        return x < 2 ? bench::map::Verdict::sound : x < 3 ? bench::map::Verdict::adhesive : bench::map::Verdict::diverged;
+        return x < 2 ? bench::study::Verdict::sound : x < 3 ? bench::study::Verdict::adhesive : bench::study::Verdict::diverged;
     };
     const bench::map::Bracket end =
-        bench::map::bisect({1, 10, bench::map::Verdict::sound, bench::map::Verdict::diverged}, 30, false, three);
+        bench::map::bisect({1, 10, bench::study::Verdict::sound, bench::study::Verdict::diverged}, 30, false, three);
     EXPECT_NEAR(end.low, 2, 1e-6);
-    EXPECT_EQ(end.at_high, bench::map::Verdict::adhesive);
+    EXPECT_EQ(end.at_high, bench::study::Verdict::adhesive);
     const auto mirrored = [&three](double x) { return three(11 - x); };
     const bench::map::Bracket start =
-        bench::map::bisect({1, 10, bench::map::Verdict::diverged, bench::map::Verdict::sound}, 30, false, mirrored);
+        bench::map::bisect({1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound}, 30, false, mirrored);
     EXPECT_NEAR(start.high, 9, 1e-6);
-    EXPECT_EQ(start.at_low, bench::map::Verdict::adhesive);
+    EXPECT_EQ(start.at_low, bench::study::Verdict::adhesive);
 }
 
 // ---- Boundaries against theory
@@ -144,8 +145,7 @@ constexpr const char* limits = R"(
 
 bench::map::MapRun run_of(const bench::suite::Suite& suite, const fs::path& folder = {}, bool resume = false, int jobs = 1) {
     static const bench::compare::Catalogue catalogue;
-    bench::map::Truths truths(catalogue);
-    return bench::map::run_maps(suite.maps, truths, {"\"tests\"", folder, resume, jobs}, bench::store::Listener());
+    return bench::map::run_maps(suite.maps, catalogue, {"\"tests\"", folder, resume, jobs}, bench::store::Listener());
 }
 
 TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
@@ -154,8 +154,8 @@ TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
     ASSERT_EQ(run.boundaries.size(), 3u);
     for (const bench::map::Boundary& b : run.boundaries) {
         EXPECT_LT(std::abs(b.relative_difference()), 0.01) << b.map->name << " " << b.scheme->name << " " << b.theory;
-        EXPECT_EQ(b.high, bench::map::Verdict::sound);
-        EXPECT_NE(b.low, bench::map::Verdict::sound);
+        EXPECT_EQ(b.high, bench::study::Verdict::sound);
+        EXPECT_NE(b.low, bench::study::Verdict::sound);
     }
 }
 
@@ -179,19 +179,19 @@ TEST(Maps, TrueEnergyOfTheImpulseInvariantControlIsGainedBelowTheRateOfEqualShar
     ASSERT_EQ(run.boundaries.size(), 1u);  // none of mode 60: equal shares are less than its own. None of the scheme that balances
     const bench::map::Boundary& b = run.boundaries[0];
     EXPECT_EQ(b.y, "133");
-    EXPECT_EQ(b.low, bench::map::Verdict::energy_gaining);
-    EXPECT_EQ(b.high, bench::map::Verdict::sound);
+    EXPECT_EQ(b.low, bench::study::Verdict::energy_gaining);
+    EXPECT_EQ(b.high, bench::study::Verdict::sound);
     EXPECT_LT(std::abs(b.relative_difference()), 0.05) << b.theory;
 }
 
 TEST(Maps, ASteppedReferenceIsMadeForEachRateAndAContinuousOneOnce) {
     const bench::compare::Catalogue catalogue;
-    bench::map::Truths truths(catalogue);
+    const bench::map::Trials trials(catalogue);
     const auto at = [&](const char* rate, const std::string& reference) {
         bench::map::Trial t = bench::map::trial_of("free_string", catalogue.find("modal_two_point"), reference,
                                                    {{"rate", rate}, {"modes", "10"}, {"duration", "0.002"}});
         t.settings.tap_rate = 44100;
-        return &truths.of(t);
+        return trials.plan_of(t).points.front().reference_key;  // points that share it share the run
     };
     EXPECT_NE(at("44100", "modal_spatial_newton"), at("88200", "modal_spatial_newton"));
     EXPECT_EQ(at("44100", "modal_spatial_newton"), at("44100", "modal_spatial_newton"));
@@ -218,8 +218,8 @@ TEST(Maps, WhereAnExplicitSchemeWithItsComplianceMatchedLosesLastingContactIsKno
     for (const bench::map::Boundary& b : run.boundaries)
         if (std::isfinite(b.theory)) {
             ++compared;
-            EXPECT_NE(b.low, bench::map::Verdict::sound);
-            EXPECT_EQ(b.high, bench::map::Verdict::sound);
+            EXPECT_NE(b.low, bench::study::Verdict::sound);
+            EXPECT_EQ(b.high, bench::study::Verdict::sound);
             EXPECT_LT(std::abs(b.relative_difference()), 0.005) << b.scheme->name << ": " << b.theory;
         }
     EXPECT_EQ(compared, 2);
@@ -231,11 +231,11 @@ TEST(Maps, WhereAnExplicitSchemeWithItsComplianceMatchedLosesLastingContactIsKno
 
 TEST(Maps, AReferenceWithModesOfItsOwnIsTheSameForEveryPoint) {
     const bench::compare::Catalogue catalogue;
-    bench::map::Truths truths(catalogue);
+    bench::map::Trials trials(catalogue);
     const auto error = [&](const char* modes, int reference_modes) {
         const bench::map::Trial t = bench::map::trial_of("tanpura_c3_release", catalogue.find("modal_two_point"), "exact_contact",
                                                          {{"rate", "705600"}, {"modes", modes}, {"duration", "0.005"}}, reference_modes);
-        return run_trial(t, truths).figures.error;
+        return trials(t).error;
     };
     EXPECT_LT(error("20", 0), 0.02);  // within a string of 20 modes
     EXPECT_GT(error("20", 80), 0.1);  // of 80
@@ -261,7 +261,7 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
     EXPECT_EQ(t.at(1, "outcome"), "refused");
     EXPECT_NE(t.at(1, "detail").find("half the sample rate"), std::string::npos) << t.at(1, "detail");
     const bench::store::Table boundaries =
-        bench::map::boundaries_table(run, {{{"modal_two_point", bench::map::Verdict::refused}, "failures/a.toml"}});
+        bench::map::boundaries_table(run, {{{"modal_two_point", bench::study::Verdict::refused}, "failures/a.toml"}});
     ASSERT_GE(boundaries.rows.size(), 2u);
     EXPECT_EQ(boundaries.at(0, "between"), "sound|refused");
     EXPECT_EQ(boundaries.at(0, "reproducer"), "failures/a.toml");
@@ -275,7 +275,7 @@ TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     const bench::map::MapRun whole = run_of(suite, scratch.path);
     EXPECT_EQ(whole.read_back, 0);
     int removed = 0;  // as if the suite had been stopped: a part of its points, and one that was cut off
-    for (const auto& entry : fs::directory_iterator(scratch.path)) {
+    for (const auto& entry : fs::directory_iterator(scratch.path / "points")) {
         if (++removed % 3 == 0) fs::remove(entry.path());
         if (removed % 7 == 0) std::ofstream(entry.path()) << "{";
     }
@@ -286,7 +286,8 @@ TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     EXPECT_EQ(csv(maps_table(resumed)), csv(maps_table(whole)));
     EXPECT_EQ(csv(boundaries_table(resumed, {})), csv(boundaries_table(whole, {})));
     EXPECT_EQ(run_of(suite, scratch.path, true).ran, 0);
-    const auto first = fs::directory_iterator(scratch.path)->path(), second = std::next(fs::directory_iterator(scratch.path))->path();
+    const auto first = fs::directory_iterator(scratch.path / "points")->path(),
+               second = std::next(fs::directory_iterator(scratch.path / "points"))->path();
     fs::copy_file(first, second, fs::copy_options::overwrite_existing);  // a point under the name of another
     EXPECT_EQ(run_of(suite, scratch.path, true).ran, 1);
 }
@@ -295,7 +296,7 @@ TEST(Maps, APointIsBelievedWhereItIsAsItWasWritten) {
     const Scratch scratch;
     const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
     const bench::map::MapRun whole = run_of(suite, scratch.path);
-    const fs::path file = fs::directory_iterator(scratch.path)->path();
+    const fs::path file = fs::directory_iterator(scratch.path / "points")->path();
     const std::string kept = content(file.string());
     const auto ran_with = [&](const std::string& text) {
         std::ofstream(file, std::ios::binary) << text;

@@ -1,5 +1,5 @@
 // Outcomes of runs that are made up, each by the one thing that is wrong with it.
-#include "bench/map/verdict.hpp"
+#include "bench/map/trial.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,124 +43,136 @@ struct MadeUp {  // 100 rows at 1 kHz of a string that swings with 1 J: |y| <= s
         truth = t;
     }
     double& energy(int column, int row) { return run.trace.energy[100 * column + row]; }
-    bench::map::Judgement judgement(Balance b = Balance::exact, bool with_truth = true) {
+    bench::study::Judgement judgement(Balance b = Balance::exact, bool with_truth = true) {
         const Descriptor d = promising(b);
-        return bench::map::judge(bench::map::figures_of(d, scene, run, with_truth ? &truth : nullptr));
+        bench::study::Cell cell{&d, {}};
+        cell.summary = bench::study::summary_of(d, scene, {}, run);
+        return bench::study::judge(cell, with_truth ? bench::study::errors_of(run.trace, truth).at(2).at(2) : nan);  // nut, whole run
     }
-    bench::map::Verdict verdict(Balance b = Balance::exact) { return judgement(b).verdict; }
+    bench::study::Verdict verdict(Balance b = Balance::exact) { return judgement(b).verdict; }
 };
 
+bench::study::Judgement judged(Status status, double displacement, double gain, double pull, double error, Balance b) {
+    const Descriptor d = promising(b);
+    bench::study::Cell cell{&d, {}};
+    cell.summary.status = status;
+    cell.summary.largest_displacement = displacement;
+    cell.summary.energy_gain = gain;
+    cell.summary.smallest_contact_force = -pull, cell.summary.largest_contact_force = 1;
+    return bench::study::judge(cell, error);
+}
+
 TEST(Outcome, ARunWithNothingAgainstItIsSound) {
-    EXPECT_EQ(MadeUp().verdict(), bench::map::Verdict::sound);
+    EXPECT_EQ(MadeUp().verdict(), bench::study::Verdict::sound);
     EXPECT_EQ(MadeUp().judgement(Balance::exact, false).detail, "");
 }
 
 TEST(Outcome, TheRunsOwnStatusIsTakenWithItsStep) {
     MadeUp m;
     m.run.status = {Outcome::diverged, 17};
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::diverged);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::diverged);
     EXPECT_EQ(m.judgement().step, 17);
     m.run.status.outcome = Outcome::not_converged;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::not_converged);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::not_converged);
 }
 
 TEST(Outcome, ADisplacementBeyondWhatTenfoldEnergyAllowsIsDivergence) {
     MadeUp m;
     m.run.trace.tap[150] = 0.99 * 0.5 * std::sqrt(10.0);
-    EXPECT_NE(m.verdict(), bench::map::Verdict::diverged);
+    EXPECT_NE(m.verdict(), bench::study::Verdict::diverged);
     m.run.trace.tap[150] = -1.01 * 0.5 * std::sqrt(10.0);
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::diverged);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::diverged);
 }
 
 TEST(Outcome, EnergyThatTheLedgerDoesNotExplainIsAGain) {
     MadeUp m;
     for (int n = 50; n < 100; ++n) m.energy(0, n) = 2;  // supplied: no gain
     m.energy(1, 50) = 1;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     m.energy(0, 80) = 2 + 4e-6;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::energy_gaining);  // 2e-6 of the 2 J that were there
-    EXPECT_EQ(m.verdict(Balance::none), bench::map::Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::energy_gaining);  // 2e-6 of the 2 J that were there
+    EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::sound);
     m.energy(0, 80) = 2.04;
-    EXPECT_EQ(m.verdict(Balance::none), bench::map::Verdict::energy_gaining);
+    EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::energy_gaining);
 }
 
 TEST(Outcome, EnergyThatIsLostIsNoGain) {
     MadeUp m;
     for (int n = 1; n < 100; ++n) m.energy(0, n) = 0.5;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
 }
 
 TEST(Outcome, EnergyThatIsDissipatedOnPaperAndKeptIsAGain) {
     MadeUp m;
     m.energy(2, 10) = 0.5;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::energy_gaining);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::energy_gaining);
 }
 
 TEST(Outcome, ALossThatFeedsEnergyInIsAGain) {
     MadeUp m;
     m.energy(2, 10) = -0.5;
     for (int n = 10; n < 100; ++n) m.energy(0, n) = 1.5;  // the ledger closes
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::energy_gaining);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::energy_gaining);
 }
 
 TEST(Outcome, ColumnsLeftEmptySayNothing) {
     MadeUp m;
     std::fill(m.run.trace.energy.begin(), m.run.trace.energy.end(), 0.0);
-    EXPECT_EQ(m.verdict(Balance::none), bench::map::Verdict::sound);
+    EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::sound);
 }
 
 TEST(Outcome, ARunThatNothingSpeaksOfIsUnjudgedAndNeverSound) {
     MadeUp m;
     std::fill(m.run.trace.energy.begin(), m.run.trace.energy.end(), 0.0);
     m.run.facts.clear();
-    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::map::Verdict::unjudged);
+    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::study::Verdict::unjudged);
     EXPECT_NE(m.judgement(Balance::none, false).detail, "");
-    EXPECT_EQ(m.judgement(Balance::none, true).verdict, bench::map::Verdict::sound);  // its reference speaks
-    EXPECT_EQ(bench::map::judge({{}, 0, nan, nan, nan, Balance::none}).verdict, bench::map::Verdict::sound);
-    EXPECT_EQ(bench::map::judge({{}, nan, 0, nan, nan, Balance::none}).verdict, bench::map::Verdict::sound);
-    EXPECT_EQ(bench::map::judge({{}, nan, nan, 0, nan, Balance::none}).verdict, bench::map::Verdict::sound);
-    EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, 0, Balance::none}).verdict, bench::map::Verdict::sound);
+    EXPECT_EQ(m.judgement(Balance::none, true).verdict, bench::study::Verdict::sound);  // its reference speaks
+    EXPECT_EQ(judged({}, 0, nan, nan, nan, Balance::none).verdict, bench::study::Verdict::sound);
+    EXPECT_EQ(judged({}, nan, 0, nan, nan, Balance::none).verdict, bench::study::Verdict::sound);
+    EXPECT_EQ(judged({}, nan, nan, 0, nan, Balance::none).verdict, bench::study::Verdict::sound);
+    EXPECT_EQ(judged({}, nan, nan, nan, 0, Balance::none).verdict, bench::study::Verdict::sound);
 }
 
 TEST(Outcome, ARunThatIsNotEvenNumbersHasDiverged) {
     MadeUp m;
     m.run.trace.tap[150] = nan;
-    EXPECT_EQ(m.judgement(Balance::exact, true).verdict, bench::map::Verdict::diverged);
+    EXPECT_EQ(m.judgement(Balance::exact, true).verdict, bench::study::Verdict::diverged);
     m.run.trace.tap.assign(m.run.trace.tap.size(), nan);
-    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::map::Verdict::diverged);
+    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::study::Verdict::diverged);
     m.run.trace.energy.clear();
-    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::map::Verdict::diverged);
+    EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::study::Verdict::diverged);
 }
 
 TEST(Outcome, APullIsMeasuredAgainstTheHardestPush) {
     MadeUp m;
     m.run.facts[0].value = -0.9 * 6e-6;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     m.run.facts[0].value = -1.1 * 6e-6;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::adhesive);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::adhesive);
     m.run.facts = {{"smallest_contact_force", -0.9e-9, "N"}, {"largest_contact_force", 0, "N"}};  // it hardly touches
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     m.run.facts = {{"smallest_contact_force", -1.1e-9, "N"}};  // and does not say how it pushes
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::adhesive);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::adhesive);
 }
 
 TEST(Outcome, ATenthOfErrorIsInaccurate) {
     MadeUp m;
     for (int n = 200; n < 300; ++n) m.run.trace.tap[n] *= 1.09;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     for (int n = 200; n < 300; ++n) m.run.trace.tap[n] = m.truth.tap[n] * 1.11;
-    EXPECT_EQ(m.verdict(), bench::map::Verdict::inaccurate);
-    EXPECT_EQ(m.judgement(Balance::exact, false).verdict, bench::map::Verdict::sound);  // nothing to be compared with
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::inaccurate);
+    EXPECT_EQ(m.judgement(Balance::exact, false).verdict, bench::study::Verdict::sound);  // nothing to be compared with
 }
 
 TEST(Outcome, TheGravestNameWins) {
     const Status stopped{Outcome::not_converged, 3};
-    EXPECT_EQ(bench::map::judge({stopped, 9, 1, 1, 1, Balance::exact}).verdict, bench::map::Verdict::diverged);
-    EXPECT_EQ(bench::map::judge({stopped, nan, 1, 1, 1, Balance::exact}).verdict, bench::map::Verdict::not_converged);
-    EXPECT_EQ(bench::map::judge({{}, nan, 1, 1, 1, Balance::exact}).verdict, bench::map::Verdict::energy_gaining);
-    EXPECT_EQ(bench::map::judge({{}, nan, nan, 1, 1, Balance::exact}).verdict, bench::map::Verdict::adhesive);
-    EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, 1, Balance::exact}).verdict, bench::map::Verdict::inaccurate);
-    EXPECT_EQ(bench::map::judge({{}, nan, nan, nan, nan, Balance::exact}).verdict, bench::map::Verdict::unjudged);
+    EXPECT_EQ(judged(stopped, 9, 1, 1, 1, Balance::exact).verdict, bench::study::Verdict::diverged);
+    EXPECT_EQ(judged(stopped, nan, 1, 1, 1, Balance::exact).verdict, bench::study::Verdict::not_converged);
+    EXPECT_EQ(judged({}, nan, 1, 1, 1, Balance::exact).verdict, bench::study::Verdict::energy_gaining);
+    EXPECT_EQ(judged({}, nan, nan, 1, 1, Balance::exact).verdict, bench::study::Verdict::adhesive);
+    EXPECT_EQ(judged({}, nan, nan, nan, 1, Balance::exact).verdict, bench::study::Verdict::inaccurate);
+    EXPECT_EQ(judged({}, nan, nan, nan, nan, Balance::exact).verdict, bench::study::Verdict::unjudged);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What became of a run, from its own figures: the one place where the outcomes of stability maps are defined.
+// What became of a cell, from its own figures and its error: the one place where the outcomes of stability maps are defined.
 //
 // In order of gravity; the gravest that applies is the outcome. Each threshold with its reason:
 //   refused         the scheme does not represent the scene, or not at these settings
@@ -9,7 +9,7 @@
 //   energy_gaining  stored energy above the ledger (in which a negative loss counts as none: obstacles add no energy) by more than
 //                   energy_allowed of E where the scheme promises a balance to rounding, 1e-2 where it promises none: there the true energy
 //                   is no invariant, and wavers by O((omega dt)^2) in stable runs
-//   adhesive        the contact pulls by more than pull_allowed of its largest push (both: compare/summary.hpp)
+//   adhesive        the contact pulls by more than pull_allowed of its largest push (summary.hpp)
 //   inaccurate      relative L2 error of the nut force over the run above 10 %: the headline signal of compare, and the threshold of its
 //                   predictability horizon
 //   unjudged        none of these, and no figure at all that could have told: no energy reported, no smallest contact force, no reference
@@ -19,9 +19,9 @@
 #include <span>
 #include <string>
 
-#include "schemes/run.hpp"
+#include "bench/study/cell.hpp"
 
-namespace jvari::bench::map {
+namespace jvari::bench::study {
 
 enum class Verdict { sound, unjudged, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused };
 std::span<const Verdict> verdicts();
@@ -30,27 +30,11 @@ Verdict verdict_named(const std::string&);  // throws std::runtime_error
 
 constexpr double error_allowed = 0.1;  // relative L2
 
-struct Figures {              // NaN where a run has no such figure
-    Status status;            // of the run
-    double displacement = 0;  // largest |y| over sqrt(E L/(2T))
-    double energy_gain = 0;   // largest excess over the ledger, over E
-    double pull = 0;          // study::pull_of the run
-    double error = 0;         // relative L2 of the nut force
-    Balance balance = Balance::exact;
-};
-
 struct Judgement {
     Verdict verdict = Verdict::unjudged;
     std::string detail;  // the figure that decided, or the reason of a refusal
     long step = 0;       // where a run failed by itself; else 0
 };
-Judgement judge(const Figures&);
+Judgement judge(const Cell&, double error);  // of a cell that was run with its energy probed, or refused; NaN: there is no error
 
-// What maps listen to in place of the scene's own taps: the displacement of every string at two points, and its nut force. The worst string
-// decides.
-Scene listened(Scene);
-
-// Of a run of listened(scene) with its energy probed. `reference`: on the same rows; nullptr where there is none.
-Figures figures_of(const Descriptor&, const Scene&, const Run&, const Trace* reference);
-
-}  // namespace jvari::bench::map
+}  // namespace jvari::bench::study
