@@ -148,6 +148,29 @@ std::vector<study::ReferenceChoice> references_for(const CompareRequest& r, cons
     return choices;
 }
 
+std::vector<double> rates_of(const CompareRequest& r) {
+    std::vector<double> rates = r.rates;
+    if (rates.empty())
+        for (int multiple : {1, 2, 4, 8, 16, 32, 64}) rates.push_back(44100.0 * multiple);
+    std::sort(rates.begin(), rates.end());
+    rates.erase(std::unique(rates.begin(), rates.end()), rates.end());
+    return rates;
+}
+
+// At the highest rate, with the modes that all carry. Throws where the scene has nothing to be compared, or too much.
+Settings settings_of(const CompareRequest& r, const Scene& scene, const std::vector<double>& rates) {
+    if (scene.taps.empty())
+        throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to compare. A [[tap]] says what to hear");
+    Settings settings;
+    settings.tap_rate = tap_rate_for(r, rates);
+    settings.modes = modes_for(r, scene, rates.front());
+    settings.sample_rate = rates.back();
+    if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
+        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+    rows_of(scene, settings);  // throws where that is none
+    return settings;
+}
+
 // The cells of one form of a scheme: its numbers of modes, each at the rates that take it.
 void add_cells(Plan& plan, const CompareRequest& r, const Descriptor& d, const Scene& scene, Settings settings, const Form& form) {
     Settings at_lowest = settings;
@@ -172,22 +195,8 @@ std::string kinds_of(const std::vector<Plan>& plans) {  // "44100 and 48000 rows
 }  // namespace
 
 Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
-    if (scene.taps.empty())
-        throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to compare. A [[tap]] says what to hear");
-    std::vector<double> rates = r.rates;
-    if (rates.empty())
-        for (int multiple : {1, 2, 4, 8, 16, 32, 64}) rates.push_back(44100.0 * multiple);
-    std::sort(rates.begin(), rates.end());
-    rates.erase(std::unique(rates.begin(), rates.end()), rates.end());
-
-    Settings settings;
-    settings.tap_rate = tap_rate_for(r, rates);
-    settings.modes = modes_for(r, scene, rates.front());
-    settings.sample_rate = rates.back();
-    if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
-        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
-    rows_of(scene, settings);  // throws where that is none
-
+    const std::vector<double> rates = rates_of(r);
+    Settings settings = settings_of(r, scene, rates);
     Plan plan;
     std::vector<bool> used(r.options.size(), false);
     const auto schemes = schemes_for(r, catalogue, scene);
@@ -201,11 +210,7 @@ Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& s
         }
     }
     for (const std::string& note : untried.notes()) plan.notes.push_back(note);
-    for (std::size_t k = 0; k < used.size(); ++k)
-        if (!used[k])
-            throw store::UsageError(fmt::format("--option {}{}{}: {}", r.options[k].scheme, r.options[k].scheme.empty() ? "" : ":",
-                                                r.options[k].name,
-                                                r.options[k].scheme.empty() ? "no compared scheme has it" : "that scheme is not compared"));
+    must_be_used(r.options, used);
     return plan;
 }
 
@@ -227,6 +232,11 @@ std::vector<Plan> plans_of(const CompareRequest& r, const Catalogue& catalogue, 
                         "rows in common. Nothing is resampled",
                         kinds_of(plans)));
     return plans;
+}
+
+std::vector<study::ReferenceChoice> references_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
+    std::vector<bool> used(r.options.size(), false);
+    return references_for(r, catalogue, scene, settings_of(r, scene, rates_of(r)), *schemes_for(r, catalogue, scene).front(), used);
 }
 
 }  // namespace jvari::bench::compare

@@ -25,4 +25,7 @@ struct Plan {
 Plan plan_of(const CompareRequest&, const Catalogue&, const Scene&);  // of rates that have rows in common
 std::vector<Plan> plans_of(const CompareRequest&, const Catalogue&, const Scene&);
 
+// The references that such a plan has, and nothing else of it.
+std::vector<study::ReferenceChoice> references_of(const CompareRequest&, const Catalogue&, const Scene&);
+
 }  // namespace jvari::bench::compare

@@ -17,30 +17,6 @@ namespace jvari::bench::compare {
 namespace {
 constexpr double multiples[] = {1.35, 2, 3, 4};  // of the modes that a scheme takes unasked
 
-bool touched(const Scene& scene) {
-    return std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return s.thread || !s.barriers.empty(); });
-}
-
-struct Asked {
-    std::string name, of;  // of: as SchemeOption has it
-    std::vector<std::string> values;
-};
-std::vector<Asked> asked_of(const CompareRequest& r, const Descriptor& d, std::vector<bool>& used) {
-    std::vector<Asked> asked;
-    for (std::size_t k = 0; k < r.options.size(); ++k) {
-        const SchemeOption& o = r.options[k];
-        if (o.scheme.empty() ? !declares(d, o.name) : o.scheme != d.name) continue;
-        used[k] = true;
-        auto it = std::find_if(asked.begin(), asked.end(), [&o](const Asked& a) { return a.name == o.name; });
-        if (it == asked.end()) it = asked.insert(asked.end(), {o.name, o.scheme, {}});
-        if (it->of != o.scheme)
-            throw store::UsageError(
-                fmt::format("--option {}: found more than once for {}, expected one value or one list", o.name, d.name));
-        it->values.push_back(o.value);
-    }
-    return asked;
-}
-
 std::optional<std::string> refusal_of(const Descriptor& d, const Scene& scene, const Settings& settings) {
     try {
         make_scheme(d, scene, settings);
@@ -70,6 +46,43 @@ std::vector<Form> both(const Form& form, const Descriptor& d, const Scene& scene
 }
 }  // namespace
 
+bool touched(const Scene& scene) {
+    return std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return s.thread || !s.barriers.empty(); });
+}
+
+bool sets(const OptionValues& values, const Option& option) {
+    return std::ranges::any_of(values, [&option](const auto& v) { return v.first == option.name; });
+}
+
+std::vector<OptionValues> asked_of(const std::vector<SchemeOption>& options, const Descriptor& d, std::vector<bool>& used) {
+    std::vector<OptionValues> all{{}};
+    const auto takes = [&d](const SchemeOption& o) { return o.scheme.empty() ? declares(d, o.name) : o.scheme == d.name; };
+    for (std::size_t k = 0; k < options.size(); ++k) {
+        if (!takes(options[k])) continue;
+        const auto same = [&](const SchemeOption& o) { return takes(o) && o.name == options[k].name; };
+        const auto first = std::ranges::find_if(options, same);
+        if (first->scheme != options[k].scheme)
+            throw store::UsageError(
+                fmt::format("--option {}: found more than once for {}, expected one value or one list", first->name, d.name));
+        used[k] = true;
+        if (&*first != &options[k]) continue;  // with the first of its values
+        std::vector<OptionValues> more;
+        for (const OptionValues& values : all)
+            for (const SchemeOption& o : options)
+                if (same(o)) more.emplace_back(values).emplace_back(o.name, o.value);
+        all = std::move(more);
+    }
+    return all;
+}
+
+void must_be_used(const std::vector<SchemeOption>& options, const std::vector<bool>& used) {
+    for (std::size_t k = 0; k < used.size(); ++k)
+        if (!used[k])
+            throw store::UsageError(fmt::format("--option {}{}{}: {}", options[k].scheme, options[k].scheme.empty() ? "" : ":",
+                                                options[k].name,
+                                                options[k].scheme.empty() ? "no compared scheme has it" : "that scheme is not compared"));
+}
+
 void Untried::add(const Descriptor& d, const std::vector<double>& rates, bool at_all, const std::string& reason) {
     std::string who = d.name, why = reason;
     if (!at_all) {
@@ -90,15 +103,9 @@ std::vector<std::string> Untried::notes() const {
 
 std::vector<Form> forms_of(const CompareRequest& r, const Descriptor& d, const Scene& scene, const Settings& settings,
                            const std::vector<double>& rates, std::vector<bool>& used, Untried& untried) {
-    std::vector<Form> forms{{{}, rates}};
-    bool compliance = false;
-    for (const auto& [name, of, values] : asked_of(r, d, used)) {
-        compliance = compliance || name == compliance_option.name;
-        std::vector<Form> more;
-        for (const Form& form : forms)
-            for (const std::string& value : values) more.emplace_back(form).options.emplace_back(name, value);
-        forms = std::move(more);
-    }
+    std::vector<Form> forms;
+    for (const OptionValues& values : asked_of(r.options, d, used)) forms.push_back({values, rates});
+    const bool compliance = sets(forms.front().options, compliance_option);
     const bool has_both = d.clock != Clock::continuous && declares(d, compliance_option.name) && touched(scene);
     if (!r.search || !r.reference_modes || compliance || !has_both) return forms;
     std::vector<Form> all;

@@ -30,7 +30,14 @@ private:
     std::map<std::string, std::string> who_;  // by reason
 };
 
-// Each combination of the values asked for. UsageError where one option is asked for all schemes and for this one.
+// Of a scheme each combination of the values asked for; `used`: which of them it takes. UsageError where one option is asked for all
+// schemes and for this one.
+std::vector<OptionValues> asked_of(const std::vector<SchemeOption>&, const Descriptor&, std::vector<bool>& used);
+// Throws UsageError where one is taken by no scheme.
+void must_be_used(const std::vector<SchemeOption>&, const std::vector<bool>& used);
+bool sets(const OptionValues&, const Option&);
+bool touched(const Scene&);  // something touches a string
+
 std::vector<Form> forms_of(const CompareRequest&, const Descriptor&, const Scene&, const Settings&, const std::vector<double>& rates,
                            std::vector<bool>& used, Untried&);
 

@@ -15,8 +15,12 @@ Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
     RunOptions options;
     options.energy = true;
     options.progress = progress;
-    Run result = run(*cell.scheme, scene, cell.settings, options);
+    const auto scheme = make_scheme(*cell.scheme, scene, cell.settings);
+    const double from = store::processor_seconds();
+    Run result = run(*scheme, scene, cell.settings, options);
+    const double took = store::processor_seconds() - from;
     cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
+    cell.summary.processor_seconds = took;
     if (result.status.outcome != Outcome::ok)
         cell.reason =
             fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);

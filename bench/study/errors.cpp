@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "analysis/error.hpp"
@@ -24,6 +25,56 @@ private:
     std::optional<StftDifference> stft_;
 };
 
+namespace {
+constexpr double quietest = 1e-6;  // 60 dB below the reference's strongest frame, or its start
+
+// Root mean square difference of the centroid tracks over the mean centroid; frames that are not too quiet.
+double centroid_relative(Pair& p) {
+    constexpr int window = 1024, hop = 256;
+    if (p.run.size() < p.reference.size()) return HUGE_VAL;
+    const Spectrogram of_run = spectrogram(p.run.first(p.reference.size()), p.rate, window, hop);
+    const Spectrogram of_reference = spectrogram(p.reference, p.rate, window, hop);
+    const std::vector<double> track = centroid_track(of_run), true_track = centroid_track(of_reference);
+    std::vector<double> power;
+    for (int m = 0; m < of_reference.frames; ++m) {
+        const auto frame = of_reference.frame(m);
+        power.push_back(std::accumulate(frame.begin(), frame.end(), 0.0));
+    }
+    const double strongest = power.empty() ? 0 : *std::max_element(power.begin(), power.end());
+    double difference = 0, mean = 0;
+    int frames = 0;
+    for (int m = 0; m < of_reference.frames; ++m) {
+        if (!(power[m] > quietest * strongest)) continue;
+        if (!std::isfinite(track[m])) return HUGE_VAL;
+        difference += (track[m] - true_track[m]) * (track[m] - true_track[m]);
+        mean += true_track[m];
+        ++frames;
+    }
+    return frames > 0 ? std::sqrt(difference / frames) / (mean / frames) : store::nan;
+}
+
+// What is still to come of the energy, from each instant on (M. R. Schroeder 1965): the root mean square difference of the two curves [dB],
+// over the first nine tenths of the run and as far as the reference is not too quiet.
+double decay(Pair& p) {
+    const auto &c = p.run, &r = p.reference;
+    if (c.size() < r.size()) return HUGE_VAL;
+    const std::size_t last = r.size() * 9 / 10;
+    double of_c = 0, of_r = 0, whole = 0, sum = 0;
+    long rows = 0;
+    for (const double x : r) whole += x * x;
+    for (std::size_t n = r.size(); n-- > 0;) {
+        of_c += c[n] * c[n];
+        of_r += r[n] * r[n];
+        if (n > last || !(of_r > quietest * whole)) continue;
+        const double db = 10 * std::log10(of_c / of_r);
+        if (!std::isfinite(db)) return HUGE_VAL;
+        sum += db * db;
+        ++rows;
+    }
+    return rows > 0 ? std::sqrt(sum / static_cast<double>(rows)) : store::nan;
+}
+}  // namespace
+
 const std::vector<Measure>& measures() {
     static const std::vector<Measure> all = {
         {"error_l2_10ms", "1", "relative L2 error, 0\u201310 ms", false, true, 10e-3,
@@ -45,6 +96,8 @@ const std::vector<Measure>& measures() {
          [](Pair& p) { return p.stft().convergence; }},
         {"centroid_hz", "Hz", "centroid track difference [Hz rms]", false, true, HUGE_VAL,
          [](Pair& p) { return centroid_difference(p.run, p.reference, p.rate); }},
+        {"centroid_relative", "1", "centroid track, relative difference", false, true, HUGE_VAL, centroid_relative},
+        {"decay_db", "dB", "decay of the energy, difference [dB]", false, true, HUGE_VAL, decay},
     };
     return all;
 }
@@ -53,11 +106,18 @@ std::size_t measure(const std::string& column) {
     return static_cast<std::size_t>(std::ranges::find(measures(), column, &Measure::column) - measures().begin());
 }
 
+double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference, double rate) {
+    Pair pair(run, reference, rate);
+    return measures()[measure].of(pair);
+}
+
 Errors errors_of(const Trace& candidate, const Trace& reference, int taps, const Measures& only) {
     Errors errors;
     for (int k = 0; k < (taps < 0 ? reference.taps() : taps); ++k) {
-        Pair pair(candidate.column(k), reference.column(k), reference.tap_rate);
         auto& of_tap = errors.emplace_back(measures().size(), store::nan);
+        const auto own = std::ranges::find(candidate.names, reference.names.at(k)) - candidate.names.begin();
+        if (own == candidate.taps()) continue;
+        Pair pair(candidate.column(static_cast<int>(own)), reference.column(k), reference.tap_rate);
         for (std::size_t m = 0; m < measures().size(); ++m)
             if (only.empty() || std::ranges::find(only, m) != only.end()) of_tap[m] = measures()[m].of(pair);
     }

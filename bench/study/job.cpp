@@ -31,11 +31,12 @@ void address(Plan& plan, const std::string& of_program) {
         const Json references = references_json(p);
         const std::string limit = store::text_of(p.time_limit);
         p.hash = scene_hash(p.scene);
-        p.reference_key = p.hash + references.dump() + limit;
+        if (p.true_hash.empty()) p.true_hash = p.whole ? scene_hash(*p.whole) : p.hash;
+        p.reference_key = p.true_hash + references.dump() + limit;
         if (!p.truth_modes) continue;
         Json modeless = references;
         for (Json& r : modeless) r["settings"].erase("modes");
-        p.truth_key = std::to_string(*p.truth_modes) + p.hash + modeless.dump() + limit;
+        p.truth_key = std::to_string(*p.truth_modes) + p.true_hash + modeless.dump() + limit;
     }
     std::set<std::string> seen;
     std::vector<Job> once;
@@ -52,6 +53,8 @@ void address(Plan& plan, const std::string& of_program) {
         if (job.judged) identity["references"] = references_json(p);
         if (job.judged && p.truth_modes) identity["reference_modes"] = *p.truth_modes;
         if (!job.errors.empty()) identity["errors"] = job.errors;
+        if (p.whole) identity["part_of"] = p.true_hash;
+        if (!p.in_model) identity["in_model"] = false;
         if (p.alone) identity["reference_alone"] = true;
         if (job.repeats > 0) identity["repeats"] = job.repeats;
         if (p.element && is_added(*p.element)) identity[name_of(*p.element)] = true;

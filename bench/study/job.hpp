@@ -25,10 +25,13 @@ struct Point {
     std::vector<ReferenceChoice> references;
     std::optional<int> truth_modes = 0;  // 0: found by doubling; none: the reference with the cells' modes is all there is
     bool alone = false;                  // nothing is asked of what the reference is uncertain by
-    double time_limit = HUGE_VAL;        // of each run, of a reference too [s]
-    std::string hash{};                  // of the scene
-    std::string reference_key{};         // points that share it share the reference's run
-    std::string truth_key{};             // likewise of the truth, whose modes are none of the cells'; "": there is none
+    bool in_model = true;                // errors from a string with as many modes are asked for too, where the truth has others
+    std::optional<Scene> whole{};        // the scene whose motion is the truth, where `scene` is a part of it
+    const Scene& true_scene() const { return whole ? *whole : scene; }
+    double time_limit = HUGE_VAL;     // of each run, of a reference too [s]
+    std::string hash{}, true_hash{};  // of the scene, and of the one whose motion is the truth
+    std::string reference_key{};      // points that share it share the reference's run
+    std::string truth_key{};          // likewise of the truth, whose modes are none of the cells'; "": there is none
 };
 
 struct Ran {  // a job whose accuracy run reached its end or its failure
@@ -43,6 +46,7 @@ struct Job {
     Cell cell;
     bool judged = true;                                  // against the point's reference
     Measures errors{};                                   // by these
+    double patience = HUGE_VAL;                          // [s] of processor; a run that takes longer is ended, and not kept
     bool sounds = false;                                 // its headline's nut tap is to be heard
     int repeats = 0;                                     // of the clock; 0: it is not timed
     int set = 0;                                         // jobs of one set are timed in one interleaved run

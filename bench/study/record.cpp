@@ -46,6 +46,7 @@ void each_number(Summary_& s, Number number) {
     number("rate", s.rate);
     number("duration", s.duration);
     number("wall_seconds", s.wall_seconds);
+    number("processor_seconds", s.processor_seconds);
     number("ns_per_step", s.ns_per_step);
     number("times_real_time", s.times_real_time);
     number("energy_residual_per_step", s.energy_residual_per_step);

@@ -81,10 +81,12 @@ void References::each_of(const Point& p, void (Shared::*act)()) {
 }
 
 References::Of References::make(const Point& p, int jobs, const store::Listener& listener) {
+    const Scene& scene = p.true_scene();
     Shared& model = of(p.reference_key);
-    model.make([&] { return Truth{run_reference(p.references, p.scene, jobs, listener, p.time_limit, p.alone), {}, {}}; }, p.taps);
+    if (p.in_model || !p.truth_modes)
+        model.make([&] { return Truth{run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone), {}, {}}; }, p.taps);
     Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
-    if (p.truth_modes) truth.make([&] { return run_truth(p.references, p.scene, *p.truth_modes, jobs, listener, p.time_limit); }, p.taps);
+    if (p.truth_modes) truth.make([&] { return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit); }, p.taps);
     return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(), truth.refused()};
 }
 

@@ -24,7 +24,7 @@ Record run_job(const Job& job, References& references, const store::Done& done, 
     Cell& cell = r.cell;
     const Trace* truth = known.truth ? &known.truth->reference.run.trace : nullptr;
     try {
-        const Trace trace = run_cell(cell, point.scene, store::within(point.time_limit, progress));
+        const Trace trace = run_cell(cell, point.scene, store::within(std::min(point.time_limit, job.patience), progress));
         if (truth) {
             const auto errors_from = [&](const Trace& t) { return errors_of(trace, t, static_cast<int>(point.taps), job.errors); };
             const Reference* own = known.model ? of_modes(cell, *known.model, *known.truth) : nullptr;
@@ -134,8 +134,10 @@ Record record_of(const Job& job, References& references, Kept& keep, const store
         record = kept_record(job, keep);
         if (!record) {
             record = run_job(job, references, done, progress);
-            if (!file.empty()) store::write_fresh(file, json_of(*record, job.identity));
             ++keep.ran;
+            const bool given_up = record->cell.failure == "past_time_limit" && job.patience < job.point->time_limit;
+            const bool worth = record->cell.summary.processor_seconds >= keep.least;
+            if (!file.empty() && worth && !given_up) store::write_fresh(file, json_of(*record, job.identity));
         }
     }
     ++keep.kept;

@@ -18,6 +18,7 @@ namespace jvari::bench::study {
 struct Kept {                           // where records and clocks lie
     std::filesystem::path folder{};     // "": nothing is kept
     bool resume = false;                // what lies there is read back
+    double least = 0;                   // [s] of processor: of a shorter run nothing is kept, a file would take longer
     std::atomic<int> kept = 0, of = 0;  // how many records lie there, of how many
     std::atomic<int> ran = 0;           // by this process
 };

@@ -16,6 +16,7 @@ struct Summary {
     long steps, rows;
     double duration;                                    // simulated [s]: up to the last valid row
     double wall_seconds, ns_per_step, times_real_time;  // NaN where there is nothing to divide
+    double processor_seconds = 0;                       // of an accuracy run (cell.hpp)
     Status status;
     double energy_residual_per_step, energy_residual_accumulated;  // relative to the largest stored energy; NaN unless probed
     double smallest_contact_force, largest_contact_force;          // [N]; NaN where the scheme does not say

@@ -23,19 +23,20 @@ std::string Variant::name() const {
     return store::variant_name(scheme->name, store::options_text(options));
 }
 
-std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene) {
-    std::vector<Variant> all{{&d, {}}};
-    const bool touched =
-        std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return s.thread || !s.barriers.empty(); });
-    if (!declares(d, compliance_option.name) || !touched) return all;
-    const OptionValues matched{{compliance_option.name, "matched"}};
-    all.push_back({&d, matched});
-    const auto with = [&](const char* name, const char* value) {
-        all.push_back({&d, matched});
-        all.back().options.emplace_back(name, value);
-    };
-    if (declares(d, profile_points_option.name) && needed_by(scene).has(Feature::profile_barrier))
-        for (const char* points : {"8", "4"}) with(profile_points_option.name, points);
+std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene, const std::vector<compare::SchemeOption>& options) {
+    std::vector<Variant> all;
+    std::vector<bool> used(options.size());
+    for (const OptionValues& asked : compare::asked_of(options, d, used)) {
+        all.push_back({&d, asked});
+        const bool named = compare::sets(asked, compliance_option);
+        if (named || !declares(d, compliance_option.name) || !compare::touched(scene)) continue;
+        Variant matched = all.back();
+        matched.options.emplace_back(compliance_option.name, "matched");
+        all.push_back(matched);
+        const bool profile = declares(d, profile_points_option.name) && needed_by(scene).has(Feature::profile_barrier);
+        if (!profile || compare::sets(asked, profile_points_option)) continue;
+        for (const char* points : {"8", "4"}) all.emplace_back(matched).options.emplace_back(profile_points_option.name, points);
+    }
     return all;
 }
 
@@ -165,7 +166,7 @@ std::optional<Found> CheapestSettings::of_all(const std::vector<const Descriptor
     std::vector<Variant> variants;
     for (const Descriptor* d : schemes)
         if ((needed_by(scene) - d->represents).empty())
-            for (const Variant& v : variants_of(*d, scene)) variants.push_back(v);
+            for (const Variant& v : variants_of(*d, scene, judge_.options())) variants.push_back(v);
     return of_variants(variants, left_out, limit);
 }
 

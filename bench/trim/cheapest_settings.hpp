@@ -32,7 +32,8 @@ struct Variant {
     OptionValues options;
     std::string name() const;
 };
-std::vector<Variant> variants_of(const Descriptor&, const Scene&);
+// The values asked for; of options that nobody named compliance=matched too, and with it fewer points of a profile.
+std::vector<Variant> variants_of(const Descriptor&, const Scene&, const std::vector<compare::SchemeOption>& = {});
 
 class CheapestSettings {
 public:

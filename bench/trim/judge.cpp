@@ -3,31 +3,28 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <thread>
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare_plan.hpp"
-#include "bench/compare/record/compare_record.hpp"
-#include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/kept.hpp"
-#include "bench/store/machine.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/time_limit.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/study/clock.hpp"
+#include "bench/study/cost.hpp"
 #include "bench/study/truth.hpp"
-#include "scenes/scene_file.hpp"
 
 namespace jvari::bench::trim {
 
 namespace fs = std::filesystem;
 
 namespace {
-using Json = nlohmann::ordered_json;
 constexpr double sample = 5e-3;  // least time of one sample of a cost [s]
 constexpr int samples = 3;
-constexpr double worth_keeping = 5e-3;  // of a verdict: below, a file takes longer than the run [s]
+constexpr double worth_keeping = 5e-3;  // of a model: below, a file takes longer than the run [s]
 
 int tap_named(const Scene& scene, const std::string& name) {
     if (scene.taps.empty())
@@ -47,21 +44,20 @@ int column_of(const Scene& scene, const std::string& tap) {
     throw BadScene("tap", tap, "to be there still");
 }
 
-double number(const Json& j, const char* key) {
-    return store::number_of(j.at(key).get<std::string>());
-}
-
-// Processor seconds of one run, the mean of as many as last `sample`.
-double timed(Scheme& scheme, const Scene& scene, const Settings& settings) {
-    const double from = store::processor_seconds();
-    double took = 0;
-    int runs = 0;
-    while (took < sample) {
-        run(scheme, scene, settings, {.timed = true});
-        took = store::processor_seconds() - from;
-        ++runs;
-    }
-    return took / runs;
+// What is unknown of a reference by this measure: its certificate for waveforms; of the others no bound is known, and what the doublings
+// tell stands for it.
+double uncertainty(const study::Truth& t, int tap, std::size_t measure) {
+    const study::Reference& of = t.reference;
+    const std::string& column = study::measures()[measure].column;
+    for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w)
+        if (column == "error" + std::string(trust::Trust::columns[w]).substr(std::string("certificate").size()))
+            return of.trust.any() ? of.trust.of_scene(static_cast<std::size_t>(tap), w) : store::nan;
+    const auto changed = [&](std::size_t last) {
+        const study::Reference& more = last < t.coarser.size() ? t.coarser[last] : of;
+        return study::error_of(measure, t.coarser[last - 1].run.trace.column(tap), more.run.trace.column(tap), of.run.trace.tap_rate);
+    };
+    const std::size_t n = t.coarser.size();
+    return n == 0 ? store::nan : left_after(changed(n), n > 1 ? changed(n - 1) : store::nan);
 }
 }  // namespace
 
@@ -74,7 +70,16 @@ std::string Model::settings_text() const {
 double processor_time(const Model& m, const Scene& left) {
     const auto scheme = make_scheme(*m.scheme, left, m.settings);
     double least = HUGE_VAL;
-    for (int k = 0; k < samples; ++k) least = std::min(least, timed(*scheme, left, m.settings));
+    for (int k = 0; k < samples; ++k) {
+        const double from = store::processor_seconds();
+        double took = 0;
+        int runs = 0;
+        for (; took < sample; ++runs) {
+            run(*scheme, left, m.settings, {.timed = true});
+            took = store::processor_seconds() - from;
+        }
+        least = std::min(least, took / runs);
+    }
     return least / left.duration;
 }
 
@@ -86,14 +91,20 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const 
       target_(target_of(request.measure, request.within)),
       scene_(compare::load_scene(request.scene, request.set, {})),
       own_duration_(scene_.duration),
-      program_(store::program_identity(request.plugins)) {
+      program_(store::program_identity(request.plugins)),
+      stamp_(store::stamp_now()) {
     scene_.duration = std::min(scene_.duration, request.duration);
     tap_ = tap_named(scene_, request.tap);
+    place_ = std::isfinite(target_.measure->window) && scene_.duration < target_.measure->window ? study::measure("error_l2_whole")
+                                                                                                 : target_.measure->place;
     if (!request_.out.empty()) {
+        keep_.folder = fs::path(request_.out) / "cells";
+        keep_.resume = true;
+        keep_.least = worth_keeping;
         std::error_code error;
-        fs::create_directories(fs::path(request_.out) / "cells", error);
+        fs::create_directories(keep_.folder, error);
         store::must_be_writable(fs::path(request_.out) / "path.csv");
-        store::sweep_parts(fs::path(request_.out) / "cells");
+        store::sweep_parts(keep_.folder);
     }
     reductions_ = reductions_of(scene_, truth(0).penetration);
 }
@@ -119,131 +130,76 @@ Scene Judge::scene_of(const Model& m, int start) const {
     return scene;
 }
 
-std::string Judge::identity(const Model& m, int start, const char* what) const {
-    return Json{what,
-                program_,
-                scene_hash(started(scene_, start)),
-                request_.reference,
-                request_.reference_modes,
-                store::text_of(request_.tap_rate),
-                tap().name,
-                target_.measure->name,
-                m.scheme ? scene_hash(scene_of(m, start)) : "",
-                m.scheme ? m.scheme->name : "",
-                store::text_of(m.settings.sample_rate),
-                m.settings.modes,
-                m.settings.options}
-        .dump();
-}
-
-fs::path Judge::file_of(const std::string& identity) const {
-    return fs::path(request_.out) / "cells" / (store::hash_of(identity) + ".json");
-}
-
-template <class Read>
-auto Judge::kept(const std::string& identity, Read read) const -> std::optional<std::invoke_result_t<Read, const Json&>> {
-    if (request_.out.empty()) return std::nullopt;
-    return store::read_kept(file_of(identity), identity, read);
-}
-
-void Judge::keep(const std::string& identity, const Json& content) const {
-    if (!request_.out.empty()) store::write_fresh(file_of(identity), store::kept_text(identity, content));
-}
-
-void Judge::run_truth(int start) {
-    const Scene scene = started(scene_, start);
+const study::Point& Judge::point(int start) {
+    if (!points_.at(start).points.empty()) return points_[start].points.front();
+    study::Point& p = points_[start].points.emplace_back();
+    p.scene = started(scene_, start);
+    p.whole = p.scene;
+    p.taps = p.scene.taps.size();
     compare::CompareRequest r;
     r.reference = request_.reference;
     r.rates = {4 * request_.tap_rate};
-    r.search = false;
     r.tap_rate = request_.tap_rate;
-    const compare::Plan plan = compare::plan_of(r, catalogue_, scene);
-    const study::Truth t = study::run_truth(plan.references, scene, request_.reference_modes, request_.jobs, listener_);
-    const study::Reference& of = t.reference;
-    if (of.run.status.outcome != Outcome::ok)
-        throw Refusal(fmt::format("reference {} {}: there is no truth to trim by", of.choice.name(), name_of(of.run.status.outcome)));
-    const auto column = of.run.trace.column(tap_), moved = of.moved.trace.column(tap_);
-    traces_[start].emplace(column.begin(), column.end());
-    Truth& known = truths_[start].emplace();
-    known.reference = of.choice.name();
-    known.said = t.said;
-    known.modes = of.choice.settings.modes;
-    known.floor = target_.measure->error(moved, column, of.run.trace.tap_rate);
-    known.horizon = t.horizon;
-    if (target_.measure->name == std::string("l2_50ms")) {
-        if (of.trust.any()) known.certificate = of.trust.of_scene(tap_, scene_.duration >= 50e-3 ? 1 : 2);
-    } else if (!t.coarser.empty()) {  // no bound is known of the others: what the doublings tell
-        const auto changed = [&](std::size_t last) {
-            const study::Reference& more = last < t.coarser.size() ? t.coarser[last] : of;
-            return target_.measure->error(t.coarser[last - 1].run.trace.column(tap_), more.run.trace.column(tap_), of.run.trace.tap_rate);
-        };
-        const std::size_t n = t.coarser.size();
-        known.certificate = left_after(changed(n), n > 1 ? changed(n - 1) : store::nan);
-    }
-    const double depth = study::fact(of.run.facts, facts::deepest_penetration);
-    known.penetration = depth > 0 ? depth : 1;
-    const std::string id = identity({{}, nullptr, {}}, start, "truth");
-    keep(id, {{"reference", known.reference},
-              {"said", known.said},
-              {"modes", known.modes},
-              {"certificate", store::text_of(known.certificate)},
-              {"floor", store::text_of(known.floor)},
-              {"horizon", store::text_of(known.horizon)},
-              {"penetration", store::text_of(known.penetration)}});
+    p.references = compare::references_of(r, catalogue_, p.scene);
+    if (!request_.out.empty()) study::keep_references_in(points_[start], fs::path(request_.out) / "references");
+    p.truth_modes = request_.reference_modes;
+    p.in_model = false;
+    study::address(points_[start], program_);
+    return p;
+}
+
+study::Plan Judge::plan_of(const Model& m, int start) {
+    study::Plan plan;
+    study::Point& p = plan.points.emplace_back(point(start));
+    p.scene = scene_of(m, start);
+    study::Job& job = plan.jobs.emplace_back(study::Job{&p, {m.scheme, m.settings}});
+    job.errors = {place_};
+    study::address(plan, program_);
+    return plan;
 }
 
 const Truth& Judge::truth(int start) {
-    if (truths_[start]) return *truths_[start];
-    const std::string id = identity({{}, nullptr, {}}, start, "truth");
-    truths_[start] = kept(id, [](const Json& j) {
-        return Truth{j.at("reference"),  j.at("said"),         j.at("modes"),           number(j, "certificate"),
-                     number(j, "floor"), number(j, "horizon"), number(j, "penetration")};
-    });
-    if (!truths_[start]) run_truth(start);
-    return *truths_[start];
-}
-
-const std::vector<double>& Judge::trace(int start) {
-    if (!traces_[start]) run_truth(start);
-    return *traces_[start];
+    if (truths_.at(start)) return *truths_[start];
+    const study::Point& whole = point(start);
+    references_.hold(whole);
+    const study::References::Of found = references_.make(whole, request_.jobs, listener_);
+    if (!found.truth) throw Refusal(found.refused);
+    const study::Reference& of = found.truth->reference;
+    if (of.run.status.outcome != Outcome::ok)
+        throw Refusal(fmt::format("reference {} {}: there is no truth to trim by", of.choice.name(), name_of(of.run.status.outcome)));
+    Truth& t = truths_[start].emplace();
+    t.reference = of.choice.name();
+    t.said = found.truth->said;
+    t.modes = of.choice.settings.modes;
+    t.certificate = uncertainty(*found.truth, tap_, place_);
+    t.floor = found.floor->at(static_cast<std::size_t>(tap_))[place_];
+    t.horizon = found.truth->horizon;
+    if (const double depth = study::fact(of.run.facts, facts::deepest_penetration); depth > 0) t.penetration = depth;
+    return t;
 }
 
 Verdict Judge::verdict(const Model& m, int start, double limit) {
-    const std::string id = identity(m, start, "model");
-    if (const auto asked = verdicts_.find(id); asked != verdicts_.end()) return asked->second;
-    const auto known = kept(id, [](const Json& j) {
-        return Verdict{j.at("status"), number(j, "error"), number(j, "seconds"), j.at("dofs")};
-    });
-    if (known) {
-        ++read_back_;
-        return verdicts_[id] = *known;
-    }
-    Verdict v;
-    const std::vector<double>& reference = trace(start);
-    try {
-        const Scene scene = scene_of(m, start);
-        const auto scheme = make_scheme(*m.scheme, scene, m.settings);
-        RunOptions options;
-        options.energy = true;  // what its ledger says against it
-        options.progress = store::within(limit, [](long, long) {});
-        const double from = store::processor_seconds();
-        const Run r = run(*scheme, scene, m.settings, options);
-        v.seconds = store::processor_seconds() - from;
-        const std::string flags = names_of(study::flags_of(study::summary_of(*m.scheme, scene, m.settings, r)));
-        v.status = r.status.outcome != Outcome::ok ? name_of(r.status.outcome) : flags.empty() ? "ok" : flags;
-        v.dofs = r.dofs;
-        if (r.status.outcome == Outcome::ok)
-            v.error = target_.measure->error(r.trace.column(column_of(scene, tap().name)), reference, r.trace.tap_rate);
-    } catch (const store::PastItsLimit&) {
-        return {"slow", std::nan(""), limit, 0};
-    } catch (const std::exception&) {  // Refusal, BadScene: what is left is no model of this scheme
-        v.status = "refused";
-    }
-    ++judged_;
-    verdicts_[id] = v;
-    if (v.seconds < worth_keeping) return v;
-    keep(id, {{"status", v.status}, {"error", store::text_of(v.error)}, {"seconds", store::text_of(v.seconds)}, {"dofs", v.dofs}});
-    return v;
+    truth(start);
+    study::Plan plan = plan_of(m, start);
+    study::Job& job = plan.jobs.front();
+    if (const auto known = verdicts_.find(job.id); known != verdicts_.end()) return known->second;
+    job.patience = limit;
+    std::optional<study::Record> made;
+    while (!made) try {
+            made = study::record_of(job, references_, keep_, store::Done(), [](long, long) {});
+        } catch (const store::Busy&) {  // another process judges it
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    const study::Cell& cell = made->cell;
+    if (cell.failure == "past_time_limit") return {"slow", store::nan, limit, 0};
+    if (!cell.ran()) return verdicts_[job.id] = {"refused"};  // what is left is no model of this scheme
+    const std::string flags = names_of(study::flags_of(cell.summary));
+    const bool whole = cell.summary.status.outcome == Outcome::ok;
+    return verdicts_[job.id] = {!whole          ? name_of(cell.summary.status.outcome)
+                                : flags.empty() ? "ok"
+                                                : flags,
+                                whole ? cell.errors.at(static_cast<std::size_t>(tap_))[place_] : store::nan, cell.summary.processor_seconds,
+                                cell.summary.dofs};
 }
 
 bool Judge::certain(int start) {
@@ -256,30 +212,37 @@ bool Judge::within(const Verdict& v, int start) {
 }
 
 double Judge::cost(const Model& m) {
-    const std::string id = identity(m, 0, "cost");
-    if (const auto known = costs_.find(id); known != costs_.end()) return known->second;
-    if (const auto cost = kept(id, [](const Json& j) { return number(j, "cost"); })) return costs_[id] = *cost;
-    const double cost = costs_[id] = cost_of_(m, scene_of(m));
-    keep(id, {{"cost", store::text_of(cost)}});
+    const study::Plan plan = plan_of(m, 0);
+    const study::Job& job = plan.jobs.front();
+    if (const auto known = costs_.find(job.id); known != costs_.end()) return known->second;
+    const fs::path file = keep_.folder / study::clock_file(job, stamp_);
+    if (const auto kept = request_.out.empty() ? std::nullopt : study::read_clock(file, job.identity))
+        return costs_[job.id] = kept->processor.median / scene_.duration;
+    const double cost = costs_[job.id] = cost_of_(m, job.point->scene);
+    study::KeptClock clock;
+    clock.processor = clock.wall = spread_of(std::vector{cost * scene_.duration});
+    clock.stamp = stamp_;
+    if (!request_.out.empty()) store::write_fresh(file, study::clock_json(clock, job.identity));
     return cost;
 }
 
-std::vector<Spread> Judge::costs(const std::vector<Model>& models, int rounds) const {
+std::vector<Spread> Judge::costs(const std::vector<Model>& models, int rounds) {
     std::vector<Scene> scenes;
-    std::vector<std::unique_ptr<Scheme>> schemes;
-    std::vector<std::vector<double>> seconds(models.size());
+    std::vector<study::Cell> cells;
     for (const Model& m : models) {
         scenes.push_back(scene_of(m));
-        schemes.push_back(make_scheme(*m.scheme, scenes.back(), m.settings));
+        cells.push_back({m.scheme, m.settings});
+        cells.back().summary.wall_seconds = verdict(m, 0).seconds;
     }
-    const auto progress = listener_.begin("cost");
-    for (int round = 0; round < rounds; ++round)
-        for (std::size_t k = 0; k < models.size(); ++k) {
-            progress->show((round + static_cast<double>(k) / static_cast<double>(models.size())) / rounds);
-            seconds[k].push_back(timed(*schemes[k], scenes[k], models[k].settings) / scenes[k].duration);
-        }
+    std::vector<study::Contender> contenders;
+    for (std::size_t k = 0; k < cells.size(); ++k) contenders.push_back({&cells[k], &scenes[k]});
+    study::time_cells(contenders, rounds, listener_);
     std::vector<Spread> spreads;
-    for (const auto& s : seconds) spreads.push_back(spread_of(s));
+    for (const study::Cell& c : cells) {
+        Spread s = c.processor;
+        for (double* x : {&s.median, &s.lower, &s.upper}) *x /= scene_.duration;
+        spreads.push_back(s);
+    }
     return spreads;
 }
 

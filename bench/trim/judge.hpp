@@ -1,23 +1,22 @@
 // Models of one scene, judged: each against the motion of the whole scene, by one measure of one tap, and timed.
 //
-// A model is the scene less some of its parts, a scheme and its settings. Truths, costs and verdicts that took more than a few milliseconds
-// go to DIR/cells, addressed by all that they depend on: they are read back by a study that was stopped and by the next one with another
-// tolerance.
+// A model is the scene less some of its parts, a scheme and its settings: a job of bench/study that is judged against the motion of the
+// whole scene. Models that took more than a few milliseconds, costs and runs of the reference are kept in DIR/cells and DIR/references:
+// they are read back by a study that was stopped and by the next one with another tolerance.
 #pragma once
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/statistics.hpp"
 #include "bench/compare/catalogue.hpp"
-#include "bench/store/system/listener.hpp"
+#include "bench/compare/request.hpp"
+#include "bench/study/run.hpp"
 #include "bench/trim/start.hpp"
 #include "bench/trim/target.hpp"
 #include "scenes/reduction.hpp"
@@ -31,6 +30,7 @@ struct Request {
     double tap_rate = 44100;                // [Hz]
     int reference_modes = 0;                // 0: doubled until nothing moves
     int jobs = 0;
+    std::vector<compare::SchemeOption> options{};  // of schemes: each value is tried, in place of those that trim tries by itself
 };
 
 struct Model {
@@ -70,6 +70,7 @@ public:
     const Target& target() const { return target_; }
     const Tap& tap() const { return scene_.taps[tap_]; }
     const std::vector<Reduction>& reductions() const { return reductions_; }
+    const std::vector<compare::SchemeOption>& options() const { return request_.options; }
     bool may_go(int reduction) const;  // not what is listened to
 
     Scene scene_of(const Model&, int start = 0) const;  // throws BadScene where what is left makes no sense
@@ -82,20 +83,15 @@ public:
     bool certain(int start);
     // Error and certificate together. Of another start whose reference is not certain: the error alone.
     bool within(const Verdict&, int start);
-    double cost(const Model&);                                               // [s of processor per s], least of several; kept
-    std::vector<Spread> costs(const std::vector<Model>&, int rounds) const;  // processor time, models in turn: what is quoted
+    double cost(const Model&);                                         // [s of processor per s], least of several; kept
+    std::vector<Spread> costs(const std::vector<Model>&, int rounds);  // processor time, models in turn: what is quoted
 
-    int judged() const { return judged_; }
-    int read_back() const { return read_back_; }
+    int judged() const { return keep_.ran; }
+    int read_back() const { return keep_.kept - keep_.ran; }
 
 private:
-    std::string identity(const Model&, int start, const char* what) const;
-    const std::vector<double>& trace(int start);
-    void run_truth(int start);
-    std::filesystem::path file_of(const std::string& identity) const;
-    template <class Read>
-    auto kept(const std::string& identity, Read) const -> std::optional<std::invoke_result_t<Read, const nlohmann::ordered_json&>>;
-    void keep(const std::string& identity, const nlohmann::ordered_json& content) const;
+    const study::Point& point(int start);          // the whole scene
+    study::Plan plan_of(const Model&, int start);  // of one job
 
     Request request_;
     const compare::Catalogue& catalogue_;
@@ -105,13 +101,16 @@ private:
     Scene scene_;
     double own_duration_;
     int tap_ = 0;
+    std::size_t place_;  // of the measure: of the whole run's error where the run is shorter than the measure's window
     std::string program_;
     std::vector<Reduction> reductions_;
+    study::References references_;
+    study::Kept keep_;
+    store::Stamp stamp_;
+    std::array<study::Plan, starts> points_;  // of one point each
     std::array<std::optional<Truth>, starts> truths_;
-    std::array<std::optional<std::vector<double>>, starts> traces_;
-    std::map<std::string, Verdict> verdicts_;  // by identity
+    std::map<std::string, Verdict> verdicts_;  // by the job's id
     std::map<std::string, double> costs_;
-    int judged_ = 0, read_back_ = 0;
 };
 
 }  // namespace jvari::bench::trim

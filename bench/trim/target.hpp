@@ -1,19 +1,18 @@
 // What a trimmed model has to keep, and how far: a measure of one tap and a tolerance.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
 namespace jvari::bench::trim {
 
+// One of study::measures(), as trim names it: "l2_50ms", "%".
 struct Measure {
-    const char *name, *title;
-    const char* unit;  // "%" for what is relative, "dB"
-    double (*error)(std::span<const double> candidate, std::span<const double> truth, double rate);
+    std::string name, title, unit;
+    std::size_t place;
     double window;  // of time that it listens to [s]; HUGE_VAL: the whole run
 };
-std::span<const Measure> measures();
+const std::vector<Measure>& measures();
 
 struct Target {
     const Measure* measure;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/compare/variants.hpp"
 #include "bench/trim/cheapest_settings.hpp"
 #include "schemes/controls.hpp"
 
@@ -29,7 +30,8 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
         fmt::format("what happens after {:g} s, and other starts than those named", judge.scene().duration),
         fmt::format("models that need more than {:g} s of computing, or {:g} times what serves already, for one judged run", longest,
                     judged_over_timed),
-        "options other than compliance=matched and with it profile_points=8 and 4"};
+        r.options.empty() ? "options other than compliance=matched and with it profile_points=8 and 4"
+                          : "values of options other than those named, and those that trim tries by itself"};
     if (r.scheme != "any") left.push_back("schemes other than " + r.scheme);
     else left.emplace_back("controls, which are known to be wrong somewhere: each by its name");
     if (!path.passed_over.empty())
@@ -68,6 +70,9 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
                         text_of(measure, judge.target().most), judge.truth(0).reference, judge.truth(0).said,
                         certainty_text(measure, judge.truth(0).certificate)));
     const std::vector<const Descriptor*> schemes = schemes_of(r, catalogue);
+    std::vector<bool> used(r.options.size());
+    for (const Descriptor* d : schemes) compare::asked_of(r.options, *d, used);
+    compare::must_be_used(r.options, used);
     for (std::vector<int> by{0};;) {
         t.path = search(judge, schemes, by, listener);
         t.verified.clear();
