@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "bench/store/keys.hpp"
 #include "bench/store/records.hpp"
@@ -95,6 +96,22 @@ std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>
                                 colon == std::string::npos ? key : key.substr(colon + 1), text.substr(equals + 1)};
         if (o.name.empty() || colon == 0) throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
         options.push_back(std::move(o));
+    }
+    return options;
+}
+
+std::vector<compare::SchemeOption> listed_options(const std::vector<std::string>& texts) {
+    const std::vector<compare::SchemeOption> lists = scheme_options(texts);
+    std::vector<compare::SchemeOption> options;
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+        const compare::SchemeOption& list = lists[k];
+        for (std::size_t j = 0; j < k; ++j)
+            if (lists[j].scheme == list.scheme && lists[j].name == list.name)
+                throw store::UsageError(fmt::format("--option {}: found more than once; several values stand in one list, {}={},{}",
+                                                    list.name, list.name, lists[j].value, list.value));
+        std::istringstream values(list.value);
+        for (std::string value; std::getline(values, value, ',');) options.push_back({list.scheme, list.name, value});
+        if (list.value.empty()) options.push_back(list);
     }
     return options;
 }

@@ -29,5 +29,7 @@ void add_jobs(CLI::App& verb, int& jobs);
 // Both throw UsageError: what is no KEY.PATH=VALUE, what is no [SCHEME:]NAME=VALUE.
 void must_be_assignments(const std::vector<std::string>& set);
 std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts);
+// Each value of a list for itself; UsageError where an option is named twice.
+std::vector<compare::SchemeOption> listed_options(const std::vector<std::string>& texts);
 
 }  // namespace jvari::bench::command

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 #include "bench/command/compare_text.hpp"
 #include "bench/command/console.hpp"
@@ -46,22 +45,6 @@ std::optional<int> modes_of_reference(const std::string& text) {
         throw store::UsageError(
             fmt::format("--reference-modes: found \"{}\", expected a whole number from 0 to {}, or cell", text, store::most_counted));
     return std::stoi(text);
-}
-
-// Each value of a list for itself; an option is named once.
-std::vector<compare::SchemeOption> one_by_one(const std::vector<compare::SchemeOption>& lists) {
-    std::vector<compare::SchemeOption> options;
-    for (std::size_t k = 0; k < lists.size(); ++k) {
-        const compare::SchemeOption& list = lists[k];
-        for (std::size_t j = 0; j < k; ++j)
-            if (lists[j].scheme == list.scheme && lists[j].name == list.name)
-                throw store::UsageError(fmt::format("--option {}: found more than once; several values stand in one list, {}={},{}",
-                                                    list.name, list.name, lists[j].value, list.value));
-        std::istringstream values(list.value);
-        for (std::string value; std::getline(values, value, ',');) options.push_back({list.scheme, list.name, value});
-        if (list.value.empty()) options.push_back(list);
-    }
-    return options;
 }
 
 std::string kept_text(const study::Kept& keep) {
@@ -200,7 +183,7 @@ Act compare_verb(CLI::App& program) {
     add_common(*verb, *r);
     return [r] {
         must_be_assignments(r->set);
-        r->options = one_by_one(scheme_options(r->option_lists));
+        r->options = listed_options(r->option_lists);
         r->reference_modes = modes_of_reference(r->modes_of_reference);
         return compare_command(*r);
     };

@@ -25,7 +25,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct TrimCall : Common, trim::Request {};
+struct TrimCall : Common, trim::Request {
+    std::vector<std::string> option_lists;
+};
 
 std::string needs_text(const trim::Trimmed& t, const trim::Judge& judge) {
     TextTable table{{{"part", true}, {"error"}, {"cost"}, {"needed"}, {"in the model", true}}, {}};
@@ -157,6 +159,7 @@ Act trim_verb(CLI::App& program) {
         ->type_name("NAME|any")
         ->option_text("NAME|any");
     add_set(*verb, r->set);
+    add_options(*verb, r->option_lists);
     verb->add_option("--duration", r->duration, "how much of the scene is run and judged; 0.05 where absent")
         ->type_name("S")
         ->transform(seconds)
@@ -178,7 +181,10 @@ Act trim_verb(CLI::App& program) {
         ->type_name("DIR");
     verb->footer("Example: jvari trim tanpura_c3_release --within 1% --out trimmed");
     add_common(*verb, *r);
-    return [r] { return trim_command(*r); };
+    return [r] {
+        r->options = listed_options(r->option_lists);
+        return trim_command(*r);
+    };
 }
 
 }  // namespace jvari::bench::command

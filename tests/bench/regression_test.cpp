@@ -30,7 +30,8 @@ TEST(Regression, TheSmokeSuiteIsWhatItWasWhenItWasRecorded) {
     ASSERT_EQ(o.code, 0) << o.err;
 
     const bench::diff::Folder then = bench::diff::read_folder(kept), now = bench::diff::read_folder(scratch / "now");
-    const bench::diff::Difference d = bench::diff::difference(then, now);
+    bench::diff::Difference d = bench::diff::difference(then, now);
+    d.columns.after.clear();  // a later program may measure more
     EXPECT_TRUE(d.nothing()) << text_of(d, then, now);
     EXPECT_GT(d.compared, 10000);
     for (std::size_t i = 0; i < now.cells.rows.size(); ++i) expect_below_floor(now.cells, i);

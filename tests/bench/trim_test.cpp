@@ -14,6 +14,7 @@
 #include "analysis/error.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/trim/cheapest_settings.hpp"
 #include "bench/trim/trim_record.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
@@ -246,6 +247,32 @@ TEST(Trim, AnUnknownOrATooLargeUncertaintyDecidesNothing) {
 TEST(Search, SaysWhereNothingServes) {
     trim::Judge judge(request("tanpura_c3_release", "0.0001%"), catalogue(), silent, counted);
     EXPECT_FALSE(trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent).found);
+}
+
+TEST(Search, OptionsThatAreNamedAreTriedInPlaceOfThoseThatTrimTriesByItself) {
+    const Descriptor& d = catalogue().find("modal_two_point");
+    const Scene scene = read_scene("tanpura_c3_release");
+    const auto names = [&](const std::vector<compare::SchemeOption>& options) {
+        std::vector<std::string> all;
+        for (const trim::Variant& v : trim::variants_of(d, scene, options)) all.push_back(v.name());
+        return all;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(names({}), (Names{"modal_two_point", "modal_two_point compliance=matched"}));
+    EXPECT_EQ(names({{"", "compliance", "own"}, {"", "compliance", "matched"}}),
+              (Names{"modal_two_point compliance=own", "modal_two_point compliance=matched"}));
+    EXPECT_EQ(names({{"modal_two_point", "compliance", "matched"}}), Names{"modal_two_point compliance=matched"});
+    EXPECT_EQ(names({{"modal_strang", "compliance", "own"}}).size(), 2u);  // of another
+    trim::Request r = request("tanpura_c3_release", "5%");
+    r.scheme = "modal_two_point";
+    r.options = {{"", "compliance", "own"}};
+    trim::Judge judge(r, catalogue(), silent, counted);
+    const trim::Path path = trim::search(judge, {&d}, {0}, silent);
+    ASSERT_TRUE(path.found);
+    for (std::size_t k = 1; k < path.steps.size(); ++k)
+        EXPECT_EQ(path.steps[k].model.settings.options, (OptionValues{{"compliance", "own"}})) << path.steps[k].change;
+    r.options = {{"", "compliances", "own"}};
+    EXPECT_THROW(trim::trimmed(judge, r, catalogue(), silent), store::UsageError);
 }
 
 // A number of modes that serves a first mode does not serve a triangle: the search learns of it by the verification, and each start that
