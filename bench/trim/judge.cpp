@@ -16,6 +16,7 @@
 #include "bench/study/clock.hpp"
 #include "bench/study/cost.hpp"
 #include "bench/study/truth.hpp"
+#include "reference/agreement.hpp"
 
 namespace jvari::bench::trim {
 
