@@ -17,10 +17,9 @@ forbid "scenes see nothing above them" '#include "(schemes|reference|analysis|be
 forbid "schemes see scenes alone" '#include "(reference|analysis|bench)/' $(files schemes)
 forbid "references see schemes and scenes" '#include "(analysis|bench)/' $(files reference)
 forbid "the event-driven exact solution stands above the other references" '#include "reference/exact/' reference/*.hpp reference/*.cpp
-forbid "the seam sees no scheme" '#include "schemes/(body|contact|driver|modal|spatial|grid|sitar)/' schemes/*.hpp schemes/scheme.cpp schemes/several_strings.cpp schemes/trace.cpp schemes/run.cpp
-forbid "contacts see the seam alone" '#include "schemes/(body|driver|modal|spatial|grid|sitar)/' $(files schemes/contact)
-forbid "the driver sees contacts and the seam" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/driver)
-forbid "a moving body sees the driver, contacts and the seam" '#include "schemes/(modal|spatial|grid|sitar)/' $(files schemes/body)
+forbid "the seam sees no scheme" '#include "schemes/(body|contact|modal|spatial|grid|sitar)/' schemes/*.hpp schemes/scheme.cpp schemes/several_strings.cpp schemes/trace.cpp schemes/run.cpp
+forbid "contacts see the seam alone" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/contact)
+forbid "a moving body sees contacts and the seam" '#include "schemes/(modal|spatial|grid|sitar)/' $(files schemes/body)
 forbid "modal schemes see contacts and the seam" '#include "schemes/(spatial|grid|sitar)/' $(files schemes/modal)
 forbid "kernels of modes see no scheme" '#include "schemes/modal/(modal_[^s]|modal_strang|three)' $(files schemes/modal/kernels)
 forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(grid|sitar)/' $(files schemes/spatial)
@@ -66,12 +65,21 @@ forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|
     $(find scenes schemes reference analysis -name '*.hpp' ! -name '*-inl.hpp')  # -inl: part of a file of its own folder, compiled once for each set of instructions
 forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' $(find results -maxdepth 3 -path results/runs -prune -o \( -name '*.json' -o -name '*.toml' \) -print)
 lines=$(cat $product | wc -l)
-for room in $(for file in $product; do dirname "$file"; done | sort -u); do
-    in_it=$(ls "$room"/*.hpp "$room"/*.cpp 2>/dev/null)
-    if [ "$(echo "$in_it" | wc -l)" -gt 30 ] || [ "$(($(cat $in_it | wc -l) * 4))" -gt "$lines" ]; then
-        echo "$room: more than 30 source files, or than a quarter of the lines" >&2
+share() {  # share MOST ROOM FILES...: they have at most so many of the product's lines
+    most=$1 room=$2
+    shift 2
+    if [ "$(($(cat "$@" | wc -l) * 100))" -gt "$((most * lines))" ]; then
+        echo "$room: more than $most % of the product's lines" >&2
         status=1
     fi
+}
+for room in $(for file in $product; do dirname "$file"; done | sort -u); do
+    if [ "$(ls "$room"/*.hpp "$room"/*.cpp 2>/dev/null | wc -l)" -gt 30 ]; then
+        echo "$room: more than 30 source files" >&2
+        status=1
+    fi
+    case $room in */*) share 20 "$room" $(echo "$product" | grep "^$room/") ;; esac
 done
+share 48 bench $(echo "$product" | grep '^bench/')
 forbid "-ffast-math is forbidden" 'ffast-math' CMakeLists.txt tests/CMakeLists.txt CMakePresets.json
 exit $status
