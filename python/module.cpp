@@ -5,7 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "bench/store/machine.hpp"
-#include "python/calls.hpp"
+#include "python/judging.hpp"
 #include "schemes/making.hpp"
 
 namespace py = pybind11;
@@ -151,6 +151,27 @@ void add_studies(py::module_& m) {
           "No more than a scene needs, as `jvari trim`: trim(\"tanpura_c3_release\", \"1%\", scheme=\"modal_two_point\"). duration [s], "
           "tap_rate [Hz]; out: the folder that keeps what was judged.");
 }
+
+void add_own_schemes(py::module_& m) {
+    m.def("problem", &python::problem_of, py::arg("scene"), py::arg("rate") = 44100.0, py::arg("modes") = 0,
+          py::arg("duration") = py::none(), py::arg("tap_rate") = py::none(),
+          "The problem that a scheme solves, as NumPy arrays: the members of a file of `jvari export`, whose shapes, units and equations "
+          "docs/own-scheme/README.md has. rate, tap_rate [Hz]; modes 0: every mode below min(20 kHz, rate/2).");
+    m.def("judge", &python::judge_rows, py::arg("scene"), py::arg("traces"), py::kw_only(), py::arg("name") = "mine",
+          py::arg("cost") = py::none(), py::arg("schemes") = std::vector<std::string>(), py::arg("duration") = py::none(),
+          py::arg("tap_rate") = py::none(), py::arg("tap") = "", py::arg("reference") = "", py::arg("repeats") = 5, py::arg("jobs") = 0,
+          "How wrong a trace is that any program made, as `jvari judge`. traces: an array of rows x taps, a dict of taps by name, or a "
+          "dict of such by sample rate [Hz]; 44100 where there is one. cost: computing time per second of sound, a number or by rate, "
+          "shown as reported. schemes: run beside it. A dict per cell as compare gives.");
+    m.def("scheme", &python::scheme_decorator, py::arg("name"), py::kw_only(), py::arg("represents") = std::vector<std::string>(),
+          py::arg("balance") = "none", py::arg("source") = "a scheme in Python", py::arg("compiled") = false,
+          "A decorator that makes a class a scheme: __init__(self, problem), and advance(self, rows), which gives rows x taps, or that "
+          "and rows x 3 energies [J]. represents: features as `jvari list schemes` names them. compiled: its loop is (Numba), and its "
+          "cost is compared.");
+    m.def("check", &python::check_rows_of, py::arg("scheme"),
+          "Whether a scheme keeps what every scheme promises, as `jvari check`: a dict per promise and scene; `answer` is \"kept\", "
+          "\"broken\", \"excused\" or \"not asked\".");
+}
 }  // namespace
 
 PYBIND11_MODULE(jvari, m) {
@@ -160,6 +181,7 @@ PYBIND11_MODULE(jvari, m) {
     add_scene(m);
     add_run(m);
     add_studies(m);
+    add_own_schemes(m);
     m.def("plugin", &python::add_plugin, py::arg("path"), "Loads schemes from a shared object; their names are known from then on.");
     m.def("schemes", &python::scheme_names, "Names of schemes and references, plugins' among them.");
     m.def(

@@ -81,7 +81,7 @@ constexpr std::uint32_t plugin_layout = layout_hash({
         JVARI_LAYOUT(Confirmation, JVARI_AT(accuracies), JVARI_AT(other_methods)),
         JVARI_LAYOUT(Descriptor, JVARI_AT(name), JVARI_AT(source), JVARI_AT(represents), JVARI_AT(balance), JVARI_AT(clock), JVARI_AT(make),
                      JVARI_AT(options), JVARI_AT(approximates), JVARI_AT(note), JVARI_AT(limit), JVARI_AT(stand_in_rank),
-                     JVARI_AT(confirmation)),
+                     JVARI_AT(confirmation), JVARI_AT(all_strings), JVARI_AT(own), JVARI_AT(untimed)),
 #if defined(__GXX_ABI_VERSION)
         __GXX_ABI_VERSION,
 #endif

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "schemes/controls.hpp"
+#include "schemes/plugin.hpp"
 
 namespace jvari {
 
@@ -37,17 +38,31 @@ bool is_control(const Descriptor& d) {
 }
 
 namespace {
-std::vector<LoadedPlugin>& kept_plugins() {
-    static std::vector<LoadedPlugin> all;
+std::vector<const Guest*>& all_guests() {
+    static std::vector<const Guest*> all;
     return all;
 }
 }  // namespace
 
-std::span<const LoadedPlugin> loaded_plugins() {
-    return kept_plugins();
+std::span<const Guest* const> guests() {
+    return all_guests();
 }
 
-const Plugin& load_plugin(const std::string& path) {
+const Guest* find_guest(const std::string& path) {
+    const auto found = std::ranges::find_if(all_guests(), [&path](const Guest* g) { return g->path == path; });
+    return found == all_guests().end() ? nullptr : *found;
+}
+
+const Guest& add_guest(Guest guest) {
+    const auto* added = new Guest(std::move(guest));  // NOLINT(cppcoreguidelines-owning-memory): for the life of the process
+    const auto same = std::ranges::find_if(all_guests(), [added](const Guest* g) { return g->path == added->path; });
+    if (same == all_guests().end()) all_guests().push_back(added);
+    else *same = added;
+    return *added;
+}
+
+namespace {
+Guest open_plugin(const std::string& path) {
     void* library = dlopen(path.find('/') == std::string::npos ? ("./" + path).c_str() : path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) throw std::runtime_error("cannot load plugin " + path + ": " + dlerror());
     const auto* plugin = static_cast<const Plugin*>(dlsym(library, "jvari_plugin"));
@@ -66,9 +81,13 @@ const Plugin& load_plugin(const std::string& path) {
         must(d.source, "has no source for its scheme " + std::string(d.name));
         must(d.make, "has nothing that makes its scheme " + std::string(d.name));
     }
-    auto& all = kept_plugins();
-    if (std::none_of(all.begin(), all.end(), [plugin](const LoadedPlugin& l) { return l.plugin == plugin; })) all.push_back({path, plugin});
-    return *plugin;
+    return {path, {plugin->schemes().begin(), plugin->schemes().end()}, "", plugin->compiler, plugin->flags, plugin->optimised};
+}
+}  // namespace
+
+const Guest& load_plugin(const std::string& path) {
+    const Guest* known = find_guest(path);
+    return known ? *known : add_guest(open_plugin(path));
 }
 
 }  // namespace jvari

@@ -69,7 +69,8 @@ Features approximated(const Descriptor& scheme) {
 std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     refuse_missing(descriptor, scene);
     refuse_bad_options(descriptor, settings);
-    if (scene.strings.size() > 1 && !needed_by(scene).has(Feature::moving_body)) return several_strings(descriptor, scene, settings);
+    if (scene.strings.size() > 1 && !needed_by(scene).has(Feature::moving_body) && !descriptor.all_strings)
+        return several_strings(descriptor, scene, settings);
     auto scheme = with_context("is made", [&] { return descriptor.make(descriptor, scene, settings); });
     if (!scheme)
         throw BadScheme(std::string(descriptor.name) + " makes no scheme of scene " + scene.name + ", and does not refuse it either");

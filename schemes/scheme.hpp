@@ -138,6 +138,9 @@ struct Descriptor {
     Limit limit = {};
     int stand_in_rank = 1;                                 // of those able the highest stands in where there is no reference
     Confirmation (*confirmation)(const Scene&) = nullptr;  // of a reference
+    bool all_strings = false;                              // `make` gets all strings of a scene also where nothing couples them
+    const void* own = nullptr;                             // of a scheme from outside: what its `make` knows it by
+    const char* untimed = "";                              // why its cost is no measure: "interpreted, not compared"
 };
 
 // The only way to make a scheme: refuses features that the scheme does not represent, options that it does not

@@ -36,11 +36,12 @@ set_tests_properties(Plugin.ExportsNothingButItsTable PROPERTIES FIXTURES_REQUIR
 jvari_full(plugin_test Plugin.ExportsNothingButItsTable)
 if(JVARI_PYTHON)
     add_test(NAME Python.TheModuleIsTheEngine COMMAND ${Python_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/python/module_test.py $<TARGET_FILE:jvari> ${plugin})
+    add_test(NAME Python.SchemesOfOnesOwnAreJudgedAndChecked COMMAND ${Python_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/python/own_scheme_test.py)
     add_test(NAME Python.TheExampleDrawsTheCommittedStudy COMMAND ${Python_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/python/example_test.py ${CMAKE_SOURCE_DIR})
     set_tests_properties(Python.TheModuleIsTheEngine PROPERTIES FIXTURES_REQUIRED plugin_built)
-    set_tests_properties(Python.TheModuleIsTheEngine Python.TheExampleDrawsTheCommittedStudy
+    set_tests_properties(Python.TheModuleIsTheEngine Python.SchemesOfOnesOwnAreJudgedAndChecked Python.TheExampleDrawsTheCommittedStudy
         PROPERTIES ENVIRONMENT "PYTHONPATH=$<TARGET_FILE_DIR:jvari_python>;JVARI_CACHE=" SKIP_RETURN_CODE 77 TIMEOUT 600)
-    jvari_full(Python.TheModuleIsTheEngine Python.TheExampleDrawsTheCommittedStudy)
+    jvari_full(Python.TheModuleIsTheEngine Python.SchemesOfOnesOwnAreJudgedAndChecked Python.TheExampleDrawsTheCommittedStudy)
 endif()
 
 if(under_sanitizers)  # once is enough for what follows

@@ -23,10 +23,11 @@ forbid "a moving body sees contacts and the seam" '#include "schemes/(modal|spat
 forbid "modal schemes see contacts and the seam" '#include "schemes/(spatial|grid|sitar)/' $(files schemes/modal)
 forbid "kernels of modes see no scheme" '#include "schemes/modal/(modal_[^s]|modal_strang|three)' $(files schemes/modal/kernels)
 forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(grid|sitar)/' $(files schemes/spatial)
+forbid "the problem of schemes from outside sees contacts and the seam" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/open)
 forbid "grids see contacts and the seam" '#include "schemes/(modal|spatial|sitar)/' $(files schemes/grid)
 forbid "sitars see contacts and the seam" '#include "schemes/(modal|spatial|grid)/' $(files schemes/sitar)
 above=
-for room in command report trim check suite map diff compare study trust sound store; do  # each room of bench sees itself and those after it here
+for room in command report trim check suite map diff judge compare study trust sound store; do  # each room of bench sees itself and those after it here
     [ -z "$above" ] || forbid "bench/$room sees nothing of the rooms above it" "#include \"bench/($above)/" $(files bench/$room)
     above=${above:+$above|}$room
     forbid "bench/$room opens the namespace of its room" "^namespace jvari(::bench::[a-z]+)? \\{$" \
@@ -35,7 +36,7 @@ done
 forbid "locks, signals and programs see nothing else of the store" '#include "bench/store/[a-z_0-9]+\.' $(files bench/store/system)
 forbid "a comparison does not see how it is written down" '#include "bench/compare/record/' bench/compare/*.hpp bench/compare/*.cpp
 forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
-    $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/study bench/compare bench/diff bench/map bench/suite bench/check bench/report)
+    $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/study bench/compare bench/judge bench/diff bench/map bench/suite bench/check bench/report)
 forbid "the page's module sees the core and no room of bench" '#include "bench/' $(files web)
 forbid "nothing sees the page's module" '#include "web/' $(files scenes schemes reference analysis bench python)
 forbid "the Python module sees the engine, not the command line" '#include "bench/command/' $(files python)

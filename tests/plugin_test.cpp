@@ -15,8 +15,7 @@ namespace {
 TEST(Plugin, BuiltAgainstTheInstallTreeGivesTheBuiltInSchemesTrace) {
     const char* path = std::getenv("JVARI_EXAMPLE_PLUGIN");
     ASSERT_NE(path, nullptr) << "run this test through ctest";
-    const Plugin& plugin = load_plugin(path);
-    const auto loaded = plugin.schemes();
+    const auto& loaded = load_plugin(path).schemes;
     ASSERT_EQ(loaded.size(), 1u);
     EXPECT_STREQ(loaded[0].name, "plain_two_point");
 

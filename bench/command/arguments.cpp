@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "bench/judge/external.hpp"
 #include "bench/store/keys.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
@@ -46,6 +47,14 @@ const CLI::Validator hertz = in_units({{"kHz", 1e3}, {"Hz", 1}, {"k", 1e3}}), se
 void add_common(CLI::App& verb, Common& c) {
     verb.add_flag("--json", c.json, "one JSON object on standard output, nothing else there");
     verb.add_option("--plugin", c.plugins, "shared object with further schemes (repeatable)")->type_name("LIB.so")->allow_extra_args(false);
+    verb.add_option_function<std::vector<std::string>>(
+            "--external",
+            [&c](const std::vector<std::string>& commands) {
+                for (const std::string& command : commands) c.plugins.push_back(judge::enter_external(command));
+            },
+            "any program as a scheme: it is called with the paths of the problem (JSON) and of the trace that it writes (repeatable)")
+        ->type_name("COMMAND")
+        ->allow_extra_args(false);
     verb.add_flag("--quiet", c.quiet, "errors only: no messages, no progress, no result as text (`list` still lists)");
 }
 

@@ -21,8 +21,8 @@ int check_command(const CheckRequest& r) {
     std::vector<const Descriptor*> asked;
     for (const std::string& name : r.schemes) asked.push_back(&catalogue.find(name));
     if (asked.empty())
-        for (const LoadedPlugin& l : loaded_plugins())
-            for (const Descriptor& d : l.plugin->schemes()) asked.push_back(&catalogue.find(d.name));
+        for (const Guest* g : guests())
+            for (const Descriptor& d : g->schemes) asked.push_back(&catalogue.find(d.name));
     if (asked.empty()) throw store::UsageError("check: expected a scheme, or --plugin LIB.so (see jvari check --help)");
     if (!r.junit.empty()) store::must_be_writable(r.junit);
     std::vector<check::Checked> checked;

@@ -57,7 +57,7 @@ std::string headline_text(const store::Table& t, std::size_t width) {
     }
     certificate.fields.resize(table.columns.size());
     table.rows.push_back(std::move(certificate));
-    std::string missing, flagged;
+    std::string missing, flagged, untimed;
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         const std::string& status = t.at(i, "status");
@@ -70,6 +70,8 @@ std::string headline_text(const store::Table& t, std::size_t width) {
             continue;
         }
         if (status != "ok") missing += fmt::format("  {} {}\n", store::run_name(t, i), t.at(i, "reason"));
+        if (const std::string& cost = t.at(i, "cost_s_per_s"); !cost.empty() && std::isnan(t.number(i, "cost_s_per_s")))
+            untimed += fmt::format("\ncost of {}: {}", store::run_name(t, i), cost);
         if (!t.at(i, "flags").empty())
             flagged += fmt::format("  {}: {} (smallest contact force {}, ledger open by {})\n", store::run_name(t, i), t.at(i, "flags"),
                                    cell_text(t, i, facts::smallest_contact_force.name, "{:.2g} N"),
@@ -98,6 +100,7 @@ std::string headline_text(const store::Table& t, std::size_t width) {
                 if (compare::bound_of(t, i, column).says() == what) return true;
         return false;
     };
+    text += untimed;
     if (left_out > 0)
         text += fmt::format("\n{} more combinations of modes, rate and compliance were run over {} alone: a cheaper one does as well there",
                             left_out, window_name(headline));

@@ -18,7 +18,7 @@ Catalogue::Catalogue(const std::vector<std::string>& plugins) {
     for (const std::string& path : plugins) {
         std::span<const Descriptor> brought;
         try {
-            brought = load_plugin(path).schemes();
+            brought = load_plugin(path).schemes;
         } catch (const std::runtime_error& e) {
             throw store::UsageError(e.what());
         }
@@ -46,14 +46,24 @@ bool Catalogue::is_reference(const Descriptor& d) const {
 }
 
 void note_slow_plugins(const store::Listener& listener) {
-    for (const LoadedPlugin& l : loaded_plugins())
-        if (!l.plugin->optimised)
-            listener.note("warning: plugin " + l.path + " is compiled without optimisation: its times say nothing of its schemes");
+    for (const Guest* g : guests())
+        if (!g->optimised)
+            listener.note("warning: plugin " + g->path + " is compiled without optimisation: its times say nothing of its schemes");
 }
 
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration) {
     Scene scene = read_scene(name, overrides);
     if (duration) scene.duration = *duration;
+    return scene;
+}
+
+Scene load_scene(const CompareRequest& r) {
+    Scene scene = load_scene(r.scene, r.set, r.duration);
+    if (r.tap.empty()) return scene;
+    std::vector<std::string> names;
+    for (const Tap& tap : scene.taps) names.push_back(tap.name);
+    std::erase_if(scene.taps, [&r](const Tap& tap) { return tap.name != r.tap; });
+    if (scene.taps.empty()) throw store::UsageError(store::unknown("tap", r.tap, names));
     return scene;
 }
 

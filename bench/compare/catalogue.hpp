@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/compare/request.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
 #include "schemes/scheme.hpp"
@@ -27,6 +28,7 @@ void note_slow_plugins(const store::Listener&);
 
 // A file or a library name, with overrides "key.path=value"; throws SceneFileError, BadScene or UsageError.
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration);
+Scene load_scene(const CompareRequest&);  // with the tap that is asked for alone
 
 std::vector<std::string> names_in(Features);  // one by one
 

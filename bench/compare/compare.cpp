@@ -126,7 +126,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
 
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener, study::Kept& keep) {
     Comparison c;
-    const Scene scene = load_scene(request.scene, request.set, request.duration);
+    const Scene scene = load_scene(request);
     note_scene(scene, listener);
     c.headline = study::headline_of(scene);
     for (const Plan& plan : plans_of(request, catalogue, scene)) {
@@ -144,7 +144,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
         }
     }
     std::vector<std::string> plugins;
-    for (const LoadedPlugin& l : loaded_plugins()) plugins.push_back(l.path);
+    for (const Guest* g : guests()) plugins.push_back(g->path);
     study::address(c.plan, store::program_identity(plugins));
 
     study::References references(c.plan.jobs);

@@ -39,17 +39,6 @@ std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
     return all;
 }
 
-double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
-    if (r.tap_rate) return *r.tap_rate;
-    const auto divides_all = [&rates](double f) {
-        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return store::whole_multiple(rate, f); });
-    };
-    const double lowest = *std::min_element(rates.begin(), rates.end());
-    if (divides_all(44100)) return 44100;
-    if (divides_all(lowest)) return lowest;
-    throw store::UsageError(fmt::format("--rates: neither 44100 nor {} divides all of them; say --tap-rate HZ", lowest));
-}
-
 int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
     if (!r.modes.empty()) return r.modes.front();
     if (lowest_rate >= 40e3) return scene.strings.size() == 1 ? modes_below(scene.strings.front(), 20e3) : 0;
@@ -193,6 +182,17 @@ std::string kinds_of(const std::vector<Plan>& plans) {  // "44100 and 48000 rows
     return text + " rows a second";
 }
 }  // namespace
+
+double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
+    if (r.tap_rate) return *r.tap_rate;
+    const auto divides_all = [&rates](double f) {
+        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return store::whole_multiple(rate, f); });
+    };
+    const double lowest = *std::min_element(rates.begin(), rates.end());
+    if (divides_all(44100)) return 44100;
+    if (divides_all(lowest)) return lowest;
+    throw store::UsageError(fmt::format("--rates: neither 44100 nor {} divides all of them; say --tap-rate HZ", lowest));
+}
 
 Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
     const std::vector<double> rates = rates_of(r);

@@ -17,6 +17,9 @@ struct Plan {
     std::vector<std::string> notes;
 };
 
+// The rows per second that cells at these rates are compared on; throws UsageError where there are none.
+double tap_rate_for(const CompareRequest&, const std::vector<double>& rates);
+
 // One plan where all rates have rows in common: 44100 a second, else as many as the lowest rate. Rates that have none, as 44100 and 48000,
 // are in several plans, each with rows and references of its own. Nothing is resampled: a force is a mean over the interval between two
 // rows, and its reference is the mean over the same interval. What steps in continuous time is in the first plan alone.

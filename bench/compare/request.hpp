@@ -21,6 +21,7 @@ struct CompareRequest {
     bool controls = false;                     // with no schemes named, those that are known to be wrong too
     std::optional<double> duration, tap_rate;  // [s], [Hz]
     std::vector<std::string> set;              // overrides of the scene, "key.path=value"
+    std::string tap;                           // the only one that is compared; "": all
     std::vector<SchemeOption> options;
     int repeats = 5;
     int jobs = 0;  // 0: as many as there are cores

@@ -52,17 +52,21 @@ namespace {
 nlohmann::ordered_json identity_of(const std::string& sources, const Machine& m) {
     return {"jvari", sources, m.compiler, m.flags, m.build, m.vectors};
 }
+std::string contents_hash(const std::string& guest) {  // of a plugin's file, or of what a scheme from outside says
+    const Guest* known = find_guest(guest);
+    return hash_of(known && !known->contents.empty() ? known->contents : read_whole(guest));
+}
 }  // namespace
 
 std::string run_identity(const Machine& m) {
     nlohmann::ordered_json program = identity_of(m.run_sources, m);
-    for (const LoadedPlugin& l : loaded_plugins()) program.push_back(hash_of(read_whole(l.path)));
+    for (const Guest* g : guests()) program.push_back(contents_hash(g->path));
     return program.dump();
 }
 
 std::string program_identity(const std::vector<std::string>& plugins, const Machine& m) {
     nlohmann::ordered_json program = identity_of(m.cell_sources, m);
-    for (const std::string& path : plugins) program.push_back(hash_of(read_whole(path)));
+    for (const std::string& path : plugins) program.push_back(contents_hash(path));
     return program.dump();
 }
 
@@ -107,9 +111,8 @@ std::string made_by() {
                                 {"cpu", m.cpu},       {"cores", m.cores},     {"system", m.system},        {"date", now_utc()}};
     made["command"] = command();
     if (double load[3]; getloadavg(load, 3) > 0) made["load"] = std::round(100 * load[0]) / 100;  // of the last minute
-    for (const LoadedPlugin& l : loaded_plugins())
-        made["plugins"].push_back(
-            {{"file", l.path}, {"hash", hash_of(read_whole(l.path))}, {"compiler", l.plugin->compiler}, {"flags", l.plugin->flags}});
+    for (const Guest* g : guests())
+        made["plugins"].push_back({{"file", g->path}, {"hash", contents_hash(g->path)}, {"compiler", g->compiler}, {"flags", g->flags}});
     return made.dump();
 }
 

@@ -27,6 +27,8 @@ struct Field {  // of one record: what a column is asked for
     double in(const Errors& e) const { return at() < e.size() ? e[at()][measure] : store::nan; }
     double seconds() const { return ran() && summary().duration > 0 ? summary().duration : store::nan; }
     double of(double x) const { return ran() ? x : store::nan; }
+    const char* untimed() const { return ran() && !record.timed() ? cell().scheme->untimed : ""; }
+    double clock(double x) const { return *untimed() ? store::nan : of(x); }
 };
 
 std::string count(long n, bool known) {
@@ -70,28 +72,30 @@ const std::vector<Declared>& declared() {
          [](F f) { return f.ran() ? names_of(flags_of(f.summary())) : std::string(); }},
         {{"{m}", "1, s, dB, Hz", Rule::error, "each error, of the headline's tap"}, [](F f) { return number(f.in(f.cell().errors)); }},
         {{"cost_s_per_s", "1", Rule::clock, "computing time per second of sound: median of the timed runs"},
-         [](F f) { return number(f.of(f.cell().wall.median) / f.seconds()); }},
-        {{"cost_lower", "1", Rule::clock, "its quartiles"}, [](F f) { return number(f.of(f.cell().wall.lower) / f.seconds()); }},
-        {{"cost_upper", "1", Rule::clock, ""}, [](F f) { return number(f.of(f.cell().wall.upper) / f.seconds()); }},
+         [](F f) { return *f.untimed() ? f.untimed() : number(f.clock(f.cell().wall.median) / f.seconds()); }},
+        {{"cost_lower", "1", Rule::clock, "its quartiles"}, [](F f) { return number(f.clock(f.cell().wall.lower) / f.seconds()); }},
+        {{"cost_upper", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().wall.upper) / f.seconds()); }},
         {{"processor_s_per_s", "1", Rule::clock,
           "the same in processor time. A slow-down that all samples of a round at one rate share counts as drift of the machine and is "
           "subtracted"},
-         [](F f) { return number(f.of(f.cell().processor.median) / f.seconds()); }},
-        {{"processor_lower", "1", Rule::clock, ""}, [](F f) { return number(f.of(f.cell().processor.lower) / f.seconds()); }},
-        {{"processor_upper", "1", Rule::clock, ""}, [](F f) { return number(f.of(f.cell().processor.upper) / f.seconds()); }},
-        {{"wall_seconds", "s", Rule::clock, "of the whole run"}, [](F f) { return number(f.of(f.cell().wall.median)); }},
-        {{"wall_seconds_lower", "s", Rule::clock, ""}, [](F f) { return number(f.of(f.cell().wall.lower)); }},
-        {{"wall_seconds_upper", "s", Rule::clock, ""}, [](F f) { return number(f.of(f.cell().wall.upper)); }},
+         [](F f) { return number(f.clock(f.cell().processor.median) / f.seconds()); }},
+        {{"processor_lower", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().processor.lower) / f.seconds()); }},
+        {{"processor_upper", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().processor.upper) / f.seconds()); }},
+        {{"wall_seconds", "s", Rule::clock, "of the whole run"}, [](F f) { return number(f.clock(f.cell().wall.median)); }},
+        {{"wall_seconds_lower", "s", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().wall.lower)); }},
+        {{"wall_seconds_upper", "s", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().wall.upper)); }},
         {{"ns_per_step", "ns", Rule::clock, "`wall_seconds` over the steps"},
          [](F f) {
-             return number(f.summary().steps > 0 ? f.of(f.cell().wall.median) * 1e9 / static_cast<double>(f.summary().steps) : store::nan);
+             return number(f.summary().steps > 0 ? f.clock(f.cell().wall.median) * 1e9 / static_cast<double>(f.summary().steps)
+                                                 : store::nan);
          }},
-        {{"times_real_time", "1", Rule::clock, "1 / `cost_s_per_s`"}, [](F f) { return number(f.seconds() / f.of(f.cell().wall.median)); }},
+        {{"times_real_time", "1", Rule::clock, "1 / `cost_s_per_s`"},
+         [](F f) { return number(f.seconds() / f.clock(f.cell().wall.median)); }},
         {{"worst_block_of_deadline", "1", Rule::clock,
           "worst-case load: computing time of the slowest block of 64 rows over the time that those rows sound, the best of all timed "
           "runs. "
           "Above 1 a player would stutter"},
-         [](F f) { return number(f.of(f.cell().worst_block)); }},
+         [](F f) { return number(f.clock(f.cell().worst_block)); }},
         {{"repeats", "", Rule::clock, "how many samples the clock took"},
          [](F f) { return count(f.cell().wall.count, f.ran() && f.record.timed()); }},
         {{"machine", "", Rule::clock, "what timed it: costs compare on one kind of machine alone"},

@@ -117,7 +117,9 @@ void show_clocks(const store::Rows& indices, const std::vector<Clocks>& clocks, 
 void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Listener& listener) {
     std::vector<store::Rows> sets = sets_of(plan);
     for (store::Rows& set : sets)
-        std::erase_if(set, [&](std::size_t i) { return plan.jobs[i].repeats == 0 || !into.records[i].cell.ran(); });
+        std::erase_if(set, [&](std::size_t i) {
+            return plan.jobs[i].repeats == 0 || *plan.jobs[i].cell.scheme->untimed || !into.records[i].cell.ran();
+        });
     std::erase_if(sets, [](const store::Rows& set) { return set.empty(); });
     if (sets.empty()) return;
     const auto lock =

@@ -1,0 +1,143 @@
+// jvari judge: how wrong is a trace that any program made?
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bench/command/compare_text.hpp"
+#include "bench/command/console.hpp"
+#include "bench/command/results_folder.hpp"
+#include "bench/command/verbs.hpp"
+#include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/compare_record.hpp"
+#include "bench/judge/candidate.hpp"
+#include "bench/judge/foreign_trace.hpp"
+#include "bench/report/report.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/indented.hpp"
+#include "bench/study/columns.hpp"
+
+namespace jvari::bench::command {
+
+namespace {
+struct JudgeRequest : Common, compare::CompareRequest {
+    std::string name = "mine";
+    std::vector<std::string> files;  // HZ=FILE
+    std::vector<double> costs;
+    int modes_of_each = 0;
+};
+
+struct NamedFile {
+    double rate;
+    std::string path;
+};
+NamedFile named_file(const std::string& text) {
+    const auto equals = text.find('=');
+    std::string rate = text.substr(0, equals);
+    if (equals == std::string::npos || !hertz(rate).empty() || equals + 1 == text.size())
+        throw store::UsageError("--trace " + text + ": expected HZ=FILE, the sample rate of the scheme and the file that it wrote");
+    return {store::number_of(rate), text.substr(equals + 1)};
+}
+
+judge::Candidate candidate_of(JudgeRequest& r) {
+    judge::Candidate c;
+    c.name = r.name;
+    std::vector<NamedFile> files;
+    for (const std::string& text : r.files) files.push_back(named_file(text));
+    for (const NamedFile& f : files) r.rates.push_back(f.rate);
+    if (!r.costs.empty() && r.costs.size() != files.size())
+        throw store::UsageError(fmt::format("--cost: found {} costs for {} traces, expected one each", r.costs.size(), files.size()));
+    const Scene scene = compare::load_scene(r);
+    if (scene.taps.empty()) throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to judge");
+    const judge::Rows rows = judge::rows_for(r, scene);
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        const NamedFile& f = files[k];
+        auto trace = std::make_shared<const Trace>(judge::read_trace(f.path, scene, rows.rate, rows.count));
+        if (!c.traces.emplace(f.rate, std::move(trace)).second)
+            throw store::UsageError(fmt::format("--trace: found more than one at {:.12g} Hz", f.rate));
+        if (!r.costs.empty()) c.costs[f.rate] = r.costs[k];
+        c.contents += fmt::format("{}={}\n", f.rate, store::read_whole(f.path));
+    }
+    return c;
+}
+
+std::vector<std::string> write_folder(const compare::Comparison& c, const JudgeRequest& r, const store::Table& cells,
+                                      const std::string& manifest, const Console& console) {
+    const std::filesystem::path folder = r.out;
+    std::vector<std::string> files = write_tables(folder, cells);
+    store::write_fresh(folder / "manifest.json", manifest + "\n");
+    compare::write_sounds(c, folder);
+    files.push_back((folder / "manifest.json").string());
+    for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
+    return files;
+}
+
+int judge_command(JudgeRequest r) {
+    const Console console(r.json, r.quiet);
+    must_be_assignments(r.set);
+    if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
+    judge::Candidate candidate = candidate_of(r);
+    study::Kept keep;
+    if (!r.out.empty()) {
+        must_be_ours(r.out, "comparison of " + compare::load_scene(r).name, console);
+        make_folder(r.out);
+        keep.folder = std::filesystem::path(r.out) / "cells";
+        keep.resume = true;
+    }
+    const compare::Comparison c = judge::judge(std::move(candidate), r, r.plugins, console, keep);
+    const store::Table cells = compare::cells_of(c);
+    const std::string manifest = compare::manifest_of(c, r);
+    std::vector<std::string> files;
+    if (!r.out.empty()) files = write_folder(c, r, cells, manifest, console);
+    const int code = judge::failed(c) ? exit_code::run_failed : exit_code::done;
+    console.print(headline_text(cells) + "\n" + judge::verdict_of(c));
+    if (!r.out.empty()) console.print("written: " + r.out);
+    console.print_json(
+        store::indented(with_results({{"scene", c.scene().name},
+                                      {"reference", c.reference.name()},
+                                      {"status", exit_code::status(code)},
+                                      {"verdict", judge::verdict_of(c)}},
+                                     manifest, cells, compare::cheapest_of(cells, "", compare::Controls::stand_beside), files)));
+    return code;
+}
+}  // namespace
+
+Act judge_verb(CLI::App& program) {
+    const auto r = std::make_shared<JudgeRequest>();
+    CLI::App* verb = program.add_subcommand("judge", "how wrong is a trace that another program made?");
+    add_scene(*verb, r->scene);
+    add_set(*verb, r->set);
+    verb->add_option("--trace", r->files,
+                     "the sample rate of the scheme, and what it wrote (repeatable, a file a rate): .csv with time_s and a column for each "
+                     "tap by its name, or .wav of one tap")
+        ->required()
+        ->type_name("HZ=FILE")
+        ->allow_extra_args(false);
+    verb->add_option("--name", r->name, "what tables and pictures call it; mine where absent")->type_name("NAME")->option_text("NAME");
+    verb->add_option("--cost", r->costs, "its computing time per second of sound, one for each trace; shown as reported")
+        ->delimiter(',')
+        ->type_name("S,...")
+        ->check(positive);
+    verb->add_option("--schemes", r->schemes, "run and timed beside it, at its rates; absent: none")->delimiter(',')->type_name("A,B,...");
+    verb->add_option("--tap", r->tap, "judged alone; absent: all taps of the scene")->type_name("NAME");
+    add_modes(*verb, r->modes_of_each);
+    verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);
+    verb->add_option("--tap-rate", r->tap_rate, "rows per second of the traces; 44100 where all rates are multiples of it, else the lowest")
+        ->type_name("HZ")
+        ->transform(hertz);
+    verb->add_option("--reference", r->reference, "a reference or a scheme; absent: the highest reference that represents the scene")
+        ->type_name("NAME");
+    add_jobs(*verb, r->jobs);
+    verb->add_option("--out", r->out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
+        ->type_name("DIR");
+    verb->footer(
+        "Example: jvari judge tanpura_c3_release --duration 0.05 --trace 44100=trace.csv --cost 0.8 --schemes modal_two_point --out "
+        "report\n"
+        "\n"
+        "Row n of a trace is at n/44100 s, from the start on; contact forces are means over the interval that ends at the row.\n"
+        "Exit code 4 where a trace holds NaN or stops early: it is judged up to there. `jvari export` writes the problem.");
+    add_common(*verb, *r);
+    return [r] { return judge_command(*r); };
+}
+
+}  // namespace jvari::bench::command

@@ -1,0 +1,128 @@
+#include "bench/judge/candidate.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/compare/bound.hpp"
+#include "bench/compare/compare_plan.hpp"
+#include "bench/compare/diagnosis.hpp"
+#include "bench/compare/record/compare_record.hpp"
+#include "bench/compare/record/convergence_table.hpp"
+#include "bench/judge/played.hpp"
+#include "bench/store/usage.hpp"
+#include "schemes/registry.hpp"
+
+namespace jvari::bench::judge {
+
+namespace {
+constexpr Option reported{"cost", "none", "who measured it: a trace has no cost of its own", {"none", "as_reported"}};
+constexpr const char* no_cost = "not reported";
+
+std::unique_ptr<Scheme> made(const Descriptor& d, const Scene&, const Settings& settings) {
+    const auto& traces = static_cast<const Candidate*>(d.own)->traces;
+    const auto found = traces.find(settings.sample_rate);
+    if (found == traces.end()) throw Refusal(fmt::format("{} has no trace at {:.12g} Hz", d.name, settings.sample_rate));
+    return played(found->second);
+}
+
+std::string enter(Candidate candidate) {  // as a guest; returns its path
+    const std::string path = "trace " + candidate.name;
+    const auto* kept = new Candidate(std::move(candidate));  // NOLINT(cppcoreguidelines-owning-memory): lives as long as its guest
+    Descriptor d{kept->name.c_str(), "traces of another program", every_feature, Balance::none, Clock::stepped, made};
+    d.options = {&reported, 1};
+    d.all_strings = true;
+    d.own = kept;
+    d.untimed = no_cost;
+    add_guest({path, {d}, kept->contents});
+    return path;
+}
+
+bool is_candidate(const study::Cell& cell) {
+    return cell.scheme->untimed == no_cost;
+}
+
+void report_costs(compare::Comparison& c, const std::map<double, double>& costs) {
+    for (study::Record& r : c.outcome.records) {
+        if (!is_candidate(r.cell) || !r.cell.ran()) continue;
+        const auto cost = costs.find(r.cell.settings.sample_rate);
+        if (cost == costs.end()) continue;
+        const double wall = cost->second * r.cell.summary.duration;
+        r.cell.wall = spread_of(std::vector<double>{wall});
+    }
+}
+
+std::string sentence_of(const store::Table& cells, std::size_t row) {
+    const std::string headline = compare::headline_error(cells, store::all_rows(cells));
+    const compare::Bound bound = compare::bound_of(cells, row, headline);
+    std::string text = fmt::format("{}: ", store::run_name(cells, row));
+    using Says = compare::Bound::Says;
+    switch (bound.says()) {
+        case Says::nothing: return text + "no error can be told";
+        case Says::measured: text += fmt::format("errs by {}", compare::percent(bound.error)); break;
+        case Says::at_most:
+            text += fmt::format("errs by {} at most: {} is measured, and the reference is uncertain by {}", compare::percent(bound.most()),
+                                compare::percent(bound.error), compare::percent(bound.certificate));
+            break;
+        case Says::unknown:
+            return text + fmt::format("cannot be judged: the reference is uncertain by {}", compare::percent(bound.certificate));
+        case Says::unsure:
+            text += fmt::format("differs by {} from a reference whose own uncertainty is unknown", compare::percent(bound.error));
+    }
+    const double horizon = cells.number(row, "horizon_s"), octaves = cells.number(row, "third_octave_db");
+    text += fmt::format(" ({}); within 10 % for {}", headline, compare::time_text(horizon));
+    return std::isfinite(octaves) ? text + fmt::format("; third octaves {:.2g} dB apart", octaves) : text;
+}
+}  // namespace
+
+Rows rows_for(const compare::CompareRequest& request, const Scene& scene) {
+    Settings settings;
+    settings.tap_rate = compare::tap_rate_for(request, request.rates);
+    return {settings.tap_rate, rows_of(scene, settings)};
+}
+
+compare::Comparison judge(Candidate candidate, compare::CompareRequest request, const std::vector<std::string>& plugins,
+                          const store::Listener& listener, study::Kept& keep) {
+    request.rates.clear();
+    for (const auto& [rate, trace] : candidate.traces) request.rates.push_back(rate);
+    request.schemes.insert(request.schemes.begin(), candidate.name);
+    request.search = false;
+    const std::map<double, double> costs = candidate.costs;
+    if (!costs.empty()) request.options.push_back({candidate.name, reported.name, "as_reported"});
+    std::vector<std::string> all = plugins;
+    all.push_back(enter(std::move(candidate)));
+    compare::Comparison c = compare::compare(request, compare::Catalogue(all), listener, keep);
+    report_costs(c, costs);
+    return c;
+}
+
+bool failed(const compare::Comparison& c) {
+    return std::ranges::any_of(c.outcome.records, [](const study::Record& r) { return is_candidate(r.cell) && r.cell.status() != "ok"; });
+}
+
+std::string verdict_of(const compare::Comparison& c) {
+    const store::Table cells = compare::cells_of(c);
+    std::string text;
+    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
+        const study::Record& r = c.outcome.records[i];
+        if (!is_candidate(r.cell)) continue;
+        text += (text.empty() ? "" : "\n") + sentence_of(cells, i);
+        if (r.cell.status() == "ok") continue;
+        const long row = r.cell.summary.rows;
+        const auto& trace = *static_cast<const Candidate*>(r.cell.scheme->own)->traces.at(r.cell.settings.sample_rate);
+        text += fmt::format("; but {} row {}, at {}: later windows have no error",
+                            row < trace.rows ? "it holds no number in" : "it stops before", row,
+                            compare::time_text(static_cast<double>(row) / trace.tap_rate));
+    }
+    const store::Table orders = compare::convergence_of(cells, c.scene().name);
+    for (std::size_t i = 0; i < orders.rows.size(); ++i)
+        if (orders.at(i, "scheme") == c.outcome.records.front().cell.scheme->name && orders.at(i, "window") == "50ms" &&
+            orders.at(i, "tap") == c.scene().taps[static_cast<std::size_t>(c.headline.nut)].name)
+            text += fmt::format(
+                "\nobserved order of convergence over 50 ms: {:.2f}{}", orders.number(i, "order"),
+                orders.at(i, "half_width").empty() ? ", of two rates" : fmt::format(" +- {:.2f}", orders.number(i, "half_width")));
+    return text;
+}
+
+}  // namespace jvari::bench::judge

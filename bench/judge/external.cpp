@@ -1,0 +1,142 @@
+#include "bench/judge/external.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "bench/judge/foreign_trace.hpp"
+#include "bench/judge/played.hpp"
+#include "bench/judge/problem_file.hpp"
+#include "bench/store/checksum.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/system/program.hpp"
+#include "bench/store/usage.hpp"
+#include "schemes/open/problem.hpp"
+#include "schemes/registry.hpp"
+
+namespace jvari::bench::judge {
+
+namespace {
+namespace fs = std::filesystem;
+
+struct External {
+    std::string command, name;
+};
+
+struct Folder {  // of one call, gone after it
+    fs::path path;
+    Folder() {
+        std::string made = (fs::temp_directory_path() / "jvari-XXXXXX").string();
+        if (!mkdtemp(made.data())) throw store::Unwritable("cannot make a folder in " + fs::temp_directory_path().string());
+        path = made;
+    }
+    ~Folder() {
+        std::error_code gone;
+        fs::remove_all(path, gone);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+};
+
+std::string last_line(const std::string& text) {
+    std::istringstream lines(text);
+    std::string last;
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty()) last = line;
+    return last;
+}
+
+std::shared_ptr<const Trace> computed(const External& e, const Exported& of, const std::string& problem) {
+    const Folder folder;
+    const fs::path asked = folder.path / "problem.json", given = folder.path / "trace.csv";
+    store::write_fresh(asked, problem);
+    const store::Said said =
+        store::run_program({"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()}, store::Errors::with_the_rest);
+    if (said.code != 0) throw BadScheme(fmt::format("{}: exit code {}: {}", e.command, said.code, last_line(said.text)));
+    if (!fs::exists(given)) throw BadScheme(e.command + ": wrote no trace, its last argument; it said: " + last_line(said.text));
+    return std::make_shared<const Trace>(read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));
+}
+
+// Each problem is computed once: a cell is run by the search, for its errors, and once more where it is looked at again.
+std::shared_ptr<const Trace> known(const External& e, const Exported& of) {
+    static std::mutex mutex;
+    static std::map<std::string, std::shared_ptr<const Trace>> all;
+    const std::string problem = problem_json(of, nullptr), key = store::hash_of(e.command + problem);
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto found = all.find(key); found != all.end()) return found->second;
+    }
+    auto trace = computed(e, of, problem);
+    const std::lock_guard lock(mutex);
+    return all.emplace(key, std::move(trace)).first->second;
+}
+
+class Called final : public Scheme {
+public:
+    Called(const External& e, const Scene& scene, const Settings& settings) : external_(e), of_{scene, settings} {
+        refuse_beyond_arrays(scene);
+        dofs_ = 2 * modes_for(scene, settings);
+    }
+    void reset() noexcept override {
+        if (rows_) rows_->reset();
+    }
+    Status advance(const Block& out) noexcept override {
+        try {
+            if (!rows_) rows_ = played(known(external_, of_));
+            return rows_->advance(out);
+        } catch (const std::exception& e) {
+            failure_ = e.what();
+            for (int k = 0; k < out.taps; ++k) std::fill_n(out.tap + k * out.stride, out.rows, std::numeric_limits<double>::quiet_NaN());
+            return {};
+        }
+    }
+    int dofs() const override { return dofs_; }
+    std::vector<Fact> facts() const override {
+        if (!failure_.empty()) throw BadScheme(failure_);
+        return {};
+    }
+
+private:
+    const External& external_;
+    Exported of_;
+    std::unique_ptr<Scheme> rows_;
+    std::string failure_;
+    int dofs_;
+};
+
+std::unique_ptr<Scheme> called(const Descriptor& d, const Scene& scene, const Settings& settings) {
+    return std::make_unique<Called>(*static_cast<const External*>(d.own), scene, settings);
+}
+
+std::vector<fs::path> files_in(const std::string& command) {
+    std::vector<fs::path> files;
+    std::istringstream words(command);
+    for (std::string word; words >> word;) {
+        std::error_code error;
+        if (fs::is_regular_file(word, error)) files.emplace_back(word);
+    }
+    return files;
+}
+}  // namespace
+
+std::string enter_external(const std::string& command) {
+    const std::string path = "external " + command;
+    const std::vector<fs::path> files = files_in(command);
+    auto* kept =
+        new External{command, files.empty() ? "external" : files.back().stem().string()};  // NOLINT(cppcoreguidelines-owning-memory)
+    std::string contents = command;
+    for (const fs::path& file : files) contents += "\n" + store::read_whole(file);
+    Descriptor d{kept->name.c_str(), "an external command", every_feature - (Features(Feature::moving_body) | Feature::polarisation),
+                 Balance::none,      Clock::stepped,        called};
+    d.own = kept;
+    d.untimed = "external, not compared";
+    add_guest({path, {d}, contents, "external", command});
+    return path;
+}
+
+}  // namespace jvari::bench::judge

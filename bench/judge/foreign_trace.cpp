@@ -1,0 +1,120 @@
+#include "bench/judge/foreign_trace.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "bench/sound/signal.hpp"
+#include "bench/store/fresh_file.hpp"
+#include "bench/store/records.hpp"
+#include "bench/store/trace_hdf5.hpp"
+#include "bench/store/usage.hpp"
+
+namespace jvari::bench::judge {
+
+namespace {
+constexpr double near_row = 0.1;  // of a row: other programs print six digits
+
+double number_in(const std::string& field, const std::string& where) {  // NaN and inf are numbers
+    const auto from = field.find_first_not_of(" +\t\r"), to = field.find_last_not_of(" \t\r");
+    double x = 0;
+    if (from == std::string::npos) throw store::UsageError(where + ": found nothing, expected a number");
+    const char *begin = field.data() + from, *end = field.data() + to + 1;
+    const auto [stop, error] = std::from_chars(begin, end, x);
+    if (error == std::errc::result_out_of_range) return 0;  // a denormal, or so
+    if (error != std::errc() || stop != end) throw store::UsageError(where + ": found \"" + field + "\", expected a number");
+    return x;
+}
+
+store::Table table_in(const std::filesystem::path& path, const std::string& text) {
+    try {
+        return store::read_csv(text);
+    } catch (const std::runtime_error& e) {
+        throw store::UsageError(fmt::format("{}: {}. Is the file cut off?", path.string(), e.what()));
+    }
+}
+
+int column_of(const store::Table& t, const std::filesystem::path& path, const std::string& name, const char* what) {
+    const int k = t.column(name);
+    if (k >= 0) return k;
+    std::string names;
+    for (const std::string& c : t.columns) names += (names.empty() ? "" : ", ") + c;
+    throw store::UsageError(fmt::format("{}: {} {} is missing; the file has the columns {}", path.string(), what, name, names));
+}
+
+void check_times(const store::Table& t, const std::filesystem::path& path, double tap_rate) {
+    const auto time = static_cast<std::size_t>(column_of(t, path, "time_s", "the column"));
+    for (std::size_t n = 0; n < t.rows.size(); ++n) {
+        const std::string where = fmt::format("{}: line {}", path.string(), n + 2);
+        const double found = number_in(t.rows[n][time], where), due = static_cast<double>(n) / tap_rate;
+        if (!(std::abs(found - due) * tap_rate <= near_row))
+            throw store::UsageError(fmt::format("{}: row {} is at {:.9g} s, expected {:.9g} s: rows are at n/{:.12g} s, from the start on",
+                                                where, n, found, due, tap_rate));
+    }
+}
+
+Trace empty_trace(const Scene& scene, double tap_rate, std::size_t rows) {
+    Trace trace;
+    trace.tap_rate = tap_rate;
+    trace.rows = trace.stride = static_cast<long>(rows);
+    for (const Tap& tap : scene.taps) trace.names.push_back(tap.name);
+    trace.tap.resize(rows * scene.taps.size());
+    return trace;
+}
+
+void copy_column(const store::Table& t, const std::filesystem::path& path, int column, double* to) {
+    for (std::size_t n = 0; n < t.rows.size(); ++n)
+        to[n] = number_in(t.rows[n][static_cast<std::size_t>(column)], fmt::format("{}: line {}", path.string(), n + 2));
+}
+
+Trace from_csv(const std::filesystem::path& path, const Scene& scene, double tap_rate, long rows) {
+    const std::string text = store::read_whole(path);
+    const store::Table t = table_in(path, text);
+    if (static_cast<long>(t.rows.size()) < rows && !text.ends_with('\n'))
+        throw store::UsageError(
+            fmt::format("{}: ends within line {}, before the last row: the file is cut off", path.string(), t.rows.size() + 1));
+    Trace trace = empty_trace(scene, tap_rate, t.rows.size());
+    std::vector<int> columns;
+    for (const std::string& name : trace.names) columns.push_back(column_of(t, path, name, "tap"));
+    check_times(t, path, tap_rate);
+    check_rows(trace, path.string(), rows);
+    for (std::size_t k = 0; k < columns.size(); ++k) copy_column(t, path, columns[k], trace.tap.data() + k * t.rows.size());
+    const bool energy = std::ranges::all_of(store::energy_names, [&t](const char* name) { return t.column(name) >= 0; });
+    if (energy) trace.energy.resize(3 * t.rows.size());
+    for (std::size_t k = 0; energy && k < 3; ++k)
+        copy_column(t, path, t.column(store::energy_names[k]), trace.energy.data() + k * t.rows.size());
+    return trace;
+}
+
+Trace from_wav(const std::filesystem::path& path, const Scene& scene, double tap_rate, long rows) {
+    if (scene.taps.size() != 1)
+        throw store::UsageError(
+            fmt::format("{}: a sound is of one tap, the scene has {}: say which by --tap NAME", path.string(), scene.taps.size()));
+    const sound::Signal signal = sound::read_signal(path);
+    if (signal.rate != tap_rate)
+        throw store::UsageError(
+            fmt::format("{}: has {} samples a second, expected {}, as many as rows", path.string(), signal.rate, tap_rate));
+    Trace trace = empty_trace(scene, tap_rate, signal.samples.size());
+    trace.tap = signal.samples;
+    check_rows(trace, path.string(), rows);
+    return trace;
+}
+}  // namespace
+
+void check_rows(const Trace& trace, const std::string& what, long rows) {
+    if (trace.rows > rows)
+        throw store::UsageError(fmt::format("{}: has {} rows, the scene has {}: {:.9g} s at {:.12g} rows a second, and the start", what,
+                                            trace.rows, rows, static_cast<double>(rows - 1) / trace.tap_rate, trace.tap_rate));
+    if (trace.rows == 0) throw store::UsageError(what + ": has no row");
+}
+
+Trace read_trace(const std::filesystem::path& path, const Scene& scene, double tap_rate, long rows) {
+    const std::string extension = path.extension().string();
+    if (extension == ".wav") return from_wav(path, scene, tap_rate, rows);
+    if (extension == ".csv") return from_csv(path, scene, tap_rate, rows);
+    throw store::UsageError(fmt::format("{}: found the extension \"{}\", expected .csv or .wav", path.string(), extension));
+}
+
+}  // namespace jvari::bench::judge

@@ -1,0 +1,93 @@
+#include "bench/judge/problem_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/error.hpp"
+#include "bench/compare/compare_plan.hpp"
+#include "bench/store/machine.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/open/problem.hpp"
+
+namespace jvari::bench::judge {
+
+namespace {
+using Json = nlohmann::ordered_json;
+constexpr const char* format = "jvari problem 1";
+
+Json numbers(const double* data, std::int64_t n) {
+    return std::vector<double>(data, data + n);
+}
+Json json_of(const Matrix& m) {
+    if (m.rows < 0) return numbers(m.data, m.columns);
+    Json rows = Json::array();
+    for (std::int64_t r = 0; r < m.rows; ++r) rows.push_back(numbers(m.data + r * m.columns, m.columns));
+    return rows;
+}
+Json json_of(const Words& w) {
+    return std::vector<std::string>(w.data, w.data + w.count);
+}
+template <class Plain>
+Json json_of(const Plain& value) {
+    return value;
+}
+
+Json or_null(double x) {
+    return std::isfinite(x) ? Json(x) : Json();
+}
+
+Json reference_json(const Scene& scene, const study::Truth& truth) {
+    const study::Reference& r = truth.reference;
+    const Trace &trace = r.run.trace, &moved = r.moved.trace;
+    const int nut = study::headline_of(scene).nut;
+    Json j{{"name", r.choice.name()},
+           {"source", r.choice.scheme->source},
+           {"modes", r.choice.settings.modes},
+           {"doubling", truth.said},
+           {"rows", trace.rows},
+           {"horizon_of_1e-12_s", or_null(horizon(moved.column(nut), trace.column(nut), trace.tap_rate))},
+           {"horizon_of_half_s", or_null(truth.horizon)}};
+    for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
+        const std::string window = std::string(trust::Trust::columns[w]).substr(std::string("certificate_").size());
+        Json known = Json::array();
+        for (std::size_t k = 0; k < scene.taps.size(); ++k) known.push_back(or_null(r.trust.of_scene(k, w)));
+        j["uncertainty_" + window] = known;
+    }
+    Json taps = Json::array();
+    for (int k = 0; k < trace.taps(); ++k) taps.push_back(numbers(trace.column(k).data(), trace.rows));
+    j["trace"] = taps;
+    return j;
+}
+}  // namespace
+
+Exported exported(const compare::CompareRequest& request) {
+    Exported e{compare::load_scene(request), {}};
+    e.settings.sample_rate = request.rates.front();
+    e.settings.tap_rate = compare::tap_rate_for(request, request.rates);
+    e.settings.modes = request.modes.empty() ? 0 : request.modes.front();
+    refuse_beyond_arrays(e.scene);
+    return e;
+}
+
+study::Truth reference_of(const compare::CompareRequest& request, const Exported& e, const compare::Catalogue& catalogue,
+                          const store::Listener& listener) {
+    compare::CompareRequest plain = request;
+    plain.modes.clear();
+    plain.search = false;
+    return study::run_truth(compare::plan_of(plain, catalogue, e.scene).references, e.scene, request.reference_modes.value_or(0),
+                            request.jobs, listener);
+}
+
+std::string problem_json(const Exported& e, const study::Truth* truth) {
+    const Problem problem(e.scene, e.settings);
+    Json j{{"format", format}, {"program", "jvari " + store::machine().version}, {"scene_hash", scene_hash(e.scene)}};
+    each_member(problem.arrays(), [&j](const char* name, const auto& value) { j[name] = json_of(value); });
+    if (truth) j["reference"] = reference_json(e.scene, *truth);
+    std::string text;  // a member a line
+    for (const auto& [key, value] : j.items())
+        text += (text.empty() ? "{\n" : ",\n") + Json(key).dump() + ": " + value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text + "\n}\n";
+}
+
+}  // namespace jvari::bench::judge

@@ -1,0 +1,86 @@
+#!/bin/sh
+# The templates of docs/own-scheme on an exported problem: they give modal_two_point's motion, `jvari judge` says how wrong it is, and what
+# is no trace of the scene is refused with a sentence. usage: own_scheme.sh JVARI
+jvari=$1
+templates=$(cd "$(dirname "$0")/../docs/own-scheme" && pwd) || exit 2
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 2
+status=0
+fail() {
+    echo "$1" >&2
+    status=1
+}
+python=
+for candidate in python3 /usr/bin/python3; do
+    "$candidate" -c "import numpy" 2>/dev/null && python=$candidate && break
+done
+scene="tanpura_c3_release --duration 0.01"
+"$jvari" export $scene --rate 88200 --out problem.json --quiet || fail "export fails"
+"$jvari" run $scene --rate 88200 --scheme modal_two_point --out own.csv --quiet || exit 2
+
+# agree NAME FILE: two traces differ by no more than rounding, in every tap
+agree() {
+    paste -d, own.csv "$2" | awk -F, -v name="$1" '
+        NR > 1 { for (k = 2; k <= 5; ++k) { d = $k - $(k + 5); sum[k] += d * d; of[k] += $k * $k } }
+        END { for (k = 2; k <= 5; ++k) if (NR != 443 || !(sum[k] <= 1e-20 * of[k])) { print name, "column", k, "differs"; exit 1 } }' >&2 || status=1
+}
+if [ -n "$python" ]; then
+    "$python" "$templates/two_point.py" problem.json python.csv && agree "the Python template" python.csv || fail "the Python template fails"
+fi
+if command -v octave-cli >/dev/null; then
+    octave-cli "$templates/two_point.m" problem.json octave.csv 2>/dev/null && agree "the Octave template" octave.csv || fail "the Octave template fails"
+fi
+
+# A trace of one's own beside the scheme that it repeats has the same error, and its cost as reported.
+"$jvari" judge $scene --trace 88200=own.csv --name again --cost 0.25 --schemes modal_two_point --out judged --quiet || fail "judge fails"
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k }
+    NR > 1 { error[$at["scheme"]] = $at["error_l2_10ms"]; cost[$at["scheme"]] = $at["cost_s_per_s"]; options[$at["scheme"]] = $at["options"] }
+    END { exit !(error["again"] == error["modal_two_point"] && error["again"] > 0 && cost["again"] + 0 == 0.25 && options["again"] == "cost=as_reported") }' \
+    judged/cells.csv || fail "the line in the picture is not that of the trace"
+grep -q again judged/work_precision.svg || fail "the picture lacks the trace"
+
+# A planted error is told at its right size: 1e-3 of every value, where the reference is modal_two_point's own solution.
+"$jvari" judge free_string --duration 0.01 --trace 44100=nothing.csv 2>/dev/null && fail "a file that is not there is judged"
+"$jvari" run free_string --duration 0.02 --scheme exact_linear --modes 2000 --out free.csv --quiet || exit 2
+awk -F, -v OFS=, 'NR > 1 { for (k = 2; k <= NF; ++k) $k = sprintf("%.17g", 1.001 * $k) } 1' free.csv > loud.csv
+"$jvari" judge free_string --duration 0.02 --trace 44100=loud.csv | grep -q "errs by 0.1 %" || fail "an error of 1e-3 is not told"
+
+# refused WHAT SENTENCE FILE: exit code 2, the sentence, and nothing written
+refused() {
+    said=$("$jvari" judge $scene --trace "44100=$3" --out nowhere 2>&1)
+    code=$?
+    [ $code = 2 ] && echo "$said" | grep -q "$2" && [ ! -e nowhere ] && return
+    echo "$said" >&2
+    fail "$1: expected \"$2\" and exit code 2, found $code"
+}
+sed 's/^0.0001/0.0002/' own.csv > times.csv && refused "other row times" "expected 0.0001" times.csv
+cut -d, -f1-3,5 own.csv > missing.csv && refused "a missing tap" "tap bridge is missing" missing.csv
+{ cat own.csv; tail -1 own.csv | sed 's/^[^,]*/0.010022675736961451/'; } > long.csv && refused "a row too many" "has 443 rows, the scene has 442" long.csv
+head -c 20000 own.csv > half.csv && refused "half a file" "cut off" half.csv
+sed '5s/,[^,]*$/,twelve/' own.csv > word.csv && refused "a word" "expected a number" word.csv
+: > empty.csv && refused "an empty file" "cannot read" empty.csv
+cp own.csv trace.txt && refused "another extension" "expected .csv or .wav" trace.txt
+
+# ended WHAT SENTENCE FILE: exit code 4; what came before is judged
+ended() {
+    said=$("$jvari" judge $scene --trace "44100=$3" 2>&1)
+    code=$?
+    [ $code = 4 ] && echo "$said" | grep -q "$2" && return
+    echo "$said" >&2
+    fail "$1: expected \"$2\" and exit code 4, found $code"
+}
+sed '300s/,[^,]*$/,NaN/' own.csv > nan.csv && ended "NaN" "no number in row 298" nan.csv
+head -300 own.csv > early.csv && ended "an early end" "stops before row 299" early.csv
+
+# Any program as a scheme, by files: it has the same rows, and its cells are kept.
+cat > copies.sh <<'END'
+#!/bin/sh
+grep -q '^"contact_weights": \[\[' "$1" && cp own.csv "$2"
+END
+for round in kept again; do
+    "$jvari" compare $scene --external "sh copies.sh" --schemes copies,modal_two_point --rates 88200 --modes 133 --repeats 1 --out external --resume 2> $round.txt >$round.out || fail "--external fails: $(cat $round.txt)"
+done
+grep -q "errors of 3 of 3 cells were read back" again.txt || fail "cells of a command are not kept: $(cat again.txt)"
+grep -q "cost of copies.*external, not compared" kept.out || fail "the cost of a command is not marked: $(cat kept.out)"
+exit $status
