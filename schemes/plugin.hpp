@@ -1,144 +1,147 @@
-// Schemes from outside the tree: a shared object that exports one symbol. Its source ends with
+// A table of Descriptor as a shared object, for schemes that are written as those of the tree are and linked with jvari's libraries. Its
+// source ends with
 //
 //     JVARI_PLUGIN(table)    // an array of Descriptor
 //
-// The program and the plugin pass C++ structures to each other, and call each other's virtual functions. So both must lay them out alike:
-// `plugin_abi` is a hash of the sizes and offsets of all that crosses, of the places and types of the virtual functions, and of the
-// compiler. A plugin with another hash is refused. The macro also writes down how the plugin was compiled, for the manifest of what it was
-// timed in.
+// What crosses is C alone (open/jvari_scheme.h): the scene is read again from its text, so its tables of obstacles must be found from where
+// the program runs. open/jvari_scheme.hpp is for schemes that need the arrays of the problem and no library. Leaves out: limits.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <initializer_list>
+#include <deque>
 #include <iterator>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "schemes/making.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/open/jvari_scheme.h"
 #include "schemes/scheme.hpp"
 
-namespace jvari {
+namespace jvari::plugin {
 
-// ---- The layout.
-
-// FNV-1a over whole numbers.
-constexpr std::uint32_t layout_hash(std::initializer_list<std::size_t> numbers, std::uint32_t hash = 2166136261u) {
-    for (std::uint64_t n : numbers)
-        for (int byte = 0; byte < 8; ++byte) hash = (hash ^ static_cast<std::uint32_t>(n >> (8 * byte) & 0xff)) * 16777619u;
-    return hash;
+inline Scene scene_of(const jvari_problem& p) {
+    if (p.measured == 0) return parse_scene(p.scene, p.name);
+    Scene scene = parse_scene(p.scene, p.name, {"string.0.damping.law=none"});
+    scene.strings.front().damping =
+        TableDamping{"", {p.measured_hz, p.measured_hz + p.measured}, {p.measured_decay, p.measured_decay + p.measured}};
+    return scene;
+}
+inline Settings settings_of(const jvari_problem& p) {
+    Settings s{p.sample_rate, p.tap_rate, static_cast<int>(p.modes_asked), {}};
+    for (std::int64_t k = 0; k < p.options; ++k) s.options.emplace_back(p.option_names[k], p.option_values[k]);
+    return s;
 }
 
-// NOLINTBEGIN(cppcoreguidelines-macro-usage): offsetof takes a name
-#define JVARI_AT(member) offsetof(Struct, member)
-#define JVARI_LAYOUT(Type, ...)                                                                                     \
-    [] {                                                                                                            \
-        using Struct = Type;                                                                                        \
-        return static_cast<std::size_t>(layout_hash({sizeof(Struct), alignof(Struct) __VA_OPT__(, ) __VA_ARGS__})); \
-    }()
-// NOLINTEND
-
-// Raised by hand where the meaning of a field changes, and no layout.
-constexpr std::size_t interface_version = 5;
-
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Winvalid-offsetof"  // GCC and clang define it for every class without virtual bases
-#endif
-constexpr std::uint32_t plugin_layout = layout_hash({
-    interface_version, static_cast<std::size_t>(feature_count), JVARI_LAYOUT(NoDamping),
-        JVARI_LAYOUT(PolynomialDamping, JVARI_AT(sigma0), JVARI_AT(sigma1), JVARI_AT(sigma3)),
-        JVARI_LAYOUT(QualityFactorDamping, JVARI_AT(diameter), JVARI_AT(air_viscosity), JVARI_AT(air_density), JVARI_AT(viscoelastic_angle),
-                     JVARI_AT(thermoelastic_loss)),
-        JVARI_LAYOUT(TableDamping, JVARI_AT(file), JVARI_AT(frequency_hz), JVARI_AT(decay_rate)),
-        JVARI_LAYOUT(PerPeriodDamping, JVARI_AT(factor)), JVARI_LAYOUT(Damping),
-        JVARI_LAYOUT(LumpedBarrier, JVARI_AT(position), JVARI_AT(width), JVARI_AT(height), JVARI_AT(stiffness), JVARI_AT(exponent),
-                     JVARI_AT(contact_loss)),
-        JVARI_LAYOUT(TableCurve, JVARI_AT(file), JVARI_AT(x), JVARI_AT(height)),
-        JVARI_LAYOUT(ProfileBarrier, JVARI_AT(curve), JVARI_AT(from), JVARI_AT(to), JVARI_AT(stiffness), JVARI_AT(exponent),
-                     JVARI_AT(contact_loss)),
-        JVARI_LAYOUT(Barrier),
-        JVARI_LAYOUT(Thread, JVARI_AT(position), JVARI_AT(width), JVARI_AT(stiffness), JVARI_AT(damping), JVARI_AT(height)),
-        JVARI_LAYOUT(ModeInitial, JVARI_AT(number), JVARI_AT(amplitude)),
-        JVARI_LAYOUT(TriangleInitial, JVARI_AT(position), JVARI_AT(amplitude), JVARI_AT(smoothing)), JVARI_LAYOUT(Initial),
-        JVARI_LAYOUT(Pluck, JVARI_AT(amplitude), JVARI_AT(duration), JVARI_AT(skew), JVARI_AT(start), JVARI_AT(position), JVARI_AT(width)),
-        JVARI_LAYOUT(Polarisation, JVARI_AT(rotation), JVARI_AT(pluck_angle)),
-        JVARI_LAYOUT(String, JVARI_AT(length), JVARI_AT(linear_density), JVARI_AT(tension), JVARI_AT(bending_stiffness), JVARI_AT(damping),
-                     JVARI_AT(barriers), JVARI_AT(thread), JVARI_AT(initial), JVARI_AT(pluck), JVARI_AT(polarisation)),
-        JVARI_LAYOUT(Tap, JVARI_AT(name), JVARI_AT(quantity), JVARI_AT(string), JVARI_AT(position)),
-        JVARI_LAYOUT(BodyMode, JVARI_AT(mass), JVARI_AT(stiffness), JVARI_AT(damping)),
-        JVARI_LAYOUT(Body, JVARI_AT(bridge), JVARI_AT(nut), JVARI_AT(sections), JVARI_AT(modes)),
-        JVARI_LAYOUT(Scene, JVARI_AT(name), JVARI_AT(source), JVARI_AT(duration), JVARI_AT(strings), JVARI_AT(taps), JVARI_AT(body)),
-        JVARI_LAYOUT(Block, JVARI_AT(rows), JVARI_AT(taps), JVARI_AT(stride), JVARI_AT(tap), JVARI_AT(energy), JVARI_AT(stop),
-                     JVARI_AT(caller)),
-        JVARI_LAYOUT(Status, JVARI_AT(outcome), JVARI_AT(step)), JVARI_LAYOUT(Fact, JVARI_AT(name), JVARI_AT(value), JVARI_AT(unit)),
-        JVARI_LAYOUT(FreeMode, JVARI_AT(omega), JVARI_AT(sigma)),
-        JVARI_LAYOUT(Settings, JVARI_AT(sample_rate), JVARI_AT(tap_rate), JVARI_AT(modes), JVARI_AT(options)),
-        JVARI_LAYOUT(FactName, JVARI_AT(name), JVARI_AT(unit), JVARI_AT(meaning)),
-        JVARI_LAYOUT(Option, JVARI_AT(name), JVARI_AT(fallback), JVARI_AT(meaning), JVARI_AT(choices)),
-        JVARI_LAYOUT(Approximation, JVARI_AT(feature), JVARI_AT(fact)), JVARI_LAYOUT(Limit, JVARI_AT(name), JVARI_AT(margin)),
-        JVARI_LAYOUT(Confirmation, JVARI_AT(accuracies), JVARI_AT(other_methods)),
-        JVARI_LAYOUT(Descriptor, JVARI_AT(name), JVARI_AT(source), JVARI_AT(represents), JVARI_AT(balance), JVARI_AT(clock), JVARI_AT(make),
-                     JVARI_AT(options), JVARI_AT(approximates), JVARI_AT(note), JVARI_AT(limit), JVARI_AT(stand_in_rank),
-                     JVARI_AT(confirmation), JVARI_AT(all_strings), JVARI_AT(own), JVARI_AT(untimed)),
-#if defined(__GXX_ABI_VERSION)
-        __GXX_ABI_VERSION,
-#endif
-#if defined(__GNUC__)
-        __GNUC__,
-#endif
-#if defined(__clang_major__)
-        __clang_major__,
-#endif
-#if defined(_GLIBCXX_USE_CXX11_ABI)
-        _GLIBCXX_USE_CXX11_ABI,
-#endif
-});
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
-
-// ---- The table of virtual functions.
-
-// Of a virtual function: its place in the table, which a pointer to it holds (Itanium C++ ABI: GCC and clang), and its type, which the name
-// of this instance holds. No constant expression can read the place.
-template <class Function>
-std::size_t place_of(Function function) {
-    std::size_t words[sizeof(Function) / sizeof(std::size_t)];
-    std::memcpy(words, &function, sizeof words);
-    std::uint32_t hash = layout_hash({});
-    for (const std::size_t word : words) hash = layout_hash({word}, hash);
-    for (const char* c = __PRETTY_FUNCTION__; *c; ++c) hash = layout_hash({static_cast<std::size_t>(*c)}, hash);
-    return hash;
-}
-struct PastTheTable : Scheme {
-    virtual void place() = 0;  // the first after those of Scheme: it moves where one is added
+struct State {
+    std::unique_ptr<Scheme> scheme;
+    std::vector<double> omega, decay;
+    std::vector<Fact> facts;
+    std::string failure;
 };
 
-inline std::uint32_t plugin_abi() {
-    return layout_hash({plugin_layout, place_of(&Scheme::reset), place_of(&Scheme::advance), place_of(&Scheme::dofs),
-                        place_of(&Scheme::facts), place_of(&Scheme::free_modes), place_of(&PastTheTable::place)});
+inline void tell(jvari_made& made, const std::string& why, bool failed) {
+    why.copy(made.why, sizeof made.why - 1);
+    made.failed = failed;
+}
+inline void* make(const jvari_scheme* table, const jvari_problem* problem, jvari_made* made) {
+    try {
+        auto state = std::make_unique<State>();
+        const auto& d = *static_cast<const Descriptor*>(table->own);
+        state->scheme = d.make(d, scene_of(*problem), settings_of(*problem));
+        if (!state->scheme) return tell(*made, std::string(d.name) + " makes no scheme, and does not refuse it either", true), nullptr;
+        for (const FreeMode& m : state->scheme->free_modes()) state->omega.push_back(m.omega), state->decay.push_back(m.sigma);
+        made->dofs = state->scheme->dofs();
+        made->free_modes = static_cast<std::int64_t>(state->omega.size());
+        made->omega = state->omega.data(), made->decay = state->decay.data();
+        return state.release();
+    } catch (const Refusal& e) {
+        tell(*made, e.what(), false);
+    } catch (const BadScene& e) {
+        tell(*made, e.what(), false);
+    } catch (const std::exception& e) {
+        tell(*made, e.what(), true);
+    } catch (...) {
+        tell(*made, "the scheme throws something that is no std::exception while it is made", true);
+    }
+    return nullptr;
+}
+inline int advance(void* self, jvari_rows* rows) {
+    Block out{static_cast<int>(rows->rows), static_cast<int>(rows->taps), static_cast<long>(rows->stride), rows->tap, rows->energy};
+    if (rows->stop) {
+        out.stop = [](void* caller) { return static_cast<jvari_rows*>(caller)->stop(static_cast<jvari_rows*>(caller)->caller) != 0; };
+        out.caller = rows;
+    }
+    const Status status = static_cast<State*>(self)->scheme->advance(out);
+    rows->failed_step = status.step;
+    return static_cast<int>(status.outcome);
+}
+inline std::int64_t facts(void* self, jvari_fact* to, std::int64_t room) {
+    State& state = *static_cast<State*>(self);
+    try {
+        state.facts = state.scheme->facts();
+        for (std::int64_t k = 0; k < std::min(room, static_cast<std::int64_t>(state.facts.size())); ++k) {
+            const Fact& f = state.facts[static_cast<std::size_t>(k)];
+            to[k] = {f.name.c_str(), f.unit.c_str(), f.value};
+        }
+        return static_cast<std::int64_t>(state.facts.size());
+    } catch (const std::exception& e) {
+        state.failure = e.what();
+    } catch (...) {
+        state.failure = "the scheme throws something that is no std::exception while it tells its facts";
+    }
+    to[0].name = state.failure.c_str();
+    return -1;
 }
 
-// ---- What a plugin exports.
+class Tables {  // of the schemes of one plugin, made when they are first asked for
+public:
+    explicit Tables(std::span<const Descriptor> all, const char* flags, bool optimised) {
+        for (const Descriptor& d : all) add(d);
+        for (const jvari_scheme& s : schemes_) pointers_.push_back(&s);
+        plugin_ = {sizeof plugin_, JVARI_SCHEME_VERSION, pointers_.data(), static_cast<std::int64_t>(pointers_.size()), __VERSION__, flags,
+                   optimised};
+    }
+    Tables(const Tables&) = delete;
+    Tables& operator=(const Tables&) = delete;
+    const jvari_plugin& table() const { return plugin_; }
 
-struct Plugin {
-    std::uint32_t abi;  // plugin_abi(); read before all else
-    const Descriptor* table;
-    int count;
-    const char* compiler;  // "12.2.0"
-    const char* flags;     // what can be told from inside: "optimised, NDEBUG, AVX2"
-    bool optimised;
-
-    std::span<const Descriptor> schemes() const { return {table, static_cast<std::size_t>(count)}; }
+private:
+    const char* keep(std::string text) { return texts_.emplace_back(std::move(text)).c_str(); }
+    void add(const Descriptor& d) {
+        jvari_scheme& s = schemes_.emplace_back();
+        s.size = sizeof s;
+        s.name = d.name, s.source = d.source, s.note = d.note, s.own = &d;
+        s.represents = keep(names_of(d.represents));
+        s.balance = d.balance == Balance::exact ? "exact" : d.balance == Balance::none ? "none" : "to tolerance";
+        std::string approximates;
+        for (const Approximation& a : d.approximates)
+            approximates += (approximates.empty() ? "" : ", ") + std::string(name_of(a.feature)) + ": " + a.fact.name;
+        s.approximates = keep(approximates);
+        auto& options = options_.emplace_back();
+        for (const Option& o : d.options) {
+            std::string words;
+            for (const char* word : o.words()) words += (words.empty() ? "" : " ") + std::string(word);
+            options.push_back({o.name, o.fallback, o.meaning, words.empty() ? nullptr : keep(words)});
+        }
+        s.options = options.data(), s.option_count = static_cast<std::int64_t>(options.size());
+        if (d.make) s.make = make;
+        s.reset = [](void* self) { static_cast<State*>(self)->scheme->reset(); };
+        s.advance = advance;
+        s.release = [](void* self) { delete static_cast<State*>(self); };
+        s.facts = facts;
+    }
+    std::deque<jvari_scheme> schemes_;
+    std::deque<std::string> texts_;
+    std::deque<std::vector<jvari_option>> options_;
+    std::vector<const jvari_scheme*> pointers_;
+    jvari_plugin plugin_{};
 };
 
 #if defined(__OPTIMIZE__)
-#define JVARI_OPTIMISED true
+inline constexpr bool optimised = true;
 #define JVARI_FLAG_OPTIMISED "optimised"
 #else
-#define JVARI_OPTIMISED false
+inline constexpr bool optimised = false;
 #define JVARI_FLAG_OPTIMISED "not optimised"
 #endif
 #if defined(NDEBUG)
@@ -167,13 +170,12 @@ struct Plugin {
 #endif
 
 // Exported although all else is compiled with -fvisibility=hidden.
-#define JVARI_PLUGIN(schemes)                                                                                                         \
-    extern "C" __attribute__((visibility("default")))                                                                                 \
-    const jvari::Plugin jvari_plugin = {jvari::plugin_abi(),                                                                          \
-                                        std::data(schemes),                                                                           \
-                                        static_cast<int>(std::size(schemes)),                                                         \
-                                        __VERSION__,                                                                                  \
-                                        JVARI_FLAG_OPTIMISED JVARI_FLAG_NDEBUG JVARI_FLAG_VECTOR JVARI_FLAG_FMA JVARI_FLAG_FAST_MATH, \
-                                        JVARI_OPTIMISED};
+#define JVARI_PLUGIN(schemes)                                                                                      \
+    extern "C" JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {                                              \
+        static const jvari::plugin::Tables tables(                                                                 \
+            schemes, JVARI_FLAG_OPTIMISED JVARI_FLAG_NDEBUG JVARI_FLAG_VECTOR JVARI_FLAG_FMA JVARI_FLAG_FAST_MATH, \
+            jvari::plugin::optimised);                                                                             \
+        return &tables.table();                                                                                    \
+    }
 
-}  // namespace jvari
+}  // namespace jvari::plugin

@@ -57,15 +57,16 @@ constexpr auto stepped = Clock::stepped;
 }  // namespace
 
 #if JVARI_BAD_TABLE == 0
-extern "C" __attribute__((visibility("default"))) const Plugin jvari_plugin = {plugin_abi(), table, 7, "none", "none", true};
-#elif JVARI_BAD_TABLE == 1
-extern "C" __attribute__((visibility("default"))) const Plugin jvari_plugin = {plugin_abi(), nullptr, 3, "none", "none", true};
-#elif JVARI_BAD_TABLE == 2
-extern "C" __attribute__((visibility("default"))) const Plugin jvari_plugin = {plugin_abi(), table, -1, "none", "none", true};
+JVARI_PLUGIN(table)
+#elif JVARI_BAD_TABLE == 1 || JVARI_BAD_TABLE == 2
+JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {
+    static const jvari_plugin plugin = {sizeof plugin, JVARI_SCHEME_VERSION, nullptr, JVARI_BAD_TABLE == 1 ? 3 : -1, "none", "none", 1};
+    return &plugin;
+}
 #elif JVARI_BAD_TABLE == 3
-extern "C" __attribute__((visibility("default"))) const Plugin jvari_plugin = {plugin_abi(), nameless, 1, "none", "none", true};
+JVARI_PLUGIN(nameless)
 #elif JVARI_BAD_TABLE == 4
-extern "C" __attribute__((visibility("default"))) const Plugin jvari_plugin = {plugin_abi(), sourceless, 1, "none", "none", true};
+JVARI_PLUGIN(sourceless)
 #elif JVARI_BAD_TABLE == 5
-extern "C" __attribute__((visibility("default"))) const Plugin jvari_plugin = {plugin_abi(), makeless, 1, "none", "none", true};
+JVARI_PLUGIN(makeless)
 #endif

@@ -93,6 +93,11 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
         p_.pluck_force = keep(std::move(samples));
     }
 
+    if (const auto* table = std::get_if<TableDamping>(&s.damping)) {
+        p_.measured = static_cast<std::int64_t>(table->frequency_hz.size());
+        p_.measured_hz = keep(table->frequency_hz), p_.measured_decay = keep(table->decay_rate);
+    }
+
     std::vector<std::string> names, quantities;
     std::vector<double> positions, tap_weights, compliance, tap_compliance, radiation;
     for (const Footprint& at : points) {

@@ -1,5 +1,4 @@
-// What the seam declares of every scheme and reference is what they do: options, facts, approximated features; and the number by which a
-// plugin is known to pass the same structures.
+// What the seam declares of every scheme and reference is what they do: options, facts, approximated features.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -172,31 +171,6 @@ TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsR
 
 TEST(Limits, AreGivenWithAName) {
     for (const Descriptor* d : all_descriptors()) EXPECT_EQ(d->limit.name == nullptr, d->limit.margin == nullptr) << d->name;
-}
-
-struct Small {
-    int a;
-    double b;
-};
-struct Grown {
-    int a;
-    double b;
-    int c;
-};
-struct Swapped {
-    double b;
-    int a;
-};
-constexpr std::size_t small_layout = JVARI_LAYOUT(Small, JVARI_AT(a), JVARI_AT(b));
-static_assert(small_layout == JVARI_LAYOUT(Small, JVARI_AT(a), JVARI_AT(b)));
-static_assert(small_layout != JVARI_LAYOUT(Grown, JVARI_AT(a), JVARI_AT(b)), "a struct grew");
-static_assert(sizeof(Small) == sizeof(Swapped) && small_layout != JVARI_LAYOUT(Swapped, JVARI_AT(a), JVARI_AT(b)),
-              "members changed places");
-
-TEST(PluginInterface, ItsNumberChangesWithALayout) {
-    EXPECT_NE(layout_hash({1, small_layout}), layout_hash({1, JVARI_LAYOUT(Grown, JVARI_AT(a), JVARI_AT(b))}));
-    EXPECT_NE(layout_hash({1, 2}), layout_hash({2, 1}));
-    EXPECT_NE(layout_hash({1}), layout_hash({1, 0}));
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+#!/bin/sh
+# jvari_scheme.h keeps the program and its plugins apart: a plugin in C runs whether gcc or clang compiled it, and one that was compiled
+# against a header with fewer or more members runs; another version is refused with a sentence. usage: plugin_header.sh JVARI
+jvari=$1
+tree=$(cd "$(dirname "$0")/.." && pwd) || exit 2
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 2
+status=0
+scene="tanpura_c3_release --duration 0.01 --rate 88200 --quiet"
+"$jvari" run $scene --scheme modal_two_point --out own.csv || exit 2
+fail() {
+    echo "$1" >&2
+    status=1
+}
+# compiled COMPILER SED SOURCE: the plugin in the scratch folder, against the header changed by that
+compiled() {
+    cp "$tree"/schemes/open/jvari_scheme.h* .
+    sed -i "$2" jvari_scheme.h
+    [ -z "$2" ] || ! cmp -s jvari_scheme.h "$tree/schemes/open/jvari_scheme.h" || { echo "nothing was changed by $2" >&2; exit 2; }
+    "$1" -O1 -shared -fPIC -I. "$3" -o plugin.so -lm || exit 2
+}
+runs() {  # runs WHAT SCHEME: modal_two_point's motion but for rounding
+    "$jvari" run $scene --scheme "$2" --plugin ./plugin.so --out other.csv || fail "$1 does not run"
+    paste -d, own.csv other.csv | awk -F, -v what="$1" '
+        NR > 1 { for (k = 2; k <= 5; ++k) { d = $k - $(k + 5); sum[k] += d * d; of[k] += $k * $k } }
+        END { for (k = 2; k <= 5; ++k) if (NR != 443 || !(sum[k] <= 1e-18 * of[k])) { print what, "differs in column", k; exit 1 } }' >&2 || status=1
+}
+refused() {  # refused WHAT SENTENCE
+    said=$("$jvari" list schemes --plugin ./plugin.so 2>&1)
+    code=$?
+    [ $code = 2 ] && echo "$said" | grep -q "$2" && return
+    fail "$1: expected \"$2\" and exit code 2, found $code: $said"
+}
+c=$tree/docs/own-scheme/two_point.c cpp=$tree/tests/plugin/plain_two_point.cpp
+for compiler in gcc clang; do
+    command -v $compiler >/dev/null || continue
+    compiled $compiler '' "$c" && runs "a plugin in C by $compiler" two_point_in_c
+done
+for compiler in g++ clang++; do
+    command -v $compiler >/dev/null || continue
+    compiled $compiler '' "$cpp" && runs "a plugin in C++ by $compiler" plain_two_point
+done
+compiled gcc '/All below may be 0/,/const void\* own/d' "$c" && runs "a plugin of a header without the optional members" two_point_in_c
+compiled gcc '/const char \*compiler/s/$/ double more[64];/;s/^    const void\* own;.*/& double more[64];/;/option_names/s/$/ double more[64];/' "$c"
+runs "a plugin of a header with more members" two_point_in_c
+compiled gcc 's/JVARI_SCHEME_VERSION 1/JVARI_SCHEME_VERSION 2/' "$c" && refused "another version" "has version 2 of jvari_scheme.h, this program has 1"
+echo 'const struct { unsigned abi; void *table; int count; } jvari_plugin = {1, 0, 3};' > older.c
+gcc -shared -fPIC older.c -o plugin.so && refused "the door of C++ objects" "of an older jvari"
+exit $status
