@@ -90,7 +90,7 @@ int judge_command(JudgeRequest r) {
     std::vector<std::string> files;
     if (!r.out.empty()) files = write_folder(c, r, cells, manifest, console);
     const int code = judge::failed(c) ? exit_code::run_failed : exit_code::done;
-    console.print(headline_text(cells) + "\n" + judge::verdict_of(c));
+    console.print(headline_text(cells, Console::width()) + "\n" + judge::verdict_of(c));
     if (!r.out.empty()) console.print("written: " + r.out);
     console.print_json(
         store::indented(with_results({{"scene", c.scene().name},

@@ -9,7 +9,7 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
-#include "bench/command/slurm_script.hpp"
+#include "bench/command/slurm/slurm_script.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"

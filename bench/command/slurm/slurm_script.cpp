@@ -1,4 +1,4 @@
-#include "bench/command/slurm_script.hpp"
+#include "bench/command/slurm/slurm_script.hpp"
 
 #include <fmt/core.h>
 
