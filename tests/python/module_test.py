@@ -327,7 +327,7 @@ class Module(unittest.TestCase):
                     self.assertTrue(getattr(there, member).__doc__, f"{name}.{member}")
             else:  # pybind11 writes the signature into the docstring
                 signature = there.__doc__.split("\n")[0]
-                self.assertEqual([argument.arg for argument in node.args.args], re.findall(r"(\w+): ", signature), name)
+                self.assertEqual([argument.arg for argument in node.args.args + node.args.kwonlyargs], re.findall(r"(\w+): ", signature), name)
 
 
 if __name__ == "__main__":
