@@ -15,6 +15,7 @@
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/usage.hpp"
 #include "python/values.hpp"
+#include "schemes/making.hpp"
 #include "schemes/open/problem.hpp"
 #include "schemes/registry.hpp"
 

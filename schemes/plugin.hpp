@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 #include "schemes/open/jvari_scheme.h"
 #include "schemes/scheme.hpp"
 

@@ -76,8 +76,6 @@ public:
     // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread; none where the scheme has no relation in
     // closed form.
     virtual std::vector<FreeMode> free_modes() const { return {}; }
-
-    // New virtual functions come here, and their names into plugin_abi() of plugin.hpp.
 };
 
 struct Settings {

@@ -12,6 +12,7 @@
 #include "bench/store/indented.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/program.hpp"
+#include "bench/store/usage.hpp"
 
 namespace jvari::bench::command {
 

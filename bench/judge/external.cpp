@@ -16,6 +16,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"
+#include "schemes/making.hpp"
 #include "schemes/open/problem.hpp"
 #include "schemes/registry.hpp"
 

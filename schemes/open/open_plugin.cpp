@@ -8,6 +8,7 @@
 #include <deque>
 #include <limits>
 
+#include "schemes/making.hpp"
 #include "schemes/open/problem.hpp"
 
 namespace jvari {

@@ -8,6 +8,7 @@
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari {
