@@ -74,6 +74,7 @@ function choose(more) {
 let frame = 0;
 function changed() {  // of many in one frame, the last
     if (by_id("auto_sound").checked) sound.wanted = "scheme";
+    if (state.tour) ++take_step.count, by_id("tour_number").textContent = "You changed the string. Back and next go on with the tour's.";
     frame ||= requestAnimationFrame(() => { frame = 0; show_state(); });
 }
 
@@ -215,6 +216,7 @@ async function begin() {
     } catch (error) {
         return without_the_module();
     }
+    if (!client.list.schemes.some(d => d.name === state.scheme)) state.scheme = "modal_two_point";
     show_state();
     if (state.tour) take_step();
     requestAnimationFrame(film_frame);

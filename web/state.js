@@ -25,6 +25,8 @@ function read_address(hash) {
     for (const [name, as] of Object.entries(plain)) if (words.has(name)) state[name] = as(words.get(name));
     if (!Object.hasOwn(library, state.scene)) state.scene = "tanpura_c3_release";
     for (const name of ["rate", "modes", "step"]) if (!Number.isFinite(state[name])) state[name] = name === "rate" ? 44100 : 0;
+    state.modes = Math.max(0, Math.round(state.modes));
+    if (state.compliance !== "matched") state.compliance = "own";
     state.text = words.get("text");
     state.set = Object.fromEntries([...words].filter(([name]) => name.startsWith("set.")).map(([name, value]) => [name.slice(4), value]));
 }

@@ -55,7 +55,7 @@ async function reference_of(state, scene, go_on) {
     if (!scene.reference) return null;
     const {nut} = headline_of(scene), options = options_of(scene.reference, "matched"), runs = [];
     const run = (modes, shape = []) => {
-        const made = jvari.run({scene: state.text, overrides: state.overrides, scheme: scene.reference, modes, options, duration: state.window, shape, energy: shape.length > 0});
+        const made = jvari.run({scene: state.text, overrides: state.overrides, scheme: scene.reference, modes, options, duration: state.window, shape});  // without its energy, which costs ten times as much
         runs.push(made);
         return made;
     };

@@ -4,7 +4,9 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
+#include "bench/report/playground.hpp"
 #include "bench/report/report.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "bench/store/indented.hpp"
 
 namespace jvari::bench::command {
@@ -16,17 +18,21 @@ namespace fs = std::filesystem;
 struct ReportRequest : Common {
     std::string folder, width;
     report::Print print;
+    bool playground = false;
 };
 
 int report_command(const ReportRequest& r) {
     const Console console(r.json, r.quiet);
     report::Print print = r.print;
     if (!r.width.empty()) print.width = report::width_of(r.width);
+    const std::string play = r.playground ? report::playground() : "";
     Json files = Json::array();
     for (const std::string& name : report::write_report(r.folder, console, print)) {
         files.push_back((fs::path(r.folder) / name).string());
         console.print("written: " + files.back().get<std::string>());
     }
+    if (const fs::path page = fs::path(r.folder) / "report.html"; r.playground)
+        store::write_fresh(page, report::with_playground(store::read_whole(page), play));
     console.print_json(store::indented({{"folder", r.folder}, {"files", files}}));
     return exit_code::done;
 }
@@ -38,6 +44,7 @@ Act report_verb(CLI::App& program) {
     verb->add_option("folder", r->folder, "holds manifest.json and cells.csv, maps.csv or both")->required()->type_name("DIR");
     verb->add_option("--width", r->width, "of the pictures, as 85mm for a column of a paper")->type_name("WIDTH");
     verb->add_flag("--pdf", r->print.pdf, "each picture as PDF too, by rsvg-convert");
+    verb->add_flag("--playground", r->playground, "puts the page that ./play builds into the report, opened on its scene: 1.4 MB more");
     verb->footer("Example: jvari report report");
     add_common(*verb, *r);
     return [r] { return report_command(*r); };

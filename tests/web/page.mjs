@@ -1,7 +1,8 @@
 // page.mjs PROGRAM BUILD SOURCES NODE_MODULES: play.html in headless Chromium, from its file: what a reader sees and hears, and how soon; the tours; a
 // scheme typed in; bad input; keyboard; axe. Times are printed, and asserted where JVARI_TIMED is set: a test that shares its machine asserts none.
 import {spawnSync} from "node:child_process";
-import {mkdirSync, readFileSync, writeFileSync} from "node:fs";
+import {mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
 import {join, resolve} from "node:path";
 import {pathToFileURL} from "node:url";
 import {open} from "../browser/chromium.mjs";
@@ -121,7 +122,7 @@ const parts = {
     },
     async "bad scenes, an address, 500 changes, a second tab"() {
         await visit();
-        for (const [text, sentence] of [["x".repeat(1 << 20) + "\n", /scene:1: |expected at most/], ["Hello [ world", /no TOML/], ["", /name: found nothing/], ["\u0000\u0001", /scene:1/]]) {
+        for (const [text, sentence] of [["x".repeat(1 << 20) + "\n", /scene:1: |expected at most/], ["Hello [ world", /TOML/], ["", /name: found nothing/], ["\u0000\u0001", /scene:1/]]) {
             await see(`by_id("text_part").open = true; by_id("text").value = ${JSON.stringify(text)}; by_id("said").textContent = ""; by_id("apply").click(); 0`);
             await until("by_id('said').textContent.length > 8", "a sentence about a bad scene");
             const said = await see("by_id('said').textContent");
@@ -142,6 +143,19 @@ const parts = {
         const heap = (await browser.page("Runtime.getHeapUsage")).usedSize / 1e6, module = await see("ask('memory')") / 1e6;
         console.log(`  after 500 changes: ${heap.toFixed(0)} MB of the page, ${module.toFixed(0)} MB of the module`);
         expect(heap + module < 200, `${heap + module} MB after 500 changes`);
+    },
+    async "a report with the playground in it"() {
+        const folder = mkdtempSync(join(tmpdir(), "jvari-playground-"));
+        spawnSync(program, ["compare", "tanpura_c3_release", "--set", "string.0.tension=34", "--schemes", "modal_two_point", "--rates", "44100", "--modes", "20", "--duration", "0.02", "--repeats", "1", "--out", folder, "--quiet"]);
+        const plain = statSync(join(folder, "report.html")).size, made = spawnSync(program, ["report", folder, "--playground", "--quiet"], {encoding: "utf8"});
+        const bytes = statSync(join(folder, "report.html")).size;
+        expect(made.status === 0 && bytes > plain + 1e6 && bytes < 4.9e6, `report --playground: ${made.status}, ${bytes} bytes, ${made.stderr}`);
+        await browser.page("Page.navigate", {url: pathToFileURL(join(folder, "report.html")).href});
+        await until("Boolean(document.getElementById('playground')) && document.readyState === 'complete'", "the report");
+        await see("document.getElementById('playground').open = true; 0");
+        await until("/wrong over the first/.test(document.querySelector('#playground iframe')?.contentDocument?.getElementById('title')?.textContent)", "the playground in the report");
+        expect(/132\.7 Hz/.test(await see("document.querySelector('#playground iframe').contentDocument.getElementById('about').textContent")), "it shows the report's string, with its tension");
+        rmSync(folder, {recursive: true});
     },
     async "keyboard, axe, three sizes, light and dark"() {
         await visit("#tour=brighter");
