@@ -142,6 +142,12 @@ const shows = {
         chart.done = performance.now();
         draw_chart(true);
     },
+    timed({scheme, compliance, rate, cost}) {
+        const point = chart.points.find(p => p.scheme === scheme && p.compliance === compliance && p.rate === rate);
+        if (!point || !(cost < point.cost)) return;
+        point.cost = cost;
+        draw_chart(true);
+    },
     refused({why}) {
         say(why);
         by_id("title").textContent = "The scheme or the scene refuses";

@@ -113,6 +113,13 @@ async function chart(state, scene, post, go_on) {
         await go_on();
     }
     post({kind: "charted"});
+    for (const {scheme, compliance, rate} of state.chart) {  // timed once more: a browser compiles anew what it runs often
+        const options = options_of(scheme, compliance);
+        try {
+            post({kind: "timed", scheme, compliance: options.length ? compliance : "", rate, ...timed({scene: state.text, overrides: state.overrides, scheme, rate, options, duration: state.window}, () => ({}))});
+        } catch { /* refused: its point says why */ }
+        await go_on();
+    }
 }
 
 // ---- One state of the page: the string, its motion, its sound, the reference, the chart.
