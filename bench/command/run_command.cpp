@@ -23,6 +23,7 @@
 #include "bench/store/usage.hpp"
 #include "bench/study/summary.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::command {
 
