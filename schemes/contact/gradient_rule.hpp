@@ -27,7 +27,10 @@ public:
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept { return gram_.solve(at.older, at.b, r, force); }
     GramSolution start(const BeforeStep& at, double* r, double* force) noexcept { return solve(at, r, force); }
     double potential(int a, double eta) const { return laws_[a].potential(eta); }
-    std::vector<Fact> facts() const { return {{facts::coupled_contact_points, static_cast<double>(gram_.coupled())}}; }
+    std::vector<Fact> facts() const {
+        if (gram_.coupled() <= 1) return {};
+        return {{facts::coupled_contact_points, static_cast<double>(gram_.coupled())}};
+    }
 
 private:
     std::vector<ContactLaw> laws_;

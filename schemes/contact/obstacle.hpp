@@ -131,6 +131,7 @@ public:
                                {facts::largest_contact_force, tally_.force.most},
                                {facts::deepest_penetration, tally_.deepest}};
         if constexpr (Rule::iterates) {
+            f.push_back({facts::contact_solves, static_cast<double>(tally_.solves)});
             f.push_back({facts::contact_iterations_mean,
                          tally_.solves > 0 ? static_cast<double>(tally_.iterations) / static_cast<double>(tally_.solves) : 0});
             f.push_back({facts::contact_iterations_most, static_cast<double>(tally_.most_iterations)});
@@ -152,7 +153,7 @@ private:
         }
         const GramSolution s = rule_.solve(before, &r, force);
         tally_.force.note(force[0]);
-        tally_.deepest = std::max(tally_.deepest, eta - r);
+        tally_.deepest = std::max({tally_.deepest, now, eta - r});
         note(s);
         return s.converged;
     }
@@ -183,7 +184,7 @@ private:
             for (int a = 0; a < n; ++a) {
                 thread -= thread_.answer(a, force[a]);
                 tally_.force.note(force[a]);
-                tally_.deepest = std::max(tally_.deepest, eta_[a] - r_[a]);
+                tally_.deepest = std::max({tally_.deepest, now_[a], eta_[a] - r_[a]});
             }
             note(s);
         } else {
