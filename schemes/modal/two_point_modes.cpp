@@ -192,13 +192,14 @@ double TwoPointModes::momentum() const {  // v = 2q/dt
 }
 
 void TwoPointModes::write(const Block& out, int row, double bridge, double thread) const noexcept {
+    const auto read = [](const ModalArray& w, const ModalArray& x) { return pass_dot(w.data(), x.data(), static_cast<int>(x.size())); };
     for (int k = 0; k < out.taps; ++k) {
         double& cell = out.tap[k * out.stride + row];
         const TapOfModes& t = taps_[k];
         switch (t.quantity) {
             case Quantity::displacement:
-            case Quantity::nut_force: cell = modal_dot(t.on_y, y_); break;
-            case Quantity::velocity: cell = modal_dot(t.on_y, y_) + modal_dot(t.on_u, u_); break;
+            case Quantity::nut_force: cell = read(t.on_y, y_); break;
+            case Quantity::velocity: cell = read(t.on_y, y_) + read(t.on_u, u_); break;
             case Quantity::bridge_force: cell = bridge; break;
             case Quantity::thread_force: cell = thread; break;
             case Quantity::driving_force: cell = -(bridge + thread); break;
