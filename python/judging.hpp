@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench/check/check.hpp"
+#include "bench/compare/compare_plan.hpp"
 #include "bench/judge/candidate.hpp"
 #include "bench/judge/foreign_trace.hpp"
 #include "python/calls.hpp"
