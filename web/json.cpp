@@ -12,6 +12,7 @@
 #include "scenes/pitch.hpp"
 #include "scenes/wording.hpp"
 #include "schemes/controls.hpp"
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/vector_instructions.hpp"
 
