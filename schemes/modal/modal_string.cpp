@@ -25,7 +25,7 @@ void refuse_above_nyquist(const Descriptor& d, const Modes& modes, double sample
 
 PluckSteps pluck_steps(const Pluck& pluck, double dt) {
     const double first = std::floor(pluck.start / dt), last = std::ceil((pluck.start + pluck.duration) / dt);
-    constexpr double longest = 1 << 28, latest = 0.5 * std::numeric_limits<long>::max();  // [steps]
+    constexpr double longest = 1 << 28, latest = 0.5 * static_cast<double>(std::numeric_limits<long>::max());  // [steps]
     if (!(last < latest && last - first < longest))
         throw Refusal("the pluck, from " + std::to_string(pluck.start) + " s on, for " + std::to_string(pluck.duration) +
                       " s, is too long or too late at " + std::to_string(1 / dt) + " Hz: its force is kept for every step, of which " +
