@@ -63,7 +63,8 @@ private:
     void ledger(double from, double to) noexcept;              // from state_, energies of one panel by quadrature
     double stored() const noexcept;
     long panels(double length) const noexcept {
-        return static_cast<long>(std::clamp(std::ceil(length * rate_ / 3), 1.0, 0.5 * std::numeric_limits<long>::max()));
+        return static_cast<long>(
+            std::clamp(std::ceil(length * rate_ / 3), 1.0, 0.5 * static_cast<double>(std::numeric_limits<long>::max())));
     }
 
     Modes modes_;

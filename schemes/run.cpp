@@ -32,7 +32,7 @@ FlushDenormals::~FlushDenormals() = default;
 namespace {
 using Steady = std::chrono::steady_clock;
 constexpr auto patience = std::chrono::milliseconds(20);  // between two calls of progress
-constexpr double most_rows = std::min(0x1p40, 0.5 * std::numeric_limits<long>::max());
+constexpr double most_rows = std::min(0x1p40, 0.5 * static_cast<double>(std::numeric_limits<long>::max()));
 
 // Tells the caller's progress how far the run is, and keeps what it throws out of a scheme's noexcept code.
 class Teller {

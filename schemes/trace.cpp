@@ -16,7 +16,7 @@ double largest(std::span<const double> x) {
 
 long row_at(double seconds, double rate) {
     const double row = std::ceil(seconds * rate - 1e-6);
-    return row > 0 ? static_cast<long>(std::min(row, 0.5 * std::numeric_limits<long>::max()))
+    return row > 0 ? static_cast<long>(std::min(row, 0.5 * static_cast<double>(std::numeric_limits<long>::max())))
                    : 0;  // "until the end" is a very late instant
 }
 

@@ -31,10 +31,11 @@ std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
     std::vector<CompareRequest> all;
     while (!left.empty()) {
         const double rows = store::whole_multiple(left.front(), 44100) ? 44100 : left.front();
-        const auto others = std::ranges::stable_partition(left, [rows](double rate) { return store::whole_multiple(rate, rows); });
+        const auto others =
+            std::stable_partition(left.begin(), left.end(), [rows](double rate) { return store::whole_multiple(rate, rows); });
         all.push_back(r);
-        all.back().rates.assign(left.begin(), others.begin());
-        left.erase(left.begin(), others.begin());
+        all.back().rates.assign(left.begin(), others);
+        left.erase(left.begin(), others);
     }
     return all;
 }

@@ -33,7 +33,8 @@ void powers(double u, int count, double* e) noexcept {
 WindowChoice choose_window(double tolerance, double reach, bool split) {
     const auto of_windows = [&](double longest, int most) {
         WindowChoice c;
-        c.per_row = std::max(1L, static_cast<long>(std::ceil(std::min(0.5 * std::numeric_limits<long>::max(), reach / longest))));
+        c.per_row = std::max(
+            1L, static_cast<long>(std::ceil(std::min(0.5 * static_cast<double>(std::numeric_limits<long>::max()), reach / longest))));
         c.terms = 6;
         while (c.terms < most && tail(reach / c.per_row, c.terms) > 0.1 * tolerance) ++c.terms;
         return c;
