@@ -3,7 +3,7 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/program.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"

@@ -23,7 +23,7 @@
 #include <span>
 
 #include "analysis/error.hpp"
-#include "bench/check/judges.hpp"
+#include "bench/check/promise.hpp"
 #include "bench/check/scenes.hpp"
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 
 namespace jvari::bench::check {
 

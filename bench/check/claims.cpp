@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/check/judges.hpp"
+#include "bench/check/promise.hpp"
 #include "bench/check/scenes.hpp"
 #include "bench/map/trial.hpp"
-#include "bench/suite/dispersion_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::check {
 

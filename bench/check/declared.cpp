@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/check/judges.hpp"
+#include "bench/check/promise.hpp"
 #include "bench/check/scenes.hpp"
 #include "schemes/making.hpp"
 

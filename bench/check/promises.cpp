@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "bench/check/judges.hpp"
+#include "bench/check/promise.hpp"
 #include "bench/check/scenes.hpp"
 #include "schemes/making.hpp"
 

@@ -10,7 +10,7 @@
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/listener.hpp"

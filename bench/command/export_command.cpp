@@ -8,7 +8,7 @@
 #include "bench/command/verbs.hpp"
 #include "bench/judge/problem_file.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 
 namespace jvari::bench::command {
 

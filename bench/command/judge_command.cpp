@@ -14,7 +14,7 @@
 #include "bench/judge/foreign_trace.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/study/columns.hpp"
 
 namespace jvari::bench::command {

@@ -10,7 +10,7 @@
 #include "bench/command/list_seam.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/suite/suite_file.hpp"
 #include "scenes/scene_file.hpp"
 

@@ -13,7 +13,7 @@
 #include "bench/sound/audio_file.hpp"
 #include "bench/sound/synthetic_body.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/material.hpp"
 #include "scenes/pitch.hpp"

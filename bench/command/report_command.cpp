@@ -4,10 +4,10 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
-#include "bench/report/playground.hpp"
+#include "bench/report/page.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 
 namespace jvari::bench::command {
 

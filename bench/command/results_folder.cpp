@@ -7,7 +7,7 @@
 
 #include "bench/command/console.hpp"
 #include "bench/compare/bound.hpp"
-#include "bench/compare/record/convergence_table.hpp"
+#include "bench/compare/record/fits.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/columns.hpp"

@@ -15,7 +15,7 @@
 #include "bench/report/vega.hpp"
 #include "bench/sound/audio_file.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/rates.hpp"
 #include "bench/store/records.hpp"

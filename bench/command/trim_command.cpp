@@ -13,7 +13,7 @@
 #include "bench/command/verbs.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/sound.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/trim/trim_record.hpp"

@@ -9,7 +9,7 @@
 #include "bench/command/verbs.hpp"
 #include "bench/diff/difference.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "bench/diff/difference.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 
 namespace jvari::bench::diff {
 

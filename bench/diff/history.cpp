@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"
 

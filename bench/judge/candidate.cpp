@@ -9,8 +9,8 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/diagnosis.hpp"
 #include "bench/compare/record/compare_record.hpp"
-#include "bench/compare/record/convergence_table.hpp"
-#include "bench/judge/played.hpp"
+#include "bench/compare/record/fits.hpp"
+#include "bench/judge/foreign_trace.hpp"
 #include "bench/store/usage.hpp"
 #include "schemes/registry.hpp"
 

@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "bench/judge/foreign_trace.hpp"
-#include "bench/judge/played.hpp"
 #include "bench/judge/problem_file.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"

@@ -1,15 +1,15 @@
 #include "bench/judge/foreign_trace.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "bench/sound/signal.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/trace_hdf5.hpp"
+#include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::judge {
@@ -115,6 +115,34 @@ Trace read_trace(const std::filesystem::path& path, const Scene& scene, double t
     if (extension == ".wav") return from_wav(path, scene, tap_rate, rows);
     if (extension == ".csv") return from_csv(path, scene, tap_rate, rows);
     throw store::UsageError(fmt::format("{}: found the extension \"{}\", expected .csv or .wav", path.string(), extension));
+}
+
+namespace {
+class Played final : public Scheme {
+public:
+    explicit Played(std::shared_ptr<const Trace> trace) : trace_(std::move(trace)) {}
+    void reset() noexcept override { row_ = 0; }
+    Status advance(const Block& out) noexcept override {
+        for (int n = 0; n < out.rows; ++n, ++row_) {
+            const bool there = row_ < trace_->rows;
+            for (int k = 0; k < out.taps; ++k)
+                out.tap[n + k * out.stride] = there ? trace_->tap[row_ + k * trace_->stride] : std::numeric_limits<double>::quiet_NaN();
+            if (!out.energy) continue;
+            const bool told = there && !trace_->energy.empty();
+            for (int k = 0; k < 3; ++k) out.energy[n + k * out.stride] = told ? trace_->energy[row_ + k * trace_->stride] : 0;
+        }
+        return {};
+    }
+    int dofs() const override { return 0; }
+
+private:
+    std::shared_ptr<const Trace> trace_;
+    long row_ = 0;
+};
+}  // namespace
+
+std::unique_ptr<Scheme> played(std::shared_ptr<const Trace> trace) {
+    return std::make_unique<Played>(std::move(trace));
 }
 
 }  // namespace jvari::bench::judge

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "scenes/scene.hpp"
+#include "schemes/scheme.hpp"
 #include "schemes/trace.hpp"
 
 namespace jvari::bench::judge {
@@ -18,5 +20,12 @@ Trace read_trace(const std::filesystem::path&, const Scene&, double tap_rate, lo
 
 // Throws UsageError where an array of a tap has more rows than the scene, or other arrays have other lengths.
 void check_rows(const Trace&, const std::string& what, long rows);
+
+// ---- A trace that another program made, as a scheme: whatever is asked of schemes is asked of it.
+
+// Gives its rows; beyond them, NaN, so that a run ends there as diverged.
+std::unique_ptr<Scheme> played(std::shared_ptr<const Trace>);
+
+constexpr Features every_feature{(1u << feature_count) - 1};
 
 }  // namespace jvari::bench::judge

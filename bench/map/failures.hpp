@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "bench/map/map_run.hpp"
+#include "bench/map/trial.hpp"
 
 namespace jvari::bench::map {
 
@@ -22,5 +24,16 @@ std::vector<Reproducer> reproducers_of(const MapRun&, const compare::Catalogue&,
 
 void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>&);
 std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const compare::Catalogue&);
+
+// ---- A trial that fails, made as small as it still fails in the same way: delta debugging over what a scene and its settings are made of.
+//
+// Taken away one by one, in turn, until nothing more can be (scenes/reduction.hpp): strings, barriers, polarisation, pluck or initial shape
+// (one of the two stays), thread, losses, bending stiffness, contact losses, an exponent other than 1; then duration, modes or the grid's
+// intervals are shortened by halves, quarters ... down to single rows and modes. What is left is minimal step by step, not the smallest of
+// all.
+
+using Fails = std::function<bool(const Trial&)>;  // in the way that is to be kept; what it throws counts as no
+
+Trial minimised(Trial, const Fails&);
 
 }  // namespace jvari::bench::map

@@ -10,7 +10,7 @@
 #include <map>
 #include <optional>
 
-#include "bench/map/map_theory.hpp"
+#include "bench/map/map_run.hpp"
 #include "scenes/wording.hpp"
 
 namespace jvari::bench::map {

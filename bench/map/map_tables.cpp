@@ -6,7 +6,7 @@
 #include <map>
 
 #include "bench/map/failures.hpp"
-#include "bench/map/map_theory.hpp"
+#include "bench/map/map_run.hpp"
 #include "bench/store/fresh_file.hpp"
 
 namespace jvari::bench::map {

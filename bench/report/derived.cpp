@@ -5,8 +5,8 @@
 
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"
+#include "bench/compare/record/notes.hpp"
 #include "bench/compare/record/pareto.hpp"
-#include "bench/compare/record/spread.hpp"
 #include "bench/study/errors.hpp"
 
 namespace jvari::bench::report {

@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "bench/report/page.hpp"
-#include "bench/report/page_text.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/program.hpp"

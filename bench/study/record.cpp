@@ -6,9 +6,7 @@
 
 #include "bench/store/base64.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/kept.hpp"
-#include "bench/store/outcome_name.hpp"
-#include "bench/store/whole.hpp"
+#include "bench/store/json.hpp"
 
 namespace jvari::bench::study {
 

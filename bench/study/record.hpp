@@ -29,7 +29,7 @@ struct Record {
     bool timed() const { return cell.wall.count > 0; }
 };
 
-// Without what the clock said: that is kept apart (clock.hpp).
+// Without what the clock said: that is kept apart (cost.hpp).
 std::string json_of(const Record&, const std::string& identity);
 // Of the cell in `planned`. Nothing where there is no such file, it is of another job, its checksum is not its own, or it cannot be read.
 std::optional<Record> read_record(const std::filesystem::path&, const std::string& identity, const Cell& planned);

@@ -8,7 +8,6 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/store/system/time_limit.hpp"
-#include "bench/study/clock.hpp"
 #include "bench/study/cost.hpp"
 
 namespace jvari::bench::study {

@@ -1,4 +1,4 @@
-#include "bench/suite/ensemble_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 #include <fmt/core.h>
 

@@ -1,10 +1,6 @@
 #include "bench/suite/facet.hpp"
 
-#include "bench/suite/dispersion_facet.hpp"
-#include "bench/suite/ensemble_facet.hpp"
-#include "bench/suite/figure_rows.hpp"
-#include "bench/suite/motion_facet.hpp"
-#include "bench/suite/sound_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
 

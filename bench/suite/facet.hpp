@@ -33,4 +33,51 @@ struct Facet {
 };
 std::span<const Facet> facets();
 
+// ---- The row facets that figures are drawn from; figure_facets.hpp says what each holds.
+
+store::Table trace_rows(const MeasuredCell&);
+store::Table extent_rows(const MeasuredCell&);
+store::Table profile_rows(const MeasuredCell&);
+store::Table envelope_rows(const MeasuredCell&);
+store::Table centroid_rows(const MeasuredCell&);
+
+// ---- The row facet `sound` of a suite: a cell's samples and its reference's lie in its record, and become sounds/*.wav and sounds.csv.
+
+store::Table sound_rows(const MeasuredCell&);
+void write_sound_rows(const std::filesystem::path& folder, const store::Table& gathered);
+
+// ---- Dispersion of a cell: frequency and decay rate of the string's first modes against the true ones, twice: by the scheme's own
+// recursion (Scheme::free_modes) and from the trace by the matrix pencil of analysis/dispersion.hpp.
+
+constexpr int dispersion_modes = 30;  // at most
+
+// Columns mode, frequency_hz, own_cents, trace_cents, decay_per_s, own_decay_per_s, trace_decay_per_s, note; an empty field is not known,
+// and `note` says why the trace says nothing. A string that a thread or a barrier touches has no modes of its own in the trace.
+store::Table dispersion_rows(const MeasuredCell&);
+
+// ---- Is a cell statistically the reference, where waveforms forget their start? Scheme and reference each run 32 times, every initial
+// shape and pluck scaled by 1 + 1e-4 u with u between -1 and 1, no start twice; analysis/ensemble.hpp tells the two apart, trait by trait.
+// No string is let go twice alike to 1e-4. Much less of a spread is not forgotten within a quarter of a second: by 1e-6 the reference is
+// told from itself where its start moves by 1e-5. The reference has the modes of the cell, or reference_modes where the suite says a
+// number; it is the first that represents the scene.
+
+constexpr int ensemble_runs = 32;
+constexpr double ensemble_spread = 1e-4;  // of the start
+
+// Columns kind, where, reference, candidate, p, apart: a row for each trait, and one first with kind "any" whose `apart` counts those
+// that are. None where no reference represents the scene, or a run does not reach its end.
+store::Table ensemble_rows(const MeasuredCell&);
+
+// From ensemble.csv: of each scheme on each problem the rate from which on nothing is told apart; "" without rows.
+std::string ensemble_text(const store::Table&);
+
+// ---- The row facet `motion`: the shape of string 0 over a short window, frame by frame, and the force of its barriers, of a cell and of
+// its reference; what the page's moving string is drawn of. Both are run again over that window alone, with taps along the string.
+//
+// motion.csv, per cell and once per reference: from_s, step_s, positions [m], scales [m] (what 32767 is at each), shape (frame by frame, 16
+// bit as base64), force_scale [N], force, obstacle (x:height [m], along the barriers).
+
+store::Table motion_rows(const MeasuredCell&);
+void write_motion(const std::filesystem::path& folder, const store::Table& gathered);
+
 }  // namespace jvari::bench::suite

@@ -8,7 +8,7 @@
 #include "analysis/spectrum.hpp"
 #include "bench/sound/radiation.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/suite/figure_rows.hpp"
+#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
 

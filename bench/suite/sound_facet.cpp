@@ -1,6 +1,6 @@
 // The row facet `sound`: one row per cell, its samples and its reference's as base64 of 16 bit, which become files when all cells are
 // there.
-#include "bench/suite/sound_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 #include <algorithm>
 #include <cstring>

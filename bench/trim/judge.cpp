@@ -13,7 +13,6 @@
 #include "bench/store/records.hpp"
 #include "bench/store/system/time_limit.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/study/clock.hpp"
 #include "bench/study/cost.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"

@@ -17,7 +17,6 @@
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/request.hpp"
 #include "bench/study/run.hpp"
-#include "bench/trim/start.hpp"
 #include "bench/trim/target.hpp"
 #include "scenes/reduction.hpp"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/bound.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "scenes/scene_file.hpp"
 

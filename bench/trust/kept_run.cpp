@@ -7,11 +7,10 @@
 
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/store/outcome_name.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/file_lock.hpp"
-#include "bench/store/whole.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::trust {

@@ -9,7 +9,7 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/needed_cells.hpp"
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/convergence_table.hpp"
+#include "bench/compare/record/fits.hpp"
 #include "bench/compare/record/pareto.hpp"
 #include "bench/study/columns.hpp"
 #include "bench/study/summary.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/matching_note.hpp"
+#include "bench/compare/record/notes.hpp"
 
 using namespace jvari::bench;
 

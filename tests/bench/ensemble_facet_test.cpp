@@ -1,5 +1,5 @@
 // measure = ["ensemble"]: scheme and reference run from starts of their own, and what is told apart is told by rate.
-#include "bench/suite/ensemble_facet.hpp"
+#include "bench/suite/facet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-#include "bench/map/minimise.hpp"
+#include "bench/map/failures.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::test {

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/record/convergence_table.hpp"
+#include "bench/compare/record/fits.hpp"
 #include "bench/study/summary.hpp"
-#include "bench/suite/dispersion_facet.hpp"
+#include "bench/suite/facet.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 

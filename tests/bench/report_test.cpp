@@ -7,8 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/compare/record/notes.hpp"
 #include "bench/compare/record/pareto.hpp"
-#include "bench/compare/record/spread.hpp"
 #include "bench/report/derived.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/results.hpp"

@@ -1,6 +1,6 @@
 // What a step costs against modes, rate and contacts, and what each element adds: the fit on costs that are known, the scenes that are
 // timed.
-#include "bench/compare/record/scaling_table.hpp"
+#include "bench/compare/record/fits.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,11 +11,11 @@
 #include <thread>
 
 #include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/fits.hpp"
 #include "bench/compare/record/pareto.hpp"
-#include "bench/compare/record/scaling_table.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/file_lock.hpp"
-#include "bench/study/clock.hpp"
+#include "bench/study/cost.hpp"
 #include "bench/suite/suite_plan.hpp"
 #include "tests/command_line.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "bench/store/checksum.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/study/clock.hpp"
 #include "bench/study/columns.hpp"
+#include "bench/study/cost.hpp"
 #include "bench/study/run.hpp"
 #include "bench/suite/suite_plan.hpp"
 #include "scenes/scene_file.hpp"

@@ -6,7 +6,7 @@
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/pareto.hpp"
-#include "bench/store/indented.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/study/columns.hpp"
 #include "scenes/scene_file.hpp"

@@ -1,7 +1,7 @@
 # The files of the page as text in the program, so that it has no file to look for when it runs: -DFOLDER -DOUT, every file but this one.
 file(GLOB files "${FOLDER}/*.html" "${FOLDER}/*.css" "${FOLDER}/*.js")
 list(SORT files)
-set(text "#include \"bench/report/page_text.hpp\"\n\nnamespace jvari::bench::report {\nnamespace {\nconstexpr PageText texts[] = {\n")
+set(text "#include \"bench/report/page.hpp\"\n\nnamespace jvari::bench::report {\nnamespace {\nconstexpr PageText texts[] = {\n")
 foreach(file IN LISTS files)
     get_filename_component(name "${file}" NAME)
     file(READ "${file}" content)

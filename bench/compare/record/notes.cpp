@@ -1,6 +1,9 @@
-#include "bench/compare/record/matching_note.hpp"
+#include "bench/compare/record/notes.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "schemes/contact/matching_facts.hpp"
 
@@ -27,6 +30,30 @@ std::string matching_note(const store::Table& t) {
             text.empty() ? "" : "\n", limit.cause, name, most, loudest, limit.most);
     }
     return text;
+}
+
+namespace {
+constexpr double calm = 0.2;
+}
+
+double median_spread(const store::Table& cells) {
+    std::vector<double> spreads;
+    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
+        const double spread = 0.5 * (cells.number(i, "cost_upper") - cells.number(i, "cost_lower")) / cells.number(i, "cost_s_per_s");
+        if (std::isfinite(spread)) spreads.push_back(spread);
+    }
+    if (spreads.empty()) return std::nan("");
+    const auto middle = spreads.begin() + static_cast<std::ptrdiff_t>(spreads.size() / 2);
+    std::nth_element(spreads.begin(), middle, spreads.end());
+    return *middle;
+}
+
+std::string busy_text(const store::Table& cells) {
+    const double spread = median_spread(cells);
+    if (!(spread > calm)) return "";
+    return fmt::format(
+        "the machine was busy: half of the costs scatter by {:.0f} % and more between their quartiles; read them as orders of magnitude",
+        100 * spread);
 }
 
 }  // namespace jvari::bench::compare

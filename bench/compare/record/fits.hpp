@@ -1,9 +1,20 @@
-// What the cost of a step grows with, and what each element of a scene adds to it: the timed rows of cells.csv, compared with each other.
+// Observed order of convergence of each scheme, per window and tap: the rows of cells.csv fitted over their rates
+// (analysis/convergence.hpp).
 #pragma once
 
 #include "bench/store/cell_rows.hpp"
+#include "bench/store/records.hpp"
 
 namespace jvari::bench::compare {
+
+// Columns scene, <swept keys>, scheme, options, modes, tap, window, order, half_width (of the 95 % interval; empty with two points),
+// points, from_hz, to_hz. A row per series of two rates or more. Left out of a fit: failed cells, errors of 1 or more (nothing of the
+// waveform is right) and errors no larger than their noise floor or than what the reference is certain to. `modes` is empty where it
+// changes with the rate, as a grid does. `scene`: its name where the rows do not say (compare's).
+store::Table convergence_of(const store::Table& cells, const std::string& scene = "");
+
+// ---- What the cost of a step grows with, and what each element of a scene adds to it: the timed rows of cells.csv, compared with each
+// other.
 
 // Columns scene, <swept keys>, scheme, options, at (what was held: "44100 Hz, 133 modes"), what, x, ns_per_step, ns_lower, ns_upper (median
 // and quartiles, of processor time where it was taken), exponent, exponent_half_width, extra_ns, extra_lower, extra_upper.

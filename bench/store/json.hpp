@@ -1,16 +1,48 @@
-// What was computed, in a file beside all that it was computed from: the one format of cells, clocks, points of maps and models of trim.
+// JSON for people and programs: two spaces a level. Bytes that are no UTF-8, as a file's name may hold, become U+FFFD.
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "schemes/scheme.hpp"
 
 namespace jvari::bench::store {
+
+inline std::string indented(const nlohmann::ordered_json& j) {
+    return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+// ---- Whole numbers of JSON, looked at before they are converted: the library makes an int of 1e300 as C++ does, and that is undefined.
+
+// Throws std::runtime_error where it is no whole number that an Int can hold.
+template <class Int>
+Int whole(const nlohmann::ordered_json& j) {
+    constexpr auto least = std::numeric_limits<Int>::min(), most = std::numeric_limits<Int>::max();
+    if (j.is_number_unsigned()) {
+        if (const auto n = j.get<std::uint64_t>(); n <= static_cast<std::uint64_t>(most)) return static_cast<Int>(n);
+    } else if (j.is_number_integer()) {
+        if (const auto n = j.get<std::int64_t>(); n >= least && n <= most) return static_cast<Int>(n);
+    }
+    throw std::runtime_error("found no whole number where one was expected");
+}
+
+// ---- An outcome by its name, as files hold it.
+
+inline Outcome outcome_named(const std::string& name) {  // throws std::runtime_error where there is none
+    for (const Outcome o : {Outcome::ok, Outcome::diverged, Outcome::not_converged})
+        if (name == name_of(o)) return o;
+    throw std::runtime_error("unknown status " + name);
+}
+
+// ---- What was computed, in a file beside all that it was computed from: the one format of cells, clocks, points of maps and models of
+// trim.
 
 // `identity`: JSON, all that the content depends on. `content`: an object.
 inline std::string kept_text(const std::string& identity, const nlohmann::ordered_json& content) {
