@@ -20,7 +20,6 @@
 #include "bench/compare/scene_notes.hpp"
 #include "bench/map/map_tables.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/store/rates.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/study/columns.hpp"
 #include "bench/study/run.hpp"
@@ -63,20 +62,7 @@ struct Job {  // what a run is asked for, its scene aside
 };
 inline Job job_of(const std::string& scheme, double rate, std::optional<double> tap_rate, int modes, const py::dict& options) {
     const Descriptor& d = compare::Catalogue(plugins()).find(scheme);
-    const bool continuous = d.clock == Clock::continuous;
-    Settings s;
-    s.sample_rate = continuous ? 0 : rate;
-    s.tap_rate = tap_rate.value_or(continuous || store::whole_multiple(rate, 44100) ? 44100 : rate);
-    s.modes = modes;
-    if (!continuous && !store::whole_multiple(rate, s.tap_rate))
-        throw store::UsageError("tap_rate " + store::text_of(s.tap_rate) + ": the rate of " + store::text_of(rate) +
-                                " Hz is no whole multiple of it");
-    for (const compare::SchemeOption& o : options_of(options)) {
-        if (!o.scheme.empty() && o.scheme != d.name)
-            throw store::UsageError("option " + o.scheme + ":" + o.name + ": this run is of " + d.name);
-        s.options.emplace_back(o.name, o.value);
-    }
-    return {&d, s};
+    return {&d, compare::settings_of_run(d, rate, tap_rate, modes, options_of(options))};
 }
 
 inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string& scheme, double rate, int modes,

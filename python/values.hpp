@@ -68,7 +68,7 @@ inline py::object parsed(const std::string& json) {
     return py::module_::import("json").attr("loads")(json);
 }
 inline py::object rows_of(const bench::store::Table& t) {
-    return parsed(bench::store::rows_json(t));
+    return parsed(bench::store::rows_json(t).dump());
 }
 
 using Column = py::array_t<double>;

@@ -3,7 +3,7 @@
 //
 // Each bound with its reason. Partials: what the matrix pencil hears of a recursion agrees with it to 2e-8 cents (smoke suite); 1e-3 cents
 // is far from that, and far below any change of an equation. A map: what maps call diverged, not_converged or energy_gaining
-// (bench/study/verdict.hpp), on the side of its stability limit where it is sound. That its contacts do not pull is a promise of its own.
+// (bench/study/judgement.hpp), on the side of its stability limit where it is sound. That its contacts do not pull is a promise of its own.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -6,7 +6,8 @@
 
 #include "bench/check/promise.hpp"
 #include "bench/check/scenes.hpp"
-#include "bench/study/summary.hpp"
+#include "bench/study/cell.hpp"
+#include "bench/study/judgement.hpp"
 #include "scenes/modes.hpp"
 
 namespace jvari::bench::check {

@@ -28,7 +28,6 @@
 namespace jvari::bench::command {
 
 namespace {
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 struct CompareCall : Common, compare::CompareRequest {
@@ -106,20 +105,11 @@ int compare_command(const CompareCall& r) {
     last_word.reset();
     if (r.resume) console.note(fmt::format("the errors of {} of {} cells were read back", c.outcome.read_back, keep.of.load()));
     const store::Table cells = compare::cells_of(c);
-    const std::string manifest = compare::manifest_of(c, r);
+    const auto manifest = compare::manifest_of(c, r);
 
-    const store::Table cheapest =
-        compare::cheapest_of(cells, "", r.controls ? compare::Controls::compete : compare::Controls::stand_beside);
-    Json files = Json::array();
-    if (!r.out.empty()) {
-        const fs::path folder = r.out;
-        for (const std::string& file : write_tables(folder, cells)) files.push_back(file);
-        store::write_fresh(folder / "manifest.json", manifest + "\n");
-        compare::write_sounds(c, folder);
-        files.push_back((folder / "manifest.json").string());
-        for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
-    }
-
+    const store::Table cheapest = compare::cheapest_of(cells, r.controls ? compare::Controls::compete : compare::Controls::stand_beside);
+    ResultsFolder folder(r.out, console);
+    folder.add_all(c, cells, manifest);
     const double rate = c.reference_summary.rate;
     for (const String& string : c.scene().strings) console.print("string: " + compare::tuning_text(string));
     std::string rows;
@@ -136,7 +126,7 @@ int compare_command(const CompareCall& r) {
     const int code = code_of(c.outcome.records);
     console.print_json(
         store::indented(with_results({{"scene", c.scene().name}, {"reference", c.reference.name()}, {"status", exit_code::status(code)}},
-                                     manifest, cells, cheapest, files)));
+                                     manifest, cells, cheapest, folder.files)));
     return code;
 }
 }  // namespace

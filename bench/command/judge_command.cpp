@@ -61,17 +61,6 @@ judge::Candidate candidate_of(JudgeRequest& r) {
     return c;
 }
 
-std::vector<std::string> write_folder(const compare::Comparison& c, const JudgeRequest& r, const store::Table& cells,
-                                      const std::string& manifest, const Console& console) {
-    const std::filesystem::path folder = r.out;
-    std::vector<std::string> files = write_tables(folder, cells);
-    store::write_fresh(folder / "manifest.json", manifest + "\n");
-    compare::write_sounds(c, folder);
-    files.push_back((folder / "manifest.json").string());
-    for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
-    return files;
-}
-
 int judge_command(JudgeRequest r) {
     const Console console(r.json, r.quiet);
     must_be_assignments(r.set);
@@ -86,18 +75,17 @@ int judge_command(JudgeRequest r) {
     }
     const compare::Comparison c = judge::judge(std::move(candidate), r, r.plugins, console, keep);
     const store::Table cells = compare::cells_of(c);
-    const std::string manifest = compare::manifest_of(c, r);
-    std::vector<std::string> files;
-    if (!r.out.empty()) files = write_folder(c, r, cells, manifest, console);
+    const auto manifest = compare::manifest_of(c, r);
+    ResultsFolder folder(r.out, console);
+    folder.add_all(c, cells, manifest);
     const int code = judge::failed(c) ? exit_code::run_failed : exit_code::done;
     console.print(headline_text(cells, Console::width()) + "\n" + judge::verdict_of(c));
     if (!r.out.empty()) console.print("written: " + r.out);
-    console.print_json(
-        store::indented(with_results({{"scene", c.scene().name},
-                                      {"reference", c.reference.name()},
-                                      {"status", exit_code::status(code)},
-                                      {"verdict", judge::verdict_of(c)}},
-                                     manifest, cells, compare::cheapest_of(cells, "", compare::Controls::stand_beside), files)));
+    console.print_json(store::indented(with_results({{"scene", c.scene().name},
+                                                     {"reference", c.reference.name()},
+                                                     {"status", exit_code::status(code)},
+                                                     {"verdict", judge::verdict_of(c)}},
+                                                    manifest, cells, compare::cheapest_of(cells), folder.files)));
     return code;
 }
 }  // namespace

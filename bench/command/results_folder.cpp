@@ -7,7 +7,9 @@
 
 #include "bench/command/console.hpp"
 #include "bench/compare/bound.hpp"
+#include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/fits.hpp"
+#include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/columns.hpp"
@@ -66,27 +68,43 @@ void make_folder(const fs::path& folder) {
     for (const char* own : own_folders) store::sweep_parts(folder / own);
 }
 
-nlohmann::ordered_json with_results(nlohmann::ordered_json own, const std::string& manifest, const store::Table& cells,
-                                    const store::Table& cheapest, const nlohmann::ordered_json& files) {
-    using Json = nlohmann::ordered_json;
-    own["manifest"] = Json::parse(manifest);
-    own["cells"] = Json::parse(store::rows_json(compare::with_bounds(cells)));
-    own["cheapest"] = Json::parse(store::rows_json(cheapest));
-    own["files"] = files;
-    return own;
+void ResultsFolder::add(const std::string& name, const std::string& content) {
+    if (folder_.empty()) return;
+    store::write_fresh(folder_ / name, content);
+    files.push_back((folder_ / name).string());
 }
 
-std::vector<std::string> write_tables(const std::filesystem::path& folder, const store::Table& cells) {
-    std::vector<std::string> files;
-    const auto write = [&](const char* name, const store::Table& table) {
-        store::write_fresh(folder / name, store::csv(table));
-        files.push_back((folder / name).string());
-    };
-    write("cells.csv", cells);
-    write("errors.csv", study::errors_only(cells));
-    write("cost.csv", study::cost_only(cells));
-    if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty()) write("convergence.csv", orders);
-    return files;
+void ResultsFolder::add_tables(const store::Table& cells) {
+    add("cells.csv", store::csv(cells));
+    add("errors.csv", store::csv(study::errors_only(cells)));
+    add("cost.csv", store::csv(study::cost_only(cells)));
+    if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty()) add("convergence.csv", store::csv(orders));
+}
+
+void ResultsFolder::add_manifest(const nlohmann::ordered_json& manifest) {
+    add("manifest.json", store::indented(manifest) + "\n");
+}
+
+void ResultsFolder::add_report() {
+    if (folder_.empty()) return;
+    for (const std::string& name : report::write_report(folder_, listener_)) files.push_back((folder_ / name).string());
+}
+
+void ResultsFolder::add_all(const compare::Comparison& c, const store::Table& cells, const nlohmann::ordered_json& manifest) {
+    if (folder_.empty()) return;
+    add_tables(cells);
+    add_manifest(manifest);
+    compare::write_sounds(c, folder_);
+    add_report();
+}
+
+nlohmann::ordered_json with_results(nlohmann::ordered_json own, const nlohmann::ordered_json& manifest, const store::Table& cells,
+                                    const store::Table& cheapest, const nlohmann::ordered_json& files) {
+    own["manifest"] = manifest;
+    own["cells"] = store::rows_json(compare::with_bounds(cells));
+    own["cheapest"] = store::rows_json(cheapest);
+    own["files"] = files;
+    return own;
 }
 
 int code_of(const std::vector<study::Record>& records) {

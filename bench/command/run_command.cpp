@@ -17,11 +17,11 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/store/rates.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/study/summary.hpp"
+#include "bench/study/cell.hpp"
+#include "bench/study/judgement.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/making.hpp"
 
@@ -42,22 +42,6 @@ struct RunRequest : Common {
     std::string out, wav_format, plot, width;
     bool mono = false;
 };
-
-Settings settings_for(const RunRequest& r, const Descriptor& d) {
-    Settings s;
-    const double rate = r.rate.value_or(44100);
-    const bool continuous = d.clock == Clock::continuous;
-    s.sample_rate = continuous ? 0 : rate;
-    s.tap_rate = r.tap_rate.value_or(continuous || store::whole_multiple(rate, 44100) ? 44100 : rate);
-    s.modes = r.modes;
-    if (!continuous && !store::whole_multiple(rate, s.tap_rate))
-        throw store::UsageError(fmt::format("--tap-rate {}: the sample rate of {} Hz is no whole multiple of it", s.tap_rate, rate));
-    for (const compare::SchemeOption& o : scheme_options(r.options)) {
-        if (o.scheme.empty() || o.scheme == d.name) s.options.emplace_back(o.name, o.value);
-        else throw store::UsageError(fmt::format("--option {}:{}={}: this run is of {}", o.scheme, o.name, o.value, d.name));
-    }
-    return s;
-}
 
 // What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
 std::string dearest(const std::vector<Fact>& facts) {
@@ -217,7 +201,7 @@ int run_command(const RunRequest& r) {
     Scene scene = heard;
     scene.taps.insert(scene.taps.begin(), own.taps.begin(), own.taps.begin() + static_cast<long>(drawn));
     compare::note_scene(scene, console);
-    const Settings settings = settings_for(r, d);
+    const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate, r.modes, scheme_options(r.options));
     store::TraceFile file = file_for(r, d, scene, settings);
     const std::optional<report::Vega> vega = vega_for(r);
     const std::optional<sound::Player> player = checked_output(r, file, heard, settings.tap_rate);

@@ -43,21 +43,21 @@ struct SuiteRequest : Common {
     int jobs = 0;       // 0: as many as there are cores
 };
 
-std::string manifest_of(const suite::Suite& suite, const study::Plan& plan) {
+Json manifest_of(const suite::Suite& suite, const study::Plan& plan) {
     std::map<std::string, std::string> sources;
     std::map<std::string, std::string> scenes;  // of what is swept the first
     for (const study::Job& c : plan.jobs) {
         sources[c.cell.scheme->name] = c.cell.scheme->source;
         if (!scenes.contains(c.point->scene.name)) scenes[c.point->scene.name] = write_scene(suite::without_drawn_taps(c.point->scene));
     }
-    Json manifest = Json::parse(store::made_by());
+    Json manifest = store::made_by();
     manifest.update({{"suite", suite.name},
                      {"source", suite.source},
                      {"cells", plan.jobs.size()},
                      {"maps", suite.maps.size()},
                      {"schemes", sources},
                      {"scenes", scenes}});
-    return store::indented(manifest);
+    return manifest;
 }
 
 std::string table_text(const study::Plan& plan, const study::Study& run, const store::Table& cells) {
@@ -133,26 +133,21 @@ int suite_command(const SuiteRequest& r) {
         map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs}, console);
     const study::Study run = study::run(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
     const store::Table cells = compare::with_front(study::table_of(plan, run.records));
-    const std::string manifest = manifest_of(suite, plan);
+    const Json manifest = manifest_of(suite, plan);
     const store::Table cheapest = compare::cheapest_of(cells);
-    Json files = maps.files;
-    if (!r.out.empty()) {
-        const auto write = [&](const char* name, const std::string& content) {
-            store::write_fresh(folder / name, content);
-            files.push_back((folder / name).string());
-        };
-        if (!plan.jobs.empty())
-            for (const std::string& file : write_tables(folder, cells)) files.push_back(file);
-        for (const suite::Facet& f : suite::facets())
-            if (const store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && f.write) f.write(folder, rows);
-            else if (!rows.rows.empty()) write((std::string(f.name) + ".csv").c_str(), store::csv(rows));
-        if (const store::Table scaling = compare::scaling_of(cells, study::sets_of(plan)); !scaling.rows.empty())
-            write("scaling.csv", store::csv(scaling));
-        write("manifest.json", manifest + "\n");
-        if (!suite.figures.empty() && !suite.shelved) write(suite::figures_file, store::read_whole(suite.figures));
-        if (!plan.jobs.empty() || !suite.maps.empty())
-            for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
-    }
+    ResultsFolder results(folder, console);
+    results.files = maps.files;
+    if (!plan.jobs.empty()) results.add_tables(cells);
+    for (const suite::Facet& f : suite::facets())
+        if (const store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && results) {
+            if (f.write) f.write(folder, rows);
+            else results.add(std::string(f.name) + ".csv", store::csv(rows));
+        }
+    if (const store::Table scaling = compare::scaling_of(cells, study::sets_of(plan)); !scaling.rows.empty())
+        results.add("scaling.csv", store::csv(scaling));
+    results.add_manifest(manifest);
+    if (!suite.figures.empty() && !suite.shelved) results.add(suite::figures_file, store::read_whole(suite.figures));
+    if (!plan.jobs.empty() || !suite.maps.empty()) results.add_report();
     // Files first: nothing is lost where nobody reads this.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
@@ -165,7 +160,7 @@ int suite_command(const SuiteRequest& r) {
     const int code = code_of(run.records);
     console.print_json(store::indented(with_results(
         {{"suite", suite.name}, {"status", exit_code::status(code)}, {"ran", run.ran}, {"timed", run.timed}, {"read_back", run.read_back}},
-        manifest, cells, cheapest, files)));
+        manifest, cells, cheapest, results.files)));
     return code;
 }
 }  // namespace

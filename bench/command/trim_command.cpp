@@ -22,7 +22,6 @@
 namespace jvari::bench::command {
 
 namespace {
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 struct TrimCall : Common, trim::Request {
@@ -110,22 +109,15 @@ int trim_command(const TrimCall& r) {
     if (!r.out.empty()) must_be_ours(r.out, "trim of " + compare::load_scene(r.scene, r.set, {}).name, console);
     trim::Judge judge(request, catalogue, console);
     const trim::Trimmed t = trim::trimmed(judge, request, catalogue, console);
-    const std::string manifest = trim::manifest_of(t, judge, request);
+    const auto manifest = trim::manifest_of(t, judge, request);
     const store::Table needs = trim::needs_table(t, judge), path = trim::path_table(t, judge);
-    Json files = Json::array();
-    if (!r.out.empty()) {
-        const fs::path folder = r.out;
-        const auto write = [&](const char* name, const std::string& content) {
-            store::write_fresh(folder / name, content);
-            files.push_back((folder / name).string());
-        };
-        if (t.path.found) write("trimmed.toml", trim::trimmed_toml(t, judge));
-        if (t.path.found) keep_sounds(folder, t, judge);
-        write("needs.csv", store::csv(needs));
-        write("path.csv", store::csv(path));
-        write("manifest.json", manifest + "\n");
-        for (const std::string& name : report::write_report(folder, console)) files.push_back((folder / name).string());
-    }
+    ResultsFolder folder(r.out, console);
+    if (t.path.found) folder.add("trimmed.toml", trim::trimmed_toml(t, judge));
+    if (t.path.found && folder) keep_sounds(r.out, t, judge);
+    folder.add("needs.csv", store::csv(needs));
+    folder.add("path.csv", store::csv(path));
+    folder.add_manifest(manifest);
+    folder.add_report();
     console.print(fmt::format("{} within {} of {}, tap {}, {:g} s; {} models judged, {} read back", t.whole.name,
                               text_of(*judge.target().measure, judge.target().most), judge.target().measure->title, judge.tap().name,
                               t.whole.duration, t.judged, t.read_back));
@@ -138,10 +130,10 @@ int trim_command(const TrimCall& r) {
     if (t.path.found && !r.out.empty())
         console.print("written: " + r.out + "\n" + trim::command_of(t, (fs::path(r.out) / "trimmed.toml").string()));
     console.print_json(store::indented({{"status", t.path.found ? "ok" : "none"},
-                                        {"manifest", Json::parse(manifest)},
-                                        {"path", Json::parse(store::rows_json(path))},
-                                        {"needs", Json::parse(store::rows_json(needs))},
-                                        {"files", files}}));
+                                        {"manifest", manifest},
+                                        {"path", store::rows_json(path)},
+                                        {"needs", store::rows_json(needs)},
+                                        {"files", folder.files}}));
     return t.path.found ? exit_code::done : exit_code::run_failed;
 }
 }  // namespace

@@ -74,6 +74,21 @@ std::string headline_error(const store::Table& cells, const store::Rows& rows) {
     return "error_l2_whole";
 }
 
+Fall fall_over_rates(const store::Table& cells, const store::Rows& rows, const std::string& error_column) {
+    Fall fall;
+    std::vector<double> rates, errors;
+    for (const std::size_t i : rows) {
+        const Bound b = bound_of(cells, i, error_column);
+        const bool all_wrong = error_column.starts_with("error_") && !(b.error < nothing_is_right);
+        if (!reached(cells, i) || !(cells.number(i, "rate") > 0) || all_wrong || !b.decides()) continue;
+        rates.push_back(cells.number(i, "rate"));
+        errors.push_back(b.error);
+        fall.rows.push_back(i);
+    }
+    fall.order = observed_order(rates, errors);
+    return fall;
+}
+
 store::Table with_bounds(store::Table cells) {
     for (const char* column : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"}) {
         std::vector<std::string> texts;

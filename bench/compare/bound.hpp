@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "analysis/convergence.hpp"
 #include "bench/store/cell_rows.hpp"
 
 namespace jvari::bench::compare {
@@ -49,6 +50,14 @@ bool trusted(const store::Table& cells, std::size_t row);
 // The column that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else the whole run; the first with a finite
 // value in one of the rows.
 std::string headline_error(const store::Table& cells, const store::Rows&);
+
+// How an error falls with the rate over those of the rows that can tell: they reached their end, something of the waveform is right (an
+// error below 1), and the error is larger than its noise floor and than what the reference is certain to.
+struct Fall {
+    Order order;
+    store::Rows rows;
+};
+Fall fall_over_rates(const store::Table& cells, const store::Rows&, const std::string& error_column);
 
 // `cells` with bound_l2_10ms, bound_l2_50ms and bound_l2_whole beside them: e + c of the headline errors; empty where c is too large to
 // tell or there is none.

@@ -1,6 +1,9 @@
 #include "bench/compare/catalogue.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
@@ -65,6 +68,28 @@ Scene load_scene(const CompareRequest& r) {
     std::erase_if(scene.taps, [&r](const Tap& tap) { return tap.name != r.tap; });
     if (scene.taps.empty()) throw store::UsageError(store::unknown("tap", r.tap, names));
     return scene;
+}
+
+bool whole_multiple(double rate, double of) {
+    const double ratio = rate / of;
+    return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio;
+}
+
+Settings settings_of_run(const Descriptor& d, double rate, std::optional<double> tap_rate, int modes,
+                         const std::vector<SchemeOption>& options) {
+    Settings s;
+    const bool continuous = d.clock == Clock::continuous;
+    s.sample_rate = continuous ? 0 : rate;
+    s.tap_rate = tap_rate.value_or(continuous || whole_multiple(rate, 44100) ? 44100 : rate);
+    s.modes = modes;
+    if (!continuous && !whole_multiple(rate, s.tap_rate))
+        throw store::UsageError(fmt::format("tap rate {}: the sample rate of {} Hz is no whole multiple of it", s.tap_rate, rate));
+    for (const SchemeOption& o : options) {
+        if (!o.scheme.empty() && o.scheme != d.name)
+            throw store::UsageError(fmt::format("option {}:{}: this run is of {}", o.scheme, o.name, d.name));
+        s.options.emplace_back(o.name, o.value);
+    }
+    return s;
 }
 
 std::vector<std::string> names_in(Features features) {

@@ -9,8 +9,7 @@
 #include <cmath>
 
 #include "bench/compare/variants.hpp"
-#include "bench/store/rates.hpp"
-#include "bench/study/summary.hpp"
+#include "bench/study/cell.hpp"
 #include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/controls.hpp"
@@ -30,9 +29,8 @@ std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
     if (r.tap_rate || left.empty()) return {r};
     std::vector<CompareRequest> all;
     while (!left.empty()) {
-        const double rows = store::whole_multiple(left.front(), 44100) ? 44100 : left.front();
-        const auto others =
-            std::stable_partition(left.begin(), left.end(), [rows](double rate) { return store::whole_multiple(rate, rows); });
+        const double rows = whole_multiple(left.front(), 44100) ? 44100 : left.front();
+        const auto others = std::stable_partition(left.begin(), left.end(), [rows](double rate) { return whole_multiple(rate, rows); });
         all.push_back(r);
         all.back().rates.assign(left.begin(), others);
         left.erase(left.begin(), others);
@@ -187,7 +185,7 @@ std::string kinds_of(const std::vector<Plan>& plans) {  // "44100 and 48000 rows
 double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
     if (r.tap_rate) return *r.tap_rate;
     const auto divides_all = [&rates](double f) {
-        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return store::whole_multiple(rate, f); });
+        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return whole_multiple(rate, f); });
     };
     const double lowest = *std::min_element(rates.begin(), rates.end());
     if (divides_all(44100)) return 44100;

@@ -58,16 +58,9 @@ bool alike(const store::Table& cells, std::size_t a, std::size_t b, const std::v
 Order order_of(const store::Table& cells, std::size_t row, const std::string& measure) {
     std::vector<std::string> same = same_series(cells, {});
     if (!is_grid(cells, row)) same.emplace_back("modes");
-    std::vector<double> rates, errors;
-    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-        if (!reached(cells, i) || !cells.at(i, "flags").empty()) continue;
-        if (!alike(cells, i, row, same)) continue;
-        if (const double e = cells.number(i, measure); e < 1 && bound_of(cells, i, measure).decides() && cells.number(i, "rate") > 0) {
-            rates.push_back(cells.number(i, "rate"));
-            errors.push_back(e);
-        }
-    }
-    return observed_order(rates, errors);
+    store::Rows series = store::all_rows(cells);
+    std::erase_if(series, [&](std::size_t i) { return !cells.at(i, "flags").empty() || !alike(cells, i, row, same); });
+    return fall_over_rates(cells, series, measure).order;
 }
 
 std::string of_the_rate(const store::Table& cells, std::size_t row, const std::string& measure, double most) {

@@ -8,6 +8,7 @@
 
 #include "bench/compare/bound.hpp"
 #include "bench/store/records.hpp"
+#include "bench/study/judgement.hpp"
 
 namespace jvari::bench::compare {
 

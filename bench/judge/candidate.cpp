@@ -49,7 +49,7 @@ void report_costs(compare::Comparison& c, const std::map<double, double>& costs)
         const auto cost = costs.find(r.cell.settings.sample_rate);
         if (cost == costs.end()) continue;
         const double wall = cost->second * r.cell.summary.duration;
-        r.cell.wall = spread_of(std::vector<double>{wall});
+        r.cell.clock.wall = spread_of(std::vector<double>{wall});
     }
 }
 
@@ -117,7 +117,7 @@ std::string verdict_of(const compare::Comparison& c) {
                             row < trace.rows ? "it holds no number in" : "it stops before", row,
                             compare::time_text(static_cast<double>(row) / trace.tap_rate));
     }
-    const store::Table orders = compare::convergence_of(cells, c.scene().name);
+    const store::Table orders = compare::convergence_of(cells);
     for (std::size_t i = 0; i < orders.rows.size(); ++i)
         if (orders.at(i, "scheme") == c.outcome.records.front().cell.scheme->name && orders.at(i, "window") == "50ms" &&
             orders.at(i, "tap") == c.scene().taps[static_cast<std::size_t>(c.headline.nut)].name)

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/sound/signal.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/sound.hpp"
 #include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
 
@@ -92,7 +92,7 @@ Trace from_wav(const std::filesystem::path& path, const Scene& scene, double tap
     if (scene.taps.size() != 1)
         throw store::UsageError(
             fmt::format("{}: a sound is of one tap, the scene has {}: say which by --tap NAME", path.string(), scene.taps.size()));
-    const sound::Signal signal = sound::read_signal(path);
+    const store::Signal signal = store::read_signal(path);
     if (signal.rate != tap_rate)
         throw store::UsageError(
             fmt::format("{}: has {} samples a second, expected {}, as many as rows", path.string(), signal.rate, tap_rate));

@@ -60,14 +60,14 @@ double theory_along(const PointPlace& row) {
     const Bracket b = bisect(ends, 60, axis.whole, side);
     return 0.5 * (b.low + b.high);
 }
-// The theory of a row is held against the nearest of the boundaries of soundness in the row.
+// The theory of a row is held against the nearest of the boundaries of stability in the row.
 void compare_with_theory(std::vector<Boundary>& all) {
     for (std::size_t i = 0; i < all.size();) {
         std::size_t end = i;
         while (end < all.size() && all[end].map == all[i].map && all[end].scheme == all[i].scheme && all[end].y == all[i].y) ++end;
         const double theory = theory_along({all[i].map, all[i].scheme, "", all[i].y});
         const auto distance = [theory](const Boundary& b) {
-            if (b.low != study::Verdict::sound && b.high != study::Verdict::sound) return HUGE_VAL;
+            if (study::is_stable(b.low) == study::is_stable(b.high)) return HUGE_VAL;
             return std::abs(0.5 * (store::number_of(b.x_low) + store::number_of(b.x_high)) - theory);
         };
         const auto nearest = std::min_element(all.begin() + static_cast<long>(i), all.begin() + static_cast<long>(end),
@@ -158,11 +158,6 @@ std::vector<std::string> theories() {
     for (const Descriptor& d : schemes())
         if (d.limit.name && std::find(names.begin(), names.end(), d.limit.name) == names.end()) names.emplace_back(d.limit.name);
     return names;
-}
-
-bool is_theory(const std::string& name) {
-    const auto known = theories();
-    return std::find(known.begin(), known.end(), name) != known.end();
 }
 
 std::string motion_of(const std::string& theory) {

@@ -59,10 +59,9 @@ Bracket bisect(Bracket b, int times, bool whole, VerdictAt verdict_at);
 //   grid_limit      the spacing of the grid is the least that is stable (finite_difference.hpp)
 //   penalty_limit   the highest root of the string in lasting contact passes z = -1 (modal_controls.cpp)
 //   equal_shares    without losses, started in one mode: the gain of true energy that is there once the obstacle has given every mode the
-//                   same share of the energy that the scheme conserves is what verdict.hpp allows (modal_controls.cpp)
+//                   same share of the energy that the scheme conserves is what judgement.hpp allows (modal_controls.cpp)
 
 std::vector<std::string> theories();
-bool is_theory(const std::string&);
 
 // For which motion it holds: "lasting contact: where the string parts from the barrier the boundary is elsewhere".
 std::string motion_of(const std::string& theory);
@@ -81,7 +80,7 @@ jvari::bench::map::Bracket jvari::bench::map::bisect(Bracket b, int times, bool 
         if (whole) middle = std::round(middle);
         if (!(middle > b.low && middle < b.high)) break;
         const study::Verdict v = verdict_at(middle);
-        const bool lower = v == b.at_low || (v != b.at_high && b.at_high == study::Verdict::sound);
+        const bool lower = v == b.at_low || (v != b.at_high && study::is_stable(b.at_high));
         if (lower) b.low = middle, b.at_low = v;
         else b.high = middle, b.at_high = v;
     }

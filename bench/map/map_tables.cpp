@@ -8,6 +8,7 @@
 #include "bench/map/failures.hpp"
 #include "bench/map/map_run.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/study/judgement.hpp"
 
 namespace jvari::bench::map {
 

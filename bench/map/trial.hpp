@@ -8,8 +8,8 @@
 
 #include "bench/compare/catalogue.hpp"
 #include "bench/map/map_file.hpp"
+#include "bench/study/judgement.hpp"
 #include "bench/study/run.hpp"
-#include "bench/study/verdict.hpp"
 
 namespace jvari::bench::map {
 

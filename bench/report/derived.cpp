@@ -75,7 +75,7 @@ Table scene_of(const Table& own, const std::string& problem) {
 
 Table cheapest_in(const Results& r, const Table& own, const std::string& problem) {
     const Table plain = own.only({own.columns.begin() + 2, own.columns.end()});  // without problem and series
-    Table t = compare::cheapest_of(plain, r.name, r.controls);
+    Table t = compare::cheapest_of(plain, r.controls);
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         const std::string goal = compare::goal_name(t, i);
         t.rows[i].insert(t.rows[i].begin(), {problem, goal});
@@ -120,13 +120,7 @@ Table orders_of(const Table& cells) {  // a tie with the truth has no order, and
     const auto names = errors_in(cells);
     for (const Rows& rows : store::alike(cells, ended, {"problem", "series"}))
         for (const std::string& error : names) {
-            std::vector<double> rates, errors;
-            for (const std::size_t i : rows) {
-                const compare::Bound b = compare::bound_of(cells, i, error);
-                rates.push_back(cells.number(i, "rate"));
-                errors.push_back(b.decides() && !(error.starts_with("error_l2_") && b.error >= 1) ? b.error : store::nan);
-            }
-            if (const Order o = observed_order(rates, errors); o.points >= 2)
+            if (const Order o = compare::fall_over_rates(cells, rows, error).order; o.points >= 2)
                 t.rows.push_back({cells.at(rows[0], "problem"), cells.at(rows[0], "series"), error, store::text_of(o.order),
                                   store::text_of(o.half_width), std::to_string(o.points)});
         }

@@ -2,13 +2,13 @@
 
 #include <fmt/core.h>
 #include <samplerate.h>
-#include <sndfile.h>
 
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 
 #include "analysis/convolution.hpp"
+#include "bench/store/sound.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::sound {
@@ -16,10 +16,6 @@ namespace jvari::bench::sound {
 namespace {
 constexpr double longest = 10;  // [s]
 constexpr int margin = 64;      // rows of silence at both ends, for what the resampler rings ahead of a response that begins at once
-
-struct Close {
-    void operator()(SNDFILE* f) const { sf_close(f); }
-};
 
 std::vector<float> resampled(std::vector<float> x, double ratio) {
     x.insert(x.begin(), margin, 0.0f);
@@ -42,17 +38,13 @@ std::vector<double> impulse_response(const std::string& file, double rate, const
         throw store::UsageError(
             fmt::format("{}: found \"{}\", {}; expected a .wav or .flac of one channel and at most {:g} s", key, file, why, longest));
     };
-    SF_INFO info{};
-    const std::unique_ptr<SNDFILE, Close> sound(sf_open(file.c_str(), SFM_READ, &info));
-    if (!sound) refuse(sf_strerror(nullptr));
-    if (info.channels != 1) refuse(fmt::format("which has {} channels", info.channels));
-    if (info.frames < 1) refuse("which is empty");
-    if (static_cast<double>(info.frames) > longest * info.samplerate) refuse("which is longer");
-    std::vector<float> samples(static_cast<std::size_t>(info.frames));
-    if (sf_readf_float(sound.get(), samples.data(), info.frames) != info.frames) refuse("which ends before its time");
-    const double ratio = rate / info.samplerate;
+    const store::Signal sound = store::read_signal(file, refuse);
+    if (sound.samples.empty()) refuse("which is empty");
+    if (static_cast<double>(sound.samples.size()) > longest * sound.rate) refuse("which is longer");
+    std::vector<float> samples(sound.samples.begin(), sound.samples.end());
+    const double ratio = rate / sound.rate;
     if (ratio != 1) {
-        if (!src_is_valid_ratio(ratio)) refuse(fmt::format("whose {} Hz cannot become {:g} Hz", info.samplerate, rate));
+        if (!src_is_valid_ratio(ratio)) refuse(fmt::format("whose {} Hz cannot become {:g} Hz", sound.rate, rate));
         samples = resampled(samples, ratio);
     }
     std::vector<double> response;

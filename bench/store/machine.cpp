@@ -94,17 +94,15 @@ Stamp stamp_now() {
     return s;
 }
 
-std::string json_of(const Stamp& s) {
-    return nlohmann::ordered_json{{"name", s.name}, {"host", s.host}, {"at", s.at}, {"load", s.load}, {"governor", s.governor}}.dump(
-        -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+nlohmann::ordered_json json_of(const Stamp& s) {
+    return {{"name", s.name}, {"host", s.host}, {"at", s.at}, {"load", s.load}, {"governor", s.governor}};
 }
 
-Stamp stamp_of(const std::string& json) {
-    const auto j = nlohmann::ordered_json::parse(json);
+Stamp stamp_of(const nlohmann::ordered_json& j) {
     return {j.at("name"), j.at("host"), j.at("at"), j.at("load"), j.at("governor")};
 }
 
-std::string made_by() {
+nlohmann::ordered_json made_by() {
     const Machine& m = machine();
     nlohmann::ordered_json made{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit},        {"compiler", m.compiler},
                                 {"flags", m.flags},   {"build", m.build},     {"sources", m.cell_sources}, {"vectors", m.vectors},
@@ -113,7 +111,7 @@ std::string made_by() {
     if (double load[3]; getloadavg(load, 3) > 0) made["load"] = std::round(100 * load[0]) / 100;  // of the last minute
     for (const Guest* g : guests())
         made["plugins"].push_back({{"file", g->path}, {"hash", contents_hash(g->path)}, {"compiler", g->compiler}, {"flags", g->flags}});
-    return made.dump();
+    return made;
 }
 
 std::string now_utc() {

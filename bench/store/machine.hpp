@@ -1,6 +1,7 @@
 // What a result depends on beside its scene: the program, its compiler and the machine.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,11 @@ struct Stamp {
     std::string governor;  // of the clock of its processors: "performance"; "" likewise
 };
 Stamp stamp_now();
-std::string json_of(const Stamp&);
-Stamp stamp_of(const std::string& json);  // throws std::exception where it is none
+nlohmann::ordered_json json_of(const Stamp&);
+Stamp stamp_of(const nlohmann::ordered_json&);  // throws std::exception where it is none
 
-// All of it, the date and the plugins loaded (file, hash, compiler, flags) as a JSON object: what a manifest begins with.
-std::string made_by();
+// All of it, the date and the plugins loaded (file, hash, compiler, flags) as an object: what a manifest begins with.
+nlohmann::ordered_json made_by();
 std::string now_utc();  // "2016-05-04T12:00:00Z"
 
 }  // namespace jvari::bench::store

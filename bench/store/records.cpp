@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -126,6 +128,27 @@ Table read_csv(const std::string& text) {
     if (inside) throw std::runtime_error(fmt::format("line {}: a quotation mark is not closed", line));
     end_row();
     return table;
+}
+
+nlohmann::ordered_json rows_json(const Table& table) {
+    static const std::set<std::string> texts{"scheme",       "status",  "reason",    "flags",   "below_floor", "cell",
+                                             "scene",        "options", "reference", "measure", "ties",        "run",
+                                             "as_published", "perhaps", "why",       "machine", "governor"};
+    auto rows = nlohmann::ordered_json::array();
+    for (const auto& row : table.rows) {
+        auto j = nlohmann::ordered_json::object();
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            const std::string& name = table.columns[k];
+            const bool digits = !row[k].empty() && row[k].size() < 18 && row[k].find_first_not_of("0123456789") == std::string::npos;
+            const double x = number_of(row[k]);
+            if (name == "pareto") j[name] = row[k] == "1";
+            else if (texts.contains(name) || (std::isnan(x) && !row[k].empty())) j[name] = row[k];
+            else if (digits) j[name] = std::stol(row[k]);
+            else j[name] = x;  // "" and infinities become null
+        }
+        rows.push_back(std::move(j));
+    }
+    return rows;
 }
 
 }  // namespace jvari::bench::store

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,8 @@ struct Table {
     Table only(const std::vector<std::string>& names) const;  // those columns, in that order; absent ones are left out
 };
 
-std::string quoted(const std::string& field);  // as CSV writes it
-std::string rows_json(const Table& cells);     // JSON: one object per row, numbers as numbers
+std::string quoted(const std::string& field);    // as CSV writes it
+nlohmann::ordered_json rows_json(const Table&);  // one object per row, numbers as numbers
 std::string csv(const Table&);
 Table read_csv(const std::string& text);  // throws std::runtime_error with the line where a row has too few or too many fields
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <memory>
 
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
@@ -17,22 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 constexpr double full = 32767;
-
-struct Shape {
-    double mean = 0, rms = 0, peak = 0;  // of full scale 1, the mean aside
-};
-Shape shape_of(std::span<const std::int16_t> samples) {
-    Shape s;
-    if (samples.empty()) return s;
-    s.mean = std::accumulate(samples.begin(), samples.end(), 0.0) / full / static_cast<double>(samples.size());
-    double squares = 0;
-    for (const double v : samples) {
-        squares += (v / full - s.mean) * (v / full - s.mean);
-        s.peak = std::max(s.peak, std::abs(v / full - s.mean));
-    }
-    s.rms = std::sqrt(squares / static_cast<double>(samples.size()));
-    return s;
-}
+constexpr sf_count_t longest_signal = 100'000'000;  // samples
 }  // namespace
 
 Sound sound_of(std::span<const double> signal, double rate) {
@@ -61,34 +46,32 @@ std::string wav_of(const Sound& s) {
     return wav;
 }
 
-Sound read_wav(const fs::path& path, double peak) {
+Signal read_signal(const fs::path& path, const std::function<void(const std::string& why)>& refuse) {
+    struct Close {
+        void operator()(SNDFILE* f) const { sf_close(f); }
+    };
     SF_INFO info{};
-    SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
-    if (!file) throw UsageError(fmt::format("cannot read {}: {}", path.string(), sf_strerror(nullptr)));
-    Sound s{static_cast<double>(info.samplerate), peak, {}};
-    if (info.channels == 1 && info.frames < 100'000'000) s.samples.resize(static_cast<std::size_t>(info.frames));
-    const bool good = sf_read_short(file, s.samples.data(), static_cast<sf_count_t>(s.samples.size())) == info.frames;
-    sf_close(file);
-    if (!good) throw UsageError(fmt::format("cannot read {}: not one channel of whole samples", path.string()));
+    const std::unique_ptr<SNDFILE, Close> file(sf_open(path.c_str(), SFM_READ, &info));
+    if (!file) refuse(fmt::format("which cannot be read: {}", sf_strerror(nullptr)));
+    if (info.channels != 1) refuse(fmt::format("which has {} channels", info.channels));
+    if (info.frames > longest_signal) refuse("which is too long");
+    Signal signal{static_cast<double>(info.samplerate), std::vector<double>(static_cast<std::size_t>(info.frames))};
+    if (sf_readf_double(file.get(), signal.samples.data(), info.frames) != info.frames) refuse("which ends before its time");
+    return signal;
+}
+
+Signal read_signal(const fs::path& path) {
+    return read_signal(path, [&path](const std::string& why) {
+        throw UsageError(fmt::format("{}: found a sound {}; expected one of one channel", path.string(), why));
+    });
+}
+
+Sound read_wav(const fs::path& path, double peak) {
+    const Signal signal = read_signal(path);
+    Sound s{signal.rate, peak, {}};
+    constexpr double whole = 32768;  // libsndfile's full scale
+    for (const double v : signal.samples) s.samples.push_back(static_cast<std::int16_t>(std::lround(std::clamp(v * whole, -whole, full))));
     return s;
-}
-
-double loudest_level(const Sound& s) {
-    const Shape shape = shape_of(s.samples);
-    return shape.peak > 0 ? 0.9 * shape.rms / shape.peak : HUGE_VAL;
-}
-
-Sound levelled(const Sound& s, double level, double longest) {
-    const Shape shape = shape_of(s.samples);
-    Sound heard{s.rate, s.peak, {}};
-    const auto count = std::min(s.samples.size(), static_cast<std::size_t>(longest * s.rate));
-    const double gain = shape.rms > 0 ? level / shape.rms : 0, fade = 0.005 * s.rate;
-    for (std::size_t n = 0; n < count; ++n) {
-        const double ends = std::min({1.0, static_cast<double>(n) / fade, static_cast<double>(count - 1 - n) / fade});
-        const double v = gain * ends * (s.samples[n] / full - shape.mean);
-        heard.samples.push_back(static_cast<std::int16_t>(std::lround(std::clamp(v, -1.0, 1.0) * full)));
-    }
-    return heard;
 }
 
 void write_sounds(const fs::path& folder, const std::vector<std::string>& who, const std::vector<NamedSound>& sounds) {

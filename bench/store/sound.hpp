@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,9 +23,14 @@ Sound sound_of(std::span<const double> signal, double rate);
 std::string wav_of(const Sound&);                           // of a .wav file; its peak is not in it
 Sound read_wav(const std::filesystem::path&, double peak);  // throws UsageError
 
-// For ears: at most `longest` seconds, its mean taken away, the ends faded, its root mean square `level` (of full scale 1).
-Sound levelled(const Sound&, double level, double longest);
-double loudest_level(const Sound&);  // that it can be given with its peaks within 0.9 of full scale
+// What a sound file of one channel holds, in the unit that its samples are in: floating point as it is, whole numbers of full scale 1.
+struct Signal {
+    double rate = 0;  // [Hz]
+    std::vector<double> samples;
+};
+Signal read_signal(const std::filesystem::path&);  // throws UsageError
+Signal read_signal(const std::filesystem::path&,
+                   const std::function<void(const std::string& why)>& refuse);  // which throws: "which has 2 channels"
 
 struct NamedSound {
     std::vector<std::string> who;  // the cell columns

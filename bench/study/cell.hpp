@@ -4,15 +4,50 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "analysis/statistics.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/sound.hpp"
 #include "bench/study/errors.hpp"
-#include "bench/study/summary.hpp"
-#include "schemes/scheme.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari::bench::study {
+
+// What a run has to say of itself beside its trace.
+struct Summary {
+    std::string scheme, scene;
+    double rate;  // [Hz]; NaN for a continuous-time reference
+    int modes;    // of the first string; interior nodes for a scheme on a grid
+    int dofs;
+    long steps, rows;
+    double duration;                                    // simulated [s]: up to the last valid row
+    double wall_seconds, ns_per_step, times_real_time;  // NaN where there is nothing to divide
+    double processor_seconds = 0;                       // of an accuracy run
+    Status status;
+    double energy_residual_per_step, energy_residual_accumulated;  // relative to the largest stored energy; NaN unless probed
+    double smallest_contact_force, largest_contact_force;          // [N]; NaN where the scheme does not say
+    double deepest_penetration;                                    // [m]
+    double energy_gain;           // the largest excess of stored energy over the ledger, of the energy that was there (analysis/energy.hpp)
+    double largest_displacement;  // of the displacement taps: |y| over sqrt(E L/(2T)), what that energy could make; NaN where there is none
+    std::vector<Fact> facts;      // the others
+};
+
+Summary summary_of(const Descriptor&, const Scene&, const Settings&, const Run&);
+
+// The value of a fact, NaN where the scheme does not report it. Where each of several strings has its own: the least of smallest contact
+// forces, of any other the largest.
+double fact(const std::vector<Fact>&, const std::string& name);
+inline double fact(const std::vector<Fact>& all, const FactName& known) {
+    return fact(all, known.name);
+}
+
+struct Timing {                                                     // what a clock said of a cell (cost.hpp)
+    Spread wall{};                                                  // of the timed runs [s], of the whole scene or up to the failure
+    Spread processor{};                                             // the same in processor time [s], the drift of the machine taken off
+    double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline
+    store::Stamp stamp{};                                           // of the machine
+};
 
 struct Cell {
     const Descriptor* scheme;
@@ -23,13 +58,10 @@ struct Cell {
     Errors errors{};        // from the scene's own motion (truth.hpp)
     Errors in_model{};      // from that of a string with as many modes: errors of the scheme alone; empty where none was run
     store::Sound sound{};   // of the headline's nut tap, where the run reached its end and the study wants to hear it
-    Spread wall{};          // of the timed runs [s], of the whole scene or up to the failure
-    Spread processor{};     // the same in processor time [s], the drift of the machine taken off (cost.cpp)
-    double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline, see cost.hpp
-    store::Stamp stamp{};                                           // of the machine that timed it
-    bool searched = false;                                          // its modes or its rate were not named
-    bool added = false;                                             // more modes than it takes unasked
-    bool needed = true;                                             // false: run over the headline's window alone, and not timed
+    Timing clock{};
+    bool searched = false;  // its modes or its rate were not named
+    bool added = false;     // more modes than it takes unasked
+    bool needed = true;     // false: run over the headline's window alone, and not timed
     bool ran() const { return failure.empty(); }
     int modes() const { return ran() ? summary.modes : settings.modes; }
     std::string status() const;  // as tables have it: "ok", "diverged", "not_converged", "not_needed", or its failure

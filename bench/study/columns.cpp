@@ -1,4 +1,5 @@
 #include "bench/study/columns.hpp"
+#include "bench/study/judgement.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -72,36 +73,38 @@ const std::vector<Declared>& declared() {
          [](F f) { return f.ran() ? names_of(flags_of(f.summary())) : std::string(); }},
         {{"{m}", "1, s, dB, Hz", Rule::error, "each error, of the headline's tap"}, [](F f) { return number(f.in(f.cell().errors)); }},
         {{"cost_s_per_s", "1", Rule::clock, "computing time per second of sound: median of the timed runs"},
-         [](F f) { return *f.untimed() ? f.untimed() : number(f.clock(f.cell().wall.median) / f.seconds()); }},
-        {{"cost_lower", "1", Rule::clock, "its quartiles"}, [](F f) { return number(f.clock(f.cell().wall.lower) / f.seconds()); }},
-        {{"cost_upper", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().wall.upper) / f.seconds()); }},
+         [](F f) { return *f.untimed() ? f.untimed() : number(f.clock(f.cell().clock.wall.median) / f.seconds()); }},
+        {{"cost_lower", "1", Rule::clock, "its quartiles"}, [](F f) { return number(f.clock(f.cell().clock.wall.lower) / f.seconds()); }},
+        {{"cost_upper", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().clock.wall.upper) / f.seconds()); }},
         {{"processor_s_per_s", "1", Rule::clock,
           "the same in processor time. A slow-down that all samples of a round at one rate share counts as drift of the machine and is "
           "subtracted"},
-         [](F f) { return number(f.clock(f.cell().processor.median) / f.seconds()); }},
-        {{"processor_lower", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().processor.lower) / f.seconds()); }},
-        {{"processor_upper", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().processor.upper) / f.seconds()); }},
-        {{"wall_seconds", "s", Rule::clock, "of the whole run"}, [](F f) { return number(f.clock(f.cell().wall.median)); }},
-        {{"wall_seconds_lower", "s", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().wall.lower)); }},
-        {{"wall_seconds_upper", "s", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().wall.upper)); }},
+         [](F f) { return number(f.clock(f.cell().clock.processor.median) / f.seconds()); }},
+        {{"processor_lower", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().clock.processor.lower) / f.seconds()); }},
+        {{"processor_upper", "1", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().clock.processor.upper) / f.seconds()); }},
+        {{"wall_seconds", "s", Rule::clock, "of the whole run"}, [](F f) { return number(f.clock(f.cell().clock.wall.median)); }},
+        {{"wall_seconds_lower", "s", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().clock.wall.lower)); }},
+        {{"wall_seconds_upper", "s", Rule::clock, ""}, [](F f) { return number(f.clock(f.cell().clock.wall.upper)); }},
         {{"ns_per_step", "ns", Rule::clock, "`wall_seconds` over the steps"},
          [](F f) {
-             return number(f.summary().steps > 0 ? f.clock(f.cell().wall.median) * 1e9 / static_cast<double>(f.summary().steps)
+             return number(f.summary().steps > 0 ? f.clock(f.cell().clock.wall.median) * 1e9 / static_cast<double>(f.summary().steps)
                                                  : store::nan);
          }},
         {{"times_real_time", "1", Rule::clock, "1 / `cost_s_per_s`"},
-         [](F f) { return number(f.seconds() / f.clock(f.cell().wall.median)); }},
+         [](F f) { return number(f.seconds() / f.clock(f.cell().clock.wall.median)); }},
         {{"worst_block_of_deadline", "1", Rule::clock,
           "worst-case load: computing time of the slowest block of 64 rows over the time that those rows sound, the best of all timed "
           "runs. "
           "Above 1 a player would stutter"},
-         [](F f) { return number(f.clock(f.cell().worst_block)); }},
+         [](F f) { return number(f.clock(f.cell().clock.worst_block)); }},
         {{"repeats", "", Rule::clock, "how many samples the clock took"},
-         [](F f) { return count(f.cell().wall.count, f.ran() && f.record.timed()); }},
+         [](F f) { return count(f.cell().clock.wall.count, f.ran() && f.record.timed()); }},
         {{"machine", "", Rule::clock, "what timed it: costs compare on one kind of machine alone"},
-         [](F f) { return f.ran() ? f.cell().stamp.name : std::string(); }},
-        {{"load", "", Rule::clock, "of that machine while it did"}, [](F f) { return f.ran() ? f.cell().stamp.load : std::string(); }},
-        {{"governor", "", Rule::clock, "of its processors' clock"}, [](F f) { return f.ran() ? f.cell().stamp.governor : std::string(); }},
+         [](F f) { return f.ran() ? f.cell().clock.stamp.name : std::string(); }},
+        {{"load", "", Rule::clock, "of that machine while it did"},
+         [](F f) { return f.ran() ? f.cell().clock.stamp.load : std::string(); }},
+        {{"governor", "", Rule::clock, "of its processors' clock"},
+         [](F f) { return f.ran() ? f.cell().clock.stamp.governor : std::string(); }},
         {{"below_floor", "", Rule::name, "the headline errors that are no larger than their noise floor: a tie with every other such cell"},
          [](F f) { return ties_of(f); }},
         {{"floor_{d}", "as the error", Rule::floor, "noise floor of each headline error"},

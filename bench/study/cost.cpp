@@ -41,7 +41,7 @@ void sample(Timed& t) {
         seconds += r.wall_seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - heard).count();
         const double deadline = options.block_rows / t.cell->settings.tap_rate;
         if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
-            t.cell->worst_block = std::fmin(t.cell->worst_block, r.worst_block / deadline);
+            t.cell->clock.worst_block = std::fmin(t.cell->clock.worst_block, r.worst_block / deadline);
     }
     t.of_processor.push_back((store::processor_seconds() - from) / t.runs);
     t.samples.push_back(seconds / t.runs);
@@ -108,9 +108,9 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
         take_off_drift({from, to}, rounds);
     }
     for (Timed& t : timed) {
-        t.cell->wall = spread_of(t.samples);
-        t.cell->processor = spread_of(t.of_processor);
-        t.cell->stamp = stamp;
+        t.cell->clock.wall = spread_of(t.samples);
+        t.cell->clock.processor = spread_of(t.of_processor);
+        t.cell->clock.stamp = stamp;
     }
 }
 
@@ -129,22 +129,22 @@ Spread spread_in(const Json& j, int count) {
 }
 }  // namespace
 
-std::string clock_json(const KeptClock& c, const std::string& identity) {
+std::string clock_json(const Timing& c, const std::string& identity) {
     return store::kept_text(identity, {{"repeats", c.wall.count},
                                        {"wall_seconds", quoted(c.wall)},
                                        {"processor_seconds", quoted(c.processor)},
                                        {"worst_block", store::text_of(c.worst_block)},
-                                       {"stamp", Json::parse(json_of(c.stamp))}});
+                                       {"stamp", json_of(c.stamp)}});
 }
 
-std::optional<KeptClock> read_clock(const fs::path& path, const std::string& identity) {
+std::optional<Timing> read_clock(const fs::path& path, const std::string& identity) {
     return store::read_kept(path, identity, [](const Json& j) {
-        KeptClock c;
+        Timing c;
         const int repeats = store::whole<int>(j.at("repeats"));
         c.wall = spread_in(j.at("wall_seconds"), repeats);
         c.processor = spread_in(j.at("processor_seconds"), repeats);
         c.worst_block = store::number_of(j.at("worst_block"));
-        c.stamp = store::stamp_of(j.at("stamp").dump());
+        c.stamp = store::stamp_of(j.at("stamp"));
         return c;
     });
 }

@@ -17,7 +17,7 @@ namespace jvari::bench::study {
 // The worst block: the longest of 64 rows over the time those rows sound, in the run where it was shortest, so that it is the scheme's
 // worst and not what the machine did meanwhile. The first block of a run and failed runs do not count.
 //
-// Fills Cell::wall and Cell::worst_block of every cell that was run. A sample of a short run is the mean of as many runs back to back as
+// Fills Cell::clock of every cell that was run. A sample of a short run is the mean of as many runs back to back as
 // last 20 ms; a cell that takes longer than 10 s for all its repeats gets fewer, two at least.
 struct Contender {
     Cell* cell;
@@ -29,18 +29,11 @@ void time_cells(const std::vector<Contender>&, int repeats, const store::Listene
 // ---- What a clock said of a job, kept apart from its numbers: those are of the program, this is of the program and of a machine. One file
 // per job and kind of machine, FOLDER/<id>.<machine>.clock.
 
-struct KeptClock {
-    Spread wall{};  // [s]
-    Spread processor{};
-    double worst_block = 0;
-    store::Stamp stamp;
-};
+std::string clock_json(const Timing&, const std::string& identity);
+std::optional<Timing> read_clock(const std::filesystem::path&, const std::string& identity);  // nothing where it is not whole
+std::string clock_file(const Job&, const store::Stamp&);                                      // its name in the folder of cells
 
-std::string clock_json(const KeptClock&, const std::string& identity);
-std::optional<KeptClock> read_clock(const std::filesystem::path&, const std::string& identity);  // nothing where it is not whole
-std::string clock_file(const Job&, const store::Stamp&);                                         // its name in the folder of cells
-
-using Clocks = std::map<std::string, KeptClock>;                                                      // by the stamp's name
+using Clocks = std::map<std::string, Timing>;                                                         // by the stamp's name
 std::vector<Clocks> clocks_in(const std::filesystem::path& folder, const Plan&, const store::Rows&);  // of each of these cells
 
 // The machine whose costs a set shows: one that timed all of these cells, this one before others; else the one that timed most. "" of none.

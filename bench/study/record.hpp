@@ -26,7 +26,7 @@ struct Record {
     Against against;
     Levels levels;                             // of the spectrogram; none where it was not asked for
     std::map<std::string, store::Table> rows;  // of each facet that makes rows and was asked for
-    bool timed() const { return cell.wall.count > 0; }
+    bool timed() const { return cell.clock.wall.count > 0; }
 };
 
 // Without what the clock said: that is kept apart (cost.hpp).

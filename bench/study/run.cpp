@@ -64,13 +64,6 @@ void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, Refe
         [&](std::size_t k) { return what_of(plan.jobs[missing[k]]); });
 }
 
-void show_clock(Cell& cell, const KeptClock& clock) {
-    cell.wall = clock.wall;
-    cell.processor = clock.processor;
-    cell.worst_block = clock.worst_block;
-    cell.stamp = clock.stamp;
-}
-
 // Jobs of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike. Where one of them has
 // no clock of the machine that timed the others, all are timed here.
 std::vector<Clocks> time_set(const Plan& plan, const store::Rows& indices, const Kept& keep, Study& into, const store::Listener& listener) {
@@ -92,9 +85,8 @@ std::vector<Clocks> time_set(const Plan& plan, const store::Rows& indices, const
     }
     time_cells(contenders, plan.jobs[indices.front()].repeats, listener);
     for (std::size_t t = 0; t < todo.size(); ++t) {
-        const Cell& c = cells[t];
         const Job& job = plan.jobs[indices[todo[t]]];
-        const KeptClock clock{c.wall, c.processor, c.worst_block, c.stamp};
+        const Timing& clock = cells[t].clock;
         if (!keep.folder.empty()) store::write_fresh(keep.folder / clock_file(job, clock.stamp), clock_json(clock, job.identity));
         clocks[todo[t]].insert_or_assign(clock.stamp.name, clock);
         ++into.timed;
@@ -108,7 +100,7 @@ void show_clocks(const store::Rows& indices, const std::vector<Clocks>& clocks, 
     for (std::size_t k = 0; k < indices.size(); ++k) {
         if (clocks[k].empty()) continue;
         const auto own = clocks[k].find(machine);
-        show_clock(into.records[indices[k]].cell, own == clocks[k].end() ? clocks[k].begin()->second : own->second);
+        into.records[indices[k]].cell.clock = own == clocks[k].end() ? clocks[k].begin()->second : own->second;
     }
 }
 

@@ -14,6 +14,7 @@
 #include "bench/store/system/time_limit.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/cost.hpp"
+#include "bench/study/judgement.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 
@@ -219,7 +220,7 @@ double Judge::cost(const Model& m) {
     if (const auto kept = request_.out.empty() ? std::nullopt : study::read_clock(file, job.identity))
         return costs_[job.id] = kept->processor.median / scene_.duration;
     const double cost = costs_[job.id] = cost_of_(m, job.point->scene);
-    study::KeptClock clock;
+    study::Timing clock;
     clock.processor = clock.wall = spread_of(std::vector{cost * scene_.duration});
     clock.stamp = stamp_;
     if (!request_.out.empty()) store::write_fresh(file, study::clock_json(clock, job.identity));
@@ -239,7 +240,7 @@ std::vector<Spread> Judge::costs(const std::vector<Model>& models, int rounds) {
     study::time_cells(contenders, rounds, listener_);
     std::vector<Spread> spreads;
     for (const study::Cell& c : cells) {
-        Spread s = c.processor;
+        Spread s = c.clock.processor;
         for (double* x : {&s.median, &s.lower, &s.upper}) *x /= scene_.duration;
         spreads.push_back(s);
     }

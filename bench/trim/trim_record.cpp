@@ -99,7 +99,7 @@ std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
     return text + write_scene(named);
 }
 
-std::string manifest_of(const Trimmed& t, const Judge& judge, const Request& r) {
+Json manifest_of(const Trimmed& t, const Judge& judge, const Request& r) {
     Json verified = Json::array(), truths = Json::array();
     for (const Verified& v : t.verified)
         verified.push_back({{"start", v.said},
@@ -115,7 +115,7 @@ std::string manifest_of(const Trimmed& t, const Judge& judge, const Request& r) 
                           {"certificate", number(x.certificate)},
                           {"floor", number(x.floor)},
                           {"horizon_s", number(x.horizon)}});
-    Json manifest = Json::parse(store::made_by());
+    Json manifest = store::made_by();
     manifest.update({{"suite", "trim " + t.whole.name},
                      {"source", t.whole.source},
                      {"asked",
@@ -132,7 +132,7 @@ std::string manifest_of(const Trimmed& t, const Judge& judge, const Request& r) 
                      {"judged", t.judged},
                      {"read_back", t.read_back},
                      {"not_tried", t.not_tried}});
-    return store::indented(manifest);
+    return manifest;
 }
 
 }  // namespace jvari::bench::trim

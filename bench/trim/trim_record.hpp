@@ -10,6 +10,6 @@ store::Table needs_table(const Trimmed&, const Judge&);
 store::Table path_table(const Trimmed&, const Judge&);
 std::string command_of(const Trimmed&, const std::string& file);  // that runs the trimmed model: "jvari run trimmed.toml --scheme ..."
 std::string trimmed_toml(const Trimmed&, const Judge&);
-std::string manifest_of(const Trimmed&, const Judge&, const Request&);  // JSON
+nlohmann::ordered_json manifest_of(const Trimmed&, const Judge&, const Request&);
 
 }  // namespace jvari::bench::trim

@@ -157,7 +157,7 @@ std::string cost_json_of(const KeptCertificate& kept) {
         entries.push_back({{"reference", e.reference},
                            {"options", options_json(e.options)},
                            {"wall_seconds", e.reason.empty() ? e.wall_seconds : store::nan}});
-    return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", Json::parse(store::made_by())}}.dump(
+    return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", store::made_by()}}.dump(
                1) +
            "\n";
 }

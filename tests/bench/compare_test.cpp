@@ -11,8 +11,9 @@
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/fits.hpp"
 #include "bench/compare/record/pareto.hpp"
+#include "bench/study/cell.hpp"
 #include "bench/study/columns.hpp"
-#include "bench/study/summary.hpp"
+#include "bench/study/judgement.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "scenes/modes.hpp"
@@ -196,7 +197,7 @@ TEST(Cheapest, AControlIsNamedOnlyWhereItCompetes) {
     EXPECT_EQ(t.at(0, "scheme"), "modal_two_point");  // 10 %
     EXPECT_EQ(t.at(0, "ties"), "");
     EXPECT_EQ(t.at(2, "status"), "none");  // 0.1 %
-    const bench::store::Table all = bench::compare::cheapest_of(cells, "", bench::compare::Controls::compete);
+    const bench::store::Table all = bench::compare::cheapest_of(cells, bench::compare::Controls::compete);
     EXPECT_EQ(all.at(0, "scheme"), "modal_two_point_trapezoidal");
     EXPECT_EQ(all.at(2, "scheme"), "modal_two_point_trapezoidal");
 }
@@ -336,9 +337,9 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
         const double x = 0.01 * static_cast<double>(tap + 1);
         record.against.trust.figure.push_back({x, x + 0.001, x + 0.002});
     }
-    cell.wall = {5, 0.02, 0.016, 0.026, 0.01, 0.03};
-    cell.processor = {5, 0.018, 0.015, 0.025, 0.01, 0.03};
-    cell.worst_block = 0.4;
+    cell.clock.wall = {5, 0.02, 0.016, 0.026, 0.01, 0.03};
+    cell.clock.processor = {5, 0.018, 0.015, 0.025, 0.01, 0.03};
+    cell.clock.worst_block = 0.4;
     record.cell = cell;
     plan.jobs.push_back({&point, cell});
     const bench::store::Table t = bench::compare::with_front(bench::study::table_of(plan, {record}));

@@ -6,7 +6,7 @@
 
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/record/fits.hpp"
-#include "bench/study/summary.hpp"
+#include "bench/study/cell.hpp"
 #include "bench/suite/facet.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"

@@ -90,8 +90,8 @@ TEST(Outcome, EnergyThatTheLedgerDoesNotExplainIsAGain) {
     m.energy(1, 50) = 1;
     EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     m.energy(0, 80) = 2 + 4e-6;
-    EXPECT_EQ(m.verdict(), bench::study::Verdict::energy_gaining);  // 2e-6 of the 2 J that were there
-    EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::sound);
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::energy_gaining);        // 2e-6 of the 2 J that were there
+    EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::flagged);  // no gain to speak of, and an open ledger
     m.energy(0, 80) = 2.04;
     EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::energy_gaining);
 }
@@ -99,6 +99,8 @@ TEST(Outcome, EnergyThatTheLedgerDoesNotExplainIsAGain) {
 TEST(Outcome, EnergyThatIsLostIsNoGain) {
     MadeUp m;
     for (int n = 1; n < 100; ++n) m.energy(0, n) = 0.5;
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::flagged);  // the ledger does not say where it went
+    m.energy(2, 1) = 0.5;
     EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
 }
 
@@ -163,6 +165,19 @@ TEST(Outcome, ATenthOfErrorIsInaccurate) {
     for (int n = 200; n < 300; ++n) m.run.trace.tap[n] = m.truth.tap[n] * 1.11;
     EXPECT_EQ(m.verdict(), bench::study::Verdict::inaccurate);
     EXPECT_EQ(m.judgement(Balance::exact, false).verdict, bench::study::Verdict::sound);  // nothing to be compared with
+}
+
+TEST(Outcome, WhatAComparisonFlagsIsNeverSound) {
+    const auto sound_with = [](auto change) {
+        MadeUp m;
+        change(m);
+        return m.verdict() == bench::study::Verdict::sound;
+    };
+    EXPECT_TRUE(sound_with([](MadeUp&) {}));
+    EXPECT_FALSE(sound_with([](MadeUp& m) { m.run.facts.push_back({"psi_out_of_contact", 2e-9, "1"}); }));
+    EXPECT_FALSE(sound_with([](MadeUp& m) { m.run.facts.push_back({"modes_above_nyquist", 1, ""}); }));
+    EXPECT_FALSE(sound_with([](MadeUp& m) { m.run.facts[0].value = -1; }));                    // adhesion
+    EXPECT_FALSE(sound_with([](MadeUp& m) { m.energy(2, 50) = 2e-6, m.energy(1, 50) = 0; }));  // energy
 }
 
 TEST(Outcome, TheGravestNameWins) {

@@ -26,13 +26,6 @@ bench::sound::Played played(const std::vector<double>& force, double rate) {
     return bench::sound::levelled({bench::sound::without_body(force, rate)});
 }
 
-double rms_of(const bench::store::Sound& s) {
-    double sum = 0, mean = 0;
-    for (double v : s.samples) mean += v / static_cast<double>(s.samples.size());
-    for (double v : s.samples) sum += (v - mean) * (v - mean);
-    return std::sqrt(sum / static_cast<double>(s.samples.size())) / 32767;
-}
-
 // ---- What a player plays
 
 double gain_at(double hertz) {  // of what is played, at 44.1 kHz
@@ -138,26 +131,6 @@ TEST(Sounds, AFileGivesItsSamplesBack) {
     std::filesystem::remove(name);
     EXPECT_EQ(back.samples, s.samples);
     EXPECT_EQ(back.rate, 48000);
-}
-
-TEST(Sounds, LoudAndQuietAreHeardAtOneLevelAndWithoutTheirMean) {
-    const bench::store::Sound loud = bench::store::sound_of(sine(1, 0, 44100), 44100),
-                              quiet = bench::store::sound_of(sine(1e-3, 5e-3, 44100), 44100);
-    EXPECT_GT(rms_of(loud), 5 * rms_of(quiet));  // its mean takes the place of its swing
-    const double level = std::fmin(bench::store::loudest_level(loud), bench::store::loudest_level(quiet));
-    EXPECT_NEAR(level, 0.9 / std::sqrt(2), 1e-3);
-    const bench::store::Sound a = bench::store::levelled(loud, level, 10), b = bench::store::levelled(quiet, level, 0.5);
-    EXPECT_EQ(a.samples.size(), 44100u);
-    EXPECT_EQ(b.samples.size(), 22050u);
-    EXPECT_NEAR(rms_of(a), level, 0.005 * level);
-    EXPECT_NEAR(rms_of(b), level, 0.01 * level);  // the fades of 5 ms take a little
-    long sum = 0;
-    int most = 0;
-    for (const int v : b.samples) sum += v, most = std::max(most, std::abs(v));
-    EXPECT_LT(std::abs(static_cast<double>(sum)) / 22050 / 32767, 1e-3);  // it was five times the swing
-    EXPECT_NEAR(most, 0.9 * 32767, 40);
-    EXPECT_EQ(b.samples.front(), 0);
-    EXPECT_EQ(b.samples.back(), 0);
 }
 
 }  // namespace

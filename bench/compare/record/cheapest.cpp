@@ -133,7 +133,7 @@ bool may_win(const store::Table& cells, std::size_t row, Controls controls) {
     return trusted(cells, row) && (controls == Controls::compete || std::ranges::none_of(schemes(), is_this));
 }
 
-store::Table cheapest_of(const store::Table& cells, const std::string& scene, Controls controls) {
+store::Table cheapest_of(const store::Table& cells, Controls controls) {
     const std::vector<std::string> swept = store::with_machine(cells, store::swept_keys(cells));
     store::Table t;
     t.columns = {"scene"};
@@ -148,7 +148,7 @@ store::Table cheapest_of(const store::Table& cells, const std::string& scene, Co
         for (const std::size_t i : group)
             if (may_win(cells, i, controls) && cells.number(i, "cost_s_per_s") > 0) rows.push_back(i);
         if (rows.empty()) continue;  // nothing was timed, or this is the group of those that were not
-        std::vector<std::string> key{cells.column("scene") < 0 ? scene : cells.at(rows.front(), "scene")};
+        std::vector<std::string> key{cells.at(rows.front(), "scene")};
         for (const std::string& name : swept) key.push_back(cells.at(rows.front(), name));
         for (const Target& target : targets()) {
             const Goal goal{target.waveform ? headline_error(cells, rows) : "third_octave_db", target.most};

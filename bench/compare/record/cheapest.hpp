@@ -18,7 +18,7 @@ namespace jvari::bench::compare {
 // Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene. A control is known to be wrong
 // somewhere: it is named only where it was asked to compete.
 enum class Controls { stand_beside, compete };
-store::Table cheapest_of(const store::Table& cells, const std::string& scene = "", Controls = Controls::stand_beside);
+store::Table cheapest_of(const store::Table& cells, Controls = Controls::stand_beside);
 bool may_win(const store::Table& cells, std::size_t row, Controls);  // trusted, and no control that stands beside
 
 std::string goal_name(const store::Table& cheapest, std::size_t row);  // "10 %", "3 dB"

@@ -39,7 +39,7 @@ store::Table cells_of(const Comparison& c) {
     return with_front(study::table_of(c.plan, c.outcome.records));
 }
 
-std::string manifest_of(const Comparison& c, const CompareRequest& r) {
+Json manifest_of(const Comparison& c, const CompareRequest& r) {
     const store::Table cells = cells_of(c);
     Json facts = Json::object(), floor = Json::object(), taps = Json::array(), schemes = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
@@ -82,7 +82,7 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                      {"strings", tunings},
                      {"taps", taps},
                      {"text", write_scene(c.scene())}};
-    Json manifest = Json::parse(store::made_by());
+    Json manifest = store::made_by();
     manifest.update({{"scene", scene},
                      {"tap_rate", c.reference.settings.tap_rate},
                      {"schemes", schemes},
@@ -93,7 +93,7 @@ std::string manifest_of(const Comparison& c, const CompareRequest& r) {
                        {"error", headline_error(cells, store::all_rows(cells))}}},
                      {"noise_floor", floor},
                      {"controls", r.controls}});
-    return store::indented(manifest);
+    return manifest;
 }
 
 }  // namespace jvari::bench::compare

@@ -12,7 +12,7 @@
 namespace jvari::bench::compare {
 
 store::Table cells_of(const Comparison&);
-std::string manifest_of(const Comparison&, const CompareRequest&);  // JSON
+nlohmann::ordered_json manifest_of(const Comparison&, const CompareRequest&);
 
 // sounds/ and sounds.csv: the reference, and of each scheme its lowest and its highest rate; the rates between while all are small.
 void write_sounds(const Comparison&, const std::filesystem::path& folder);

@@ -8,10 +8,9 @@
 namespace jvari::bench::compare {
 
 // Columns scene, <swept keys>, scheme, options, modes, tap, window, order, half_width (of the 95 % interval; empty with two points),
-// points, from_hz, to_hz. A row per series of two rates or more. Left out of a fit: failed cells, errors of 1 or more (nothing of the
-// waveform is right) and errors no larger than their noise floor or than what the reference is certain to. `modes` is empty where it
-// changes with the rate, as a grid does. `scene`: its name where the rows do not say (compare's).
-store::Table convergence_of(const store::Table& cells, const std::string& scene = "");
+// points, from_hz, to_hz. A row per series of two rates or more that can tell (fall_over_rates). `modes` is empty where it changes with
+// the rate, as a grid does.
+store::Table convergence_of(const store::Table& cells);
 
 // ---- What the cost of a step grows with, and what each element of a scene adds to it: the timed rows of cells.csv, compared with each
 // other.

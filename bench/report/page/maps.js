@@ -1,6 +1,6 @@
 // What becomes of each scheme over a plane of two keys (maps.csv): a tile per run, from half-way to its neighbour on the left to half-way to that on the
 // right; with the refined boundaries and theory's (boundaries.csv). And what a trimmed scene needs (path.csv, needs.csv).
-const outcomes = {sound: ["#009e73", "circle"], unjudged: ["#882255", "wedge"], inaccurate: ["#e69f00", "square"], adhesive: ["#cc79a7", "diamond"], energy_gaining: ["#0072b2", "triangle-up"],
+const outcomes = {sound: ["#009e73", "circle"], unjudged: ["#882255", "wedge"], flagged: ["#999933", "triangle-left"], inaccurate: ["#e69f00", "square"], adhesive: ["#cc79a7", "diamond"], energy_gaining: ["#0072b2", "triangle-up"],
                   not_converged: ["#56b4e9", "triangle-down"], diverged: ["#d55e00", "cross"], refused: ["#8c8c8c", "triangle-right"]};
 
 // An axis of a map: of numbers where all are some, and logarithmic where all are positive and span more than five to one.
