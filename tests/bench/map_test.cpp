@@ -180,7 +180,7 @@ TEST(Maps, TrueEnergyOfTheImpulseInvariantControlIsGainedBelowTheRateOfEqualShar
     const bench::map::Boundary& b = run.boundaries[0];
     EXPECT_EQ(b.y, "133");
     EXPECT_EQ(b.low, bench::study::Verdict::energy_gaining);
-    EXPECT_EQ(b.high, bench::study::Verdict::sound);
+    EXPECT_EQ(b.high, bench::study::Verdict::flagged);  // its ledger is open there too
     EXPECT_LT(std::abs(b.relative_difference()), 0.05) << b.theory;
 }
 
@@ -218,8 +218,8 @@ TEST(Maps, WhereAnExplicitSchemeWithItsComplianceMatchedLosesLastingContactIsKno
     for (const bench::map::Boundary& b : run.boundaries)
         if (std::isfinite(b.theory)) {
             ++compared;
-            EXPECT_NE(b.low, bench::study::Verdict::sound);
-            EXPECT_EQ(b.high, bench::study::Verdict::sound);
+            EXPECT_FALSE(is_stable(b.low));
+            EXPECT_TRUE(is_stable(b.high));
             EXPECT_LT(std::abs(b.relative_difference()), 0.005) << b.scheme->name << ": " << b.theory;
         }
     EXPECT_EQ(compared, 2);
