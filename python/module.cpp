@@ -185,6 +185,6 @@ PYBIND11_MODULE(jvari, m) {
     m.def("plugin", &python::add_plugin, py::arg("path"), "Loads schemes from a shared object; their names are known from then on.");
     m.def("schemes", &python::scheme_names, "Names of schemes and references, plugins' among them.");
     m.def(
-        "made_by", [] { return python::parsed(bench::store::made_by().dump()); },
+        "made_by", [] { return python::parsed(bench::store::indented(bench::store::made_by())); },
         "What results depend on: program, compiler, flags, vector instructions, machine, plugins; as a manifest begins.");
 }

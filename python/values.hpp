@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/compare/request.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
@@ -68,7 +69,7 @@ inline py::object parsed(const std::string& json) {
     return py::module_::import("json").attr("loads")(json);
 }
 inline py::object rows_of(const bench::store::Table& t) {
-    return parsed(bench::store::rows_json(t).dump());
+    return parsed(bench::store::indented(bench::store::rows_json(t)));
 }
 
 using Column = py::array_t<double>;

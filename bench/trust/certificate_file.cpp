@@ -157,9 +157,7 @@ std::string cost_json_of(const KeptCertificate& kept) {
         entries.push_back({{"reference", e.reference},
                            {"options", options_json(e.options)},
                            {"wall_seconds", e.reason.empty() ? e.wall_seconds : store::nan}});
-    return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", store::made_by()}}.dump(
-               1) +
-           "\n";
+    return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", store::made_by()}}.dump(1) + "\n";
 }
 
 std::optional<KeptCertificate> read_certificate(const std::filesystem::path& path, std::string& why) {
