@@ -11,6 +11,7 @@
 #include "bench/compare/record/fits.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/columns.hpp"
 

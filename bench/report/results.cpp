@@ -136,10 +136,10 @@ Results read_results(const fs::path& folder) {
         throw store::UsageError(fmt::format("cannot read {}, and there is no maps.csv", (folder / "cells.csv").string()));
     read_manifest(r);
     r.tables["cells"] = read_cells(folder);
-    for (const char* name : {"dispersion", "convergence", "scaling", "maps", "boundaries", "sounds", "motion", "path", "needs"})
+    for (const char* name : {"dispersion", "convergence", "scaling", "maps", "boundaries", "sounds", "motion", "path", "needs", "claims"})
         r.tables[name] = read_table(folder / (std::string(name) + ".csv"));
     for (auto& [name, table] : r.tables)
-        if (name != "path" && name != "needs" && !table.columns.empty()) name_rows(table, r.name);
+        if (name != "path" && name != "needs" && name != "claims" && !table.columns.empty()) name_rows(table, r.name);
     r.cells = r.tables["cells"];
     r.sounds = r.tables["sounds"];
     return r;

@@ -1,4 +1,4 @@
-#include "bench/command/list_keys.hpp"
+#include "bench/command/list/list_keys.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "bench/command/list_seam.hpp"
+#include "bench/command/list/list_seam.hpp"
 
 #include "bench/study/columns.hpp"
 #include "schemes/driver/pairings.hpp"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/console.hpp"
-#include "bench/command/list_keys.hpp"
-#include "bench/command/list_seam.hpp"
+#include "bench/command/list/list_keys.hpp"
+#include "bench/command/list/list_seam.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/json.hpp"
