@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <variant>
 #include <vector>
 
 #include "reference/references.hpp"
 #include "scenes/barrier.hpp"
-#include "scenes/excitation.hpp"
-#include "scenes/modes.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/wording.hpp"
 #include "schemes/controls.hpp"
-#include "schemes/making.hpp"
+#include "schemes/open/problem.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/vector_instructions.hpp"
 
@@ -31,6 +30,28 @@ std::string text_of(const char* s) {
 std::string text_of(bool b) {
     return b ? "true" : "false";
 }
+std::string text_of(std::int64_t n) {
+    return std::to_string(n);
+}
+
+template <class List, class Of>
+std::string array(const List& list, Of of) {
+    std::string inside;
+    for (const auto& one : list) inside += (inside.empty() ? "" : ",") + of(one);
+    return "[" + inside + "]";
+}
+std::string text_of(const Matrix& m) {
+    const auto row = [&m](std::int64_t r) {
+        return array(std::span(m.data + r * m.columns, static_cast<std::size_t>(m.columns)), [](double x) { return text_of(x); });
+    };
+    if (m.rows < 0) return row(0);
+    std::string rows;
+    for (std::int64_t r = 0; r < m.rows; ++r) rows += (r ? "," : "") + row(r);
+    return "[" + rows + "]";
+}
+std::string text_of(const Words& w) {
+    return array(std::span(w.data, static_cast<std::size_t>(w.count)), quote);
+}
 
 class Object {  // {"name": value, ...}
 public:
@@ -47,13 +68,6 @@ public:
 private:
     std::string inside_;
 };
-
-template <class List, class Of>
-std::string array(const List& list, Of of) {
-    std::string inside;
-    for (const auto& one : list) inside += (inside.empty() ? "" : ",") + of(one);
-    return "[" + inside + "]";
-}
 
 std::string scheme_text(const Descriptor& d, bool reference) {
     const auto option = [](const Option& o) {
@@ -155,47 +169,13 @@ std::string scene_text(const Scene& scene) {
         .text();
 }
 
-// The string as arrays, for a scheme typed into the page: what a modal scheme with contacts of lumped barriers and a thread begins with.
+// The string as arrays, for a scheme typed into the page: the members that every reader of arrays gets.
 std::string problem_text(const Scene& scene, const Settings& settings) {
-    if (scene.strings.size() != 1) throw Refusal("the arrays are of one string; this scene has " + std::to_string(scene.strings.size()));
-    const String& s = scene.strings[0];
-    const Modes modes = modes_of(s, settings);
-    const auto numbers = [](const std::vector<double>& v) { return array(v, [](double x) { return text_of(x); }); };
-    std::vector<LumpedBarrier> contacts;
-    for (const Barrier& b : s.barriers) {
-        if (!std::holds_alternative<LumpedBarrier>(b)) throw Refusal("the arrays are of barriers that are points; this one is a profile");
-        contacts.push_back(std::get<LumpedBarrier>(b));
-    }
-    const auto of = [&](auto value) { return array(contacts, [&](const LumpedBarrier& b) { return text_of(value(b)); }); };
-    const auto weights = [&](double x, double width) { return numbers(footprint_weights(modes, x, width)); };
-    const auto tap = [&](const Tap& t) {
-        if (t.quantity == Quantity::nut_force) return numbers(nut_force_weights(modes, s));
-        return numbers(lacks(s, t.quantity) || t.position > 0 ? displacement_weights(modes, t.position)
-                                                              : std::vector<double>(modes.beta.size()));
-    };
-    const double steps = steps_per_row(settings), rows = static_cast<double>(rows_of(scene, settings));
-    std::vector<double> pluck;
-    if (s.pluck)
-        for (double n = 0; n <= (rows - 1) * steps && n / settings.sample_rate <= s.pluck->start + s.pluck->duration; ++n)
-            pluck.push_back(force(*s.pluck, n / settings.sample_rate));
-    const Thread thread = s.thread.value_or(Thread{});
-    const std::string none = numbers(std::vector<double>(modes.beta.size()));
+    refuse_beyond_arrays(scene);
     Object o;
-    o.with("sample_rate", settings.sample_rate).with("tap_rate", settings.tap_rate).with("rows", rows).with("steps_per_row", steps);
-    o.with("modes", static_cast<double>(modes.count())).with("contacts", static_cast<double>(contacts.size()));
-    o.with("threads", s.thread ? 1.0 : 0.0).with("plucks", s.pluck ? 1.0 : 0.0).with("taps", static_cast<double>(scene.taps.size()));
-    o.with("modal_mass", modes.mass).raw("omega0", numbers(modes.omega0)).raw("sigma", numbers(modes.sigma));
-    o.raw("start", numbers(initial_displacement(modes, s)));
-    o.raw("contact_weights", array(contacts, [&](const LumpedBarrier& b) { return weights(b.position, b.width); }));
-    o.raw("contact_stiffness", of([](const LumpedBarrier& b) { return b.stiffness.k; }));
-    o.raw("contact_exponent", of([](const LumpedBarrier& b) { return b.exponent; }));
-    o.raw("contact_height", of([](const LumpedBarrier& b) { return b.height; }));
-    o.raw("thread_weights", s.thread ? weights(thread.position, thread.width) : none);
-    o.with("thread_stiffness", thread.stiffness).with("thread_damping", thread.damping).with("thread_height", thread.height);
-    o.raw("pluck_weights", s.pluck ? weights(s.pluck->position, s.pluck->width) : none).raw("pluck_force", numbers(pluck));
-    o.raw("tap_names", array(scene.taps, [](const Tap& t) { return quote(t.name); }));
-    o.raw("tap_quantities", array(scene.taps, [](const Tap& t) { return quote(name_of(t.quantity)); }));
-    return o.raw("tap_weights", array(scene.taps, tap)).text();
+    const Problem problem(scene, settings);
+    each_member(problem.arrays(), [&o](const char* name, const auto& value) { o.with(name, value); });
+    return o.text();
 }
 
 std::string run_text(const Run& r, double making) {

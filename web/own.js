@@ -2,7 +2,7 @@
 const own_limit = 2000;  // [ms]
 const own_example = `// p holds the string as arrays; return one array of p.rows numbers for each tap.
 // This is the modal two-point scheme with one contact, van Walstijn et al. 2016, eqs 33-48.
-const dt = 1 / p.sample_rate, M = p.modes, g = p.contact_weights[0], c = p.thread_weights;
+const dt = 1 / p.sample_rate, M = p.modes, g = p.contact_weights[0], c = p.threads ? p.thread_weights : g.map(() => 0);
 const a = [], xi = [], y = [...p.start], q = y.map(() => 0), taps = p.tap_names.map(() => []);
 for (let i = 0; i < M; ++i) {
   const w = Math.sqrt(p.omega0[i] ** 2 - p.sigma[i] ** 2), R = Math.exp(-p.sigma[i] * dt), C = Math.cos(w * dt);
