@@ -16,8 +16,10 @@ function chart_cells() {
     return lines.flatMap(([scheme, compliance]) => chart_rates.map(rate => ({scheme, compliance, rate})));
 }
 
-// What is known of an error: the measured one, and the uncertainty of the reference where that is more than a tenth of it.
-const most_of = p => p.uncertainty > 0.1 * p.error ? p.error + p.uncertainty : p.error;
+// What is known of an error e where the reference is uncertain by c, as in the program: at most e + c, at least e - c. Nothing, where c is unknown.
+const most_of = p => Number.isFinite(p.uncertainty) ? p.error + p.uncertainty : Infinity;
+const least_of = p => Number.isFinite(p.uncertainty) ? Math.max(0, p.error - p.uncertainty) : 0;
+const error_text = p => most_of(p) > 1.1 * p.error ? `\u2264 ${percent(most_of(p))}` : percent(p.error);
 const sound_point = p => p.outcome === "ok" && Number.isFinite(p.error);
 const label_of = p => p.scheme + (p.compliance === "matched" ? ", matched" : "");
 function percent(x) {
@@ -28,25 +30,28 @@ function percent(x) {
 const two_digits = x => String(Number(x.toPrecision(2)));
 const time_text = s => s >= 1 ? `${two_digits(s)} s` : s >= 1e-3 ? `${two_digits(1e3 * s)} ms` : `${two_digits(1e6 * s)} µs`;
 
-// The cheapest within each accuracy. Costs of one browser scatter: what costs at most `tie` times as much is named beside it.
-const tie = 1.25;
+// The cheapest within an accuracy, by the rules of `jvari compare`: a tie is another scheme whose quartiles of cost touch those of the cheapest,
+// and a control does not compete. Costs are of this browser, and its clock is coarse.
 function verdict(points, accuracy) {
-    const able = points.filter(p => p.scheme !== "mine" && sound_point(p) && most_of(p) <= accuracy).sort((a, b) => a.cost - b.cost);
-    if (!able.length) return null;
-    const ties = able.filter((p, k) => k && p.cost <= tie * able[0].cost && label_of(p) !== label_of(able[0]));
-    return {best: able[0], ties: ties.filter((p, k) => ties.findIndex(q => label_of(q) === label_of(p)) === k)};
+    const all = points.filter(p => p.scheme !== "mine" && !descriptor(p.scheme)?.control && sound_point(p)).sort((a, b) => a.cost - b.cost);
+    const best = all.find(p => most_of(p) <= accuracy), undecided = p => most_of(p) > accuracy && least_of(p) <= accuracy;
+    const others = which => all.filter(p => p.scheme !== best?.scheme && which(p)).filter((p, k, list) => list.findIndex(q => q.scheme === p.scheme) === k);
+    return {best, ties: best ? others(p => most_of(p) <= accuracy && p.lower <= best.upper) : [], perhaps: others(p => undecided(p) && !(best && p.cost >= best.cost))};
 }
+const run_name = p => `${label_of(p)} at ${p.rate / 1e3} kHz`, run_names = list => list.map(run_name).join("; ");
 
+function answer_of(accuracy, done) {
+    const {best, ties, perhaps} = verdict(chart.points, accuracy);
+    if (!best && !done) return ["…"];
+    if (!best) return perhaps.length ? ["cannot be decided", `the reference is known to ${percent(perhaps[0].uncertainty)} only`, `candidates: ${run_names(perhaps)}`] : ["none"];
+    return [label_of(best), `${best.rate / 1e3} kHz, ${error_text(best)} error, ${time_text(best.cost)} per second in this browser`,
+        ties.length && `a tie with ${run_names(ties)}`, perhaps.length && `perhaps for less ${run_names(perhaps)}`].filter(Boolean);
+}
 function draw_answers(done) {
-    const list = document.getElementById("answers");
-    list.replaceChildren(...[0.1, 0.01, 0.001].map(accuracy => {
-        const v = verdict(chart.points, accuracy), card = element("div", {className: "card"}), say_it = (...texts) => card.append(...texts.map(t => element("p", t.soft ? {className: "soft"} : {}, t.text)));
-        say_it({text: `within ${100 * accuracy} %`, soft: true});
-        if (v) {
-            card.style.borderLeftColor = colour_of(v.best.scheme);
-            say_it({text: label_of(v.best)}, {text: `${v.best.rate / 1e3} kHz, ${most_of(v.best) > v.best.error ? "\u2264 " : ""}${percent(most_of(v.best))} error, ${time_text(v.best.cost)} per second in this browser`, soft: true});
-            if (v.ties.length) say_it({text: `about as fast: ${v.ties.map(label_of).join(", ")}`, soft: true});
-        } else say_it({text: done ? "none of these" : "…"});
+    document.getElementById("answers").replaceChildren(...[0.1, 0.01, 0.001].map(accuracy => {
+        const [found, ...more] = answer_of(accuracy, done), {best} = verdict(chart.points, accuracy), card = element("div", {className: "card"});
+        card.append(element("p", {className: "soft"}, `within ${100 * accuracy} %`), element("p", {}, found), ...more.map(text => element("p", {className: "soft"}, text)));
+        if (best) card.style.borderLeftColor = colour_of(best.scheme);
         return card;
     }));
 }

@@ -96,6 +96,7 @@ const shows = {
         shown.scene = scene;
         if (new_string) shown.reference = shown.verdict = null, sound.buffers.reference = null, chart.own = [];
         chart.coming = [];
+        chart.timed = false;
         say("");
         fill_schemes();
         fill_handles();
@@ -142,10 +143,9 @@ const shows = {
         chart.done = performance.now();
         draw_chart(true);
     },
-    timed({scheme, compliance, rate, cost}) {
-        const point = chart.points.find(p => p.scheme === scheme && p.compliance === compliance && p.rate === rate);
-        if (!point || !(cost < point.cost)) return;
-        point.cost = cost;
+    timed({costs, last}) {
+        for (const p of chart.points) Object.assign(p, costs.find(c => c.scheme === p.scheme && c.compliance === p.compliance && c.rate === p.rate));
+        chart.timed = last;
         draw_chart(true);
     },
     refused({why}) {
@@ -172,11 +172,11 @@ function show_run() {
 
 // ---- Begin.
 
-const needs = () => typeof WebAssembly === "object" && typeof Worker === "function" && typeof DecompressionStream === "function";
-function without_the_module() {
-    say("This browser lacks WebAssembly or workers. These are two recorded sounds of the page's first string; the rest needs a newer browser, or the program: ./demo");
+const lacking = () => ["WebAssembly", "Worker", "DecompressionStream"].filter(name => !(name in window));
+function without_the_module(why) {
+    say(`${why}: below are two recorded sounds of a tanpura string, and the rest needs a newer browser, or the program (./demo).`);
     by_id("recorded").hidden = false;
-    by_id("live").hidden = true;
+    for (const part of document.querySelectorAll("#live, .bar label, .bar button")) part.hidden = true;
 }
 
 function watch_controls() {
@@ -209,7 +209,7 @@ function watch_controls() {
 }
 
 async function begin() {
-    if (!needs()) return without_the_module();
+    if (lacking().length) return without_the_module(`This browser has no ${lacking().join(" and no ")}`);
     read_address(location.hash || window.jvari_address || "");
     fill_choices();
     watch_controls();
@@ -220,7 +220,7 @@ async function begin() {
         client.module = await unpacked(by_id("module").textContent);
         await start_worker();
     } catch (error) {
-        return without_the_module();
+        return without_the_module(`This browser cannot start the module (${error.message})`);
     }
     if (!client.list.schemes.some(d => d.name === state.scheme)) state.scheme = "modal_two_point";
     show_state();

@@ -151,11 +151,11 @@ function draw_graphs() {
             pen.lineWidth = 1.3;
             pen.setLineDash(dash);
             pen.beginPath();
-            const step = Math.max(1, Math.floor(rows / (right - left) / 2));
+            const step = Math.max(1, Math.floor(series.length / (right - left) / 2));
             for (let n = 0; n < series.length; n += step) {
                 let y = series[n];
                 for (let j = n; j < Math.min(n + step, series.length); ++j) if (Math.abs(series[j]) > Math.abs(y)) y = series[j];
-                pen.lineTo(left + (right - left) * n / (rows - 1), bottom - (bottom - top) * Math.max(0, Math.min(1.1, y * times / most)));
+                pen.lineTo(left + (right - left) * n / (series.length - 1), bottom - (bottom - top) * Math.max(0, Math.min(1.1, y * times / most)));
             }
             pen.stroke();
             pen.setLineDash([]);

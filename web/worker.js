@@ -54,23 +54,24 @@ async function reference_of(state, scene, go_on) {
     forget();
     if (!scene.reference) return null;
     const {nut} = headline_of(scene), options = options_of(scene.reference, "matched"), runs = [];
-    const run = (modes, shape = []) => {
-        const made = jvari.run({scene: state.text, overrides: state.overrides, scheme: scene.reference, modes, options, duration: state.window, shape});  // without its energy, which costs ten times as much
+    const run = (modes, more = {}) => {  // its energy costs eight times as much as its motion, and half of the modes hold all of it but 0.2 %
+        const made = jvari.run({scene: state.text, overrides: state.overrides, scheme: scene.reference, modes, options, duration: state.window, ...more});
         runs.push(made);
         return made;
     };
     try {
-        const change = (fine, coarse) => jvari.error(fine, coarse, nut, 0, state.window), base = run(0, state.shape), modes = base.dofs / 2 | 0;
+        const change = (fine, coarse) => jvari.error(fine, coarse, nut, 0, state.window), base = run(0, {shape: state.shape}), modes = base.dofs / 2 | 0;
         await go_on();
-        const half = run(Math.max(1, modes >> 1));
+        const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)});
         await go_on();
         let best = base, left = jvari.left_after(change(base, half), NaN);
         if (!dear(scene)) {
-            best = run(2 * modes, state.shape);
+            best = run(2 * modes, {shape: state.shape});
             left = jvari.left_after(change(best, base), change(base, half));
             await go_on();
         }
-        reference = {key, runs, run: best, modes: best.dofs / 2 | 0, uncertainty: left, picture: pictured(best, scene, state.shape.length)};
+        const picture = {...pictured(best, scene, state.shape.length), stored: balance_of(half).stored};
+        reference = {key, runs, run: best, modes: best.dofs / 2 | 0, uncertainty: left, picture};
         return reference;
     } catch (error) {
         runs.forEach(r => r.free());
@@ -85,40 +86,50 @@ function judged(run, scene, state) {
         reference: scene.reference, modes: reference.modes};
 }
 
-// ---- The chart: schemes at several rates, each with its error and the least of several times [s per second of sound].
+// ---- The chart: schemes at several rates, each with its error and its cost [s per second of sound].
 
-function timed(asked, keep) {
-    let best = Infinity, spent = 0, run;
-    for (let k = 0; k < 30 && (k < 2 || spent < 4e-3); ++k) {
-        run?.free();
-        run = jvari.run(asked);
-        best = Math.min(best, run.wall);
-        spent += run.wall + 1e-5;
-        if (run.wall > 0.05) break;
-    }
-    const point = keep(run);
-    run.free();
-    return {...point, cost: best / asked.duration};
+// The mean time of as many runs as fill a sample: a browser's clock is coarse.
+const sample_seconds = 4e-3, rounds = 5;
+function sampled(asked, keep = () => ({})) {
+    let spent = 0, runs = 0, kept;
+    do {
+        const run = jvari.run(asked);
+        spent += run.wall;
+        kept ??= keep(run);
+        run.free();
+    } while (++runs < 30 && spent < sample_seconds);
+    return {...kept, cost: spent / runs / asked.duration};
+}
+function quartiles(costs) {
+    const sorted = [...costs].sort((a, b) => a - b), at = part => {
+        const place = part * (sorted.length - 1), low = Math.floor(place), rest = place - low;
+        return (1 - rest) * sorted[low] + rest * sorted[Math.min(low + 1, sorted.length - 1)];
+    };
+    return {lower: at(0.25), cost: at(0.5), upper: at(0.75)};
 }
 
+// Each cell once for its error; then rounds through all cells for their costs, as the program times them: a browser compiles anew what it runs often.
 async function chart(state, scene, post, go_on) {
+    const cells = [];
     for (const {scheme, compliance, rate} of state.chart) {
         const options = options_of(scheme, compliance), told = {scheme, compliance: options.length ? compliance : "", rate};
         try {
             const asked = {scene: state.text, overrides: state.overrides, scheme, rate, options, duration: state.window};
-            post({kind: "point", point: timed(asked, run => ({...told, ...judged(run, scene, state), outcome: run.outcome, dofs: run.dofs}))});
+            const point = sampled(asked, run => ({...told, ...judged(run, scene, state), outcome: run.outcome, dofs: run.dofs}));
+            post({kind: "point", point: {...point, lower: point.cost, upper: point.cost}});
+            cells.push({told, asked, costs: []});
         } catch (error) {
             post({kind: "point", point: {...told, refused: error.message}});
         }
         await go_on();
     }
     post({kind: "charted"});
-    for (const {scheme, compliance, rate} of state.chart) {  // timed once more: a browser compiles anew what it runs often
-        const options = options_of(scheme, compliance);
-        try {
-            post({kind: "timed", scheme, compliance: options.length ? compliance : "", rate, ...timed({scene: state.text, overrides: state.overrides, scheme, rate, options, duration: state.window}, () => ({}))});
-        } catch { /* refused: its point says why */ }
-        await go_on();
+    for (let round = 1; round <= rounds; ++round) {
+        for (const {asked, costs} of cells) {
+            costs.push(sampled(asked).cost);
+            await go_on();
+        }
+        post({kind: "timed", last: round === rounds, costs: cells.map(({told, costs}) => ({...told, ...quartiles(costs)}))});
     }
 }
 

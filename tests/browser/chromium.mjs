@@ -45,6 +45,13 @@ export async function open(extra = []) {
     return {
         page,
         listen: listener => listeners.push(listener),
+        async workers() {  // the page's, each as a function like `page`
+            const found = [];
+            listeners.push(({method, params}) => { if (method === "Target.attachedToTarget" && params.targetInfo.type === "worker") found.push(params.sessionId); });
+            await page("Target.setAutoAttach", {autoAttach: true, waitForDebuggerOnStart: false, flatten: true});
+            listeners.pop();
+            return found.map(id => (method, params) => send(method, params, id));
+        },
         async evaluate(expression) {
             const {result, exceptionDetails} = await page("Runtime.evaluate", {expression, awaitPromise: true, returnByValue: true});
             if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
