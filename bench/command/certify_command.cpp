@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/console.hpp"
+#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -49,17 +50,21 @@ fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed s
 }
 
 std::string entries_text(const Certificate& c) {
-    std::string text = fmt::format("  {:>2}  {:<44} {:<14} {:>9} {:>9}\n", "", "reference", "status", "until", "cost");
+    TextTable t{{{""}, {"reference", true}, {"status", true}, {"until", false, 1}, {"cost", false, 2}}, {}};
     for (std::size_t i = 0; i < c.entries.size(); ++i) {
         const auto& e = c.entries[i];
         const std::string name = store::variant_name(e.reference + (e.sample_rate > 0 ? fmt::format(" at {:.10g} Hz", e.sample_rate) : ""),
                                                      store::options_text(e.options)) +
                                  (e.doubled.empty() ? "" : ", twice the " + e.doubled);
-        if (!e.reason.empty()) text += fmt::format("  {:>2}  {:<44} refused: {}\n", i + 1, name, e.reason);
-        else
-            text += fmt::format("  {:>2}  {:<44} {:<14} {:>7.4g} s {:>9}\n", i + 1, name, name_of(e.status.outcome), e.reached,
-                                std::isnan(e.wall_seconds) ? "-" : fmt::format("{:.3g} s", e.wall_seconds));
+        const bool refused = !e.reason.empty();
+        t.rows.push_back({' ',
+                          {std::to_string(i + 1), name, refused ? "refused" : name_of(e.status.outcome),
+                           refused ? "-" : fmt::format("{:.4g} s", e.reached),
+                           refused || std::isnan(e.wall_seconds) ? "-" : fmt::format("{:.3g} s", e.wall_seconds)}});
     }
+    std::string text = t.text(Console::width());
+    for (std::size_t i = 0; i < c.entries.size(); ++i)
+        if (!c.entries[i].reason.empty()) text += wrapped(fmt::format("  {} refused: {}\n", i + 1, c.entries[i].reason), Console::width());
     return text;
 }
 
@@ -71,43 +76,41 @@ std::vector<std::size_t> windows_of(const Certificate& c) {
     return windows;
 }
 
-std::string numbers(const Certificate::ByWindow& values, const std::vector<std::size_t>& windows) {
-    std::string text;
-    for (const std::size_t w : windows) text += std::isnan(values[w]) ? fmt::format(" {:>9}", "-") : fmt::format(" {:>9.1e}", values[w]);
-    return text;
+std::vector<std::string> numbers(const Certificate::ByWindow& values, const std::vector<std::size_t>& windows) {
+    std::vector<std::string> fields;
+    for (const std::size_t w : windows) fields.push_back(std::isnan(values[w]) ? "-" : fmt::format("{:.1e}", values[w]));
+    return fields;
 }
 
-std::string instants(const Agreement& a, double duration, double tap_rate) {
-    std::string text;
-    for (const double t : a.until)
-        text += t >= duration - 0.5 / tap_rate ? fmt::format(" {:>9}", "end") : fmt::format(" {:>7.2f}ms", 1e3 * t);
-    return text;
+std::vector<std::string> instants(const Agreement& a, double duration, double tap_rate) {
+    std::vector<std::string> fields;
+    for (const double t : a.until) fields.push_back(t >= duration - 0.5 / tap_rate ? "end" : fmt::format("{:.2f} ms", 1e3 * t));
+    return fields;
 }
 
 std::string figures_text(const Certificate& c) {
-    std::size_t width = 5;
-    for (const std::string& tap : c.taps) width = std::max(width, tap.size());
     const auto windows = windows_of(c);
-    std::string text = fmt::format("  {:<11} {:<{}}", "pair", "tap", width);
+    TextTable t{{{"pair", true}, {"tap", true}}, {}};
     for (const std::size_t w : windows)
-        text += fmt::format(" {:>9}", w + 1 < agreement_windows.size() ? fmt::format("{:.0f} ms", 1e3 * agreement_windows[w]) : "whole");
-    for (const double level : agreement_levels) text += fmt::format(" {:>9}", fmt::format("to 1e{:.0f}", std::log10(level)));
-    text += "\n";
-    const auto block = [&](const std::string& name, const auto& line) {
-        for (std::size_t k = 0; k < c.taps.size(); ++k)
-            text += fmt::format("  {:<11} {:<{}}{}\n", k == 0 ? name : "", c.taps[k], width, line(k));
+        t.columns.push_back({w + 1 < agreement_windows.size() ? fmt::format("{:.0f} ms", 1e3 * agreement_windows[w]) : "whole"});
+    for (const double level : agreement_levels) t.columns.push_back({fmt::format("to 1e{:.0f}", std::log10(level)), false, 1});
+    const auto add = [&](const std::string& name, std::size_t tap, const Certificate::ByWindow& values,
+                         const std::vector<std::string>& until) {
+        TextTable::Row row{' ', {name, c.taps[tap]}};
+        for (const auto& fields : {numbers(values, windows), until}) row.fields.insert(row.fields.end(), fields.begin(), fields.end());
+        t.rows.push_back(row);
     };
     for (const auto& p : c.pairs) {
         const double common = std::min(c.entries[p.first].reached, c.entries[p.second].reached);
-        block(fmt::format("{} against {}", p.first + 1, p.second + 1),
-              [&](std::size_t k) { return numbers(p.taps[k].relative_l2, windows) + instants(p.taps[k], common, c.tap_rate); });
+        for (std::size_t k = 0; k < c.taps.size(); ++k)
+            add(fmt::format("{} against {}", p.first + 1, p.second + 1), k, p.taps[k].relative_l2, instants(p.taps[k], common, c.tap_rate));
     }
     for (std::size_t i = 0; i < c.entries.size(); ++i)
-        if (!c.entries[i].estimate.empty())
-            block(fmt::format("{} itself", i + 1), [&](std::size_t k) { return numbers(c.entries[i].estimate[k], windows); });
-    block("noise floor",
-          [&](std::size_t k) { return numbers(c.floor[k].relative_l2, windows) + instants(c.floor[k], c.duration, c.tap_rate); });
-    return text;
+        for (std::size_t k = 0; k < c.entries[i].estimate.size(); ++k)
+            add(fmt::format("{} itself", i + 1), k, c.entries[i].estimate[k], std::vector<std::string>(agreement_levels.size()));
+    for (std::size_t k = 0; k < c.taps.size(); ++k)
+        add("noise floor", k, c.floor[k].relative_l2, instants(c.floor[k], c.duration, c.tap_rate));
+    return t.text(Console::width());
 }
 
 std::string text_of(const Certificate& c) {

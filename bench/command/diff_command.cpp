@@ -1,5 +1,6 @@
 // jvari diff: what changed between two folders of results, or over the commits of one.
 #include "bench/command/console.hpp"
+#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/diff/difference.hpp"
 #include "bench/diff/history.hpp"
@@ -18,14 +19,14 @@ int diff_command(const DiffRequest& r) {
     const Console console(r.json, r.quiet);
     if (!r.history.empty()) {
         const auto steps = diff::history(r.history, console);
-        console.print(diff::text_of(steps));
+        console.print(wrapped(diff::text_of(steps), Console::width()));
         console.print_json(diff::json_of(steps));
         return exit_code::done;
     }
     const std::filesystem::path a = r.before, b = r.after;
     const diff::Folder before = diff::read_folder(a), after = diff::read_folder(b);
     const diff::Difference d = diff::difference(before, after);
-    console.print(diff::text_of(d, before, after));
+    console.print(wrapped(diff::text_of(d, before, after), Console::width()));
     console.print_json(diff::json_of(d, before, after));
     return d.worse() ? exit_code::run_failed : exit_code::done;
 }

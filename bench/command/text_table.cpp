@@ -47,4 +47,46 @@ std::string TextTable::text(std::size_t width) const {
     return text;
 }
 
+namespace {
+constexpr std::size_t least_column = 24;
+
+std::size_t last_column(const std::string& line, std::size_t width) {
+    std::size_t column = std::min(line.find_first_not_of(' '), line.size());
+    for (std::size_t gap = line.find("  ", column); gap != std::string::npos;) {
+        const std::size_t next = line.find_first_not_of(' ', gap);
+        if (next == std::string::npos || shown(line.substr(0, next)) + least_column > width) break;
+        column = shown(line.substr(0, next));
+        gap = line.find("  ", next);
+    }
+    return column;
+}
+
+std::string wrapped_line(std::string line, std::size_t width) {
+    const std::string indent(last_column(line, width), ' ');
+    std::string text;
+    while (shown(line) > width) {
+        std::size_t end = std::string::npos;  // of the words that fit, of the first one where none does
+        for (std::size_t at = line.find(' ', line.find_first_not_of(' ')); at != std::string::npos; at = line.find(' ', at + 1)) {
+            if (end != std::string::npos && shown(line.substr(0, at)) > width) break;
+            end = at;
+        }
+        const std::size_t rest = line.find_first_not_of(' ', end);
+        if (rest == std::string::npos) break;
+        text += line.substr(0, line.find_last_not_of(' ', end) + 1) + "\n";
+        line = indent + line.substr(rest);
+    }
+    return text + line;
+}
+}  // namespace
+
+std::string wrapped(const std::string& text, std::size_t width) {
+    std::string all;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', from), text.size());
+        all += wrapped_line(text.substr(from, end - from), width) + (end < text.size() ? "\n" : "");
+        from = end + 1;
+    }
+    return all;
+}
+
 }  // namespace jvari::bench::command

@@ -26,4 +26,8 @@ struct TextTable {
     std::string text(std::size_t width) const;  // each line with its end; a last one says what was left out
 };
 
+// A listing: lines that are wider than the terminal go on in the next one, below where their last column begins. A column begins behind two
+// blanks or more; one that leaves less than 24 characters counts as none.
+std::string wrapped(const std::string& text, std::size_t width);
+
 }  // namespace jvari::bench::command

@@ -121,6 +121,7 @@ void hold_together(CellSet& s, const store::Entry& e) {
 
 std::vector<store::Key<Suite>> keys_of_suite() {
     return {key("name", &Suite::name, store::text(), "what it is called", "the file's"),
+            key("question", &Suite::question, store::text(), "what it answers", "none"),
             key("source", &Suite::source, store::text(), "what it follows", "none"),
             key("map", &Suite::maps, map::maps(), "maps of what becomes of each scheme"),
             key("cells", &Suite::sets, store::tables("cells", store::table(set_keys(), hold_together)),

@@ -49,7 +49,7 @@ struct CellSet {
 };
 
 struct Suite {
-    std::string name, source;
+    std::string name, question, source;
     bool shelved = false;  // it is the library's, found by its name
     std::vector<CellSet> sets;
     std::filesystem::path figures;  // the file of its figures beside it, NAME.vl.json; empty: none

@@ -8,6 +8,7 @@
 #include "bench/command/console.hpp"
 #include "bench/command/list/list_keys.hpp"
 #include "bench/command/list/list_seam.hpp"
+#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/json.hpp"
@@ -68,34 +69,44 @@ Listing list_scenes(const Shelf& shelf) {
     return {std::move(all), text, ""};
 }
 
-Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {  // its text has schemes down, scenes across
+Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {  // its text has schemes down; scenes across where they fit, else by name
     Json all = Json::array();
-    std::size_t width = 0;
-    std::string text = "which represents which scene\n";
+    std::size_t width = 0, right = 0;
+    std::string head, crosses, names;
     for (const Descriptor* d : schemes) width = std::max(width, std::string(d->name).size());
     for (std::size_t k = 0; k < shelf.scenes.size(); ++k) {
         const auto& [name, scene] = shelf.scenes[k];
-        text += fmt::format("  {:<{}}  {}{}\n", "", width, std::string(3 * k, ' '), name);
+        head += fmt::format("  {:<{}}  {}{}\n", "", width, std::string(3 * k, ' '), name);
+        right = std::max(right, width + 4 + 3 * k + name.size());
         for (const Descriptor* d : schemes) {
             const Features missing = needed_by(scene) - d->represents;
             all.push_back({{"scene", name}, {"scheme", d->name}, {"represents", missing.empty()}, {"missing", compare::names_in(missing)}});
         }
     }
     for (const Descriptor* d : schemes) {
-        text += fmt::format("  {:<{}}  ", d->name, width);
-        for (const auto& [name, scene] : shelf.scenes) text += (needed_by(scene) - d->represents).empty() ? "x  " : ".  ";
-        text += '\n';
+        std::vector<std::string> able;
+        crosses += fmt::format("  {:<{}}  ", d->name, width);
+        for (const auto& [name, scene] : shelf.scenes) {
+            const bool represents = (needed_by(scene) - d->represents).empty();
+            crosses += represents ? "x  " : ".  ";
+            if (represents) able.push_back(name);
+        }
+        crosses += '\n';
+        names += fmt::format("  {:<{}}  {}\n", d->name, width, fmt::join(able, ", "));
     }
-    return {std::move(all), text, ""};
+    return {std::move(all), "which represents which scene\n" + (right <= Console::width() ? head + crosses : names), ""};
 }
 
 Listing list_suites() {
     Json all = Json::array();
     std::string text = "suites\n";
-    for (const std::string& name : suite::library_suites()) try {
+    const std::vector<std::string> names = suite::library_suites();
+    std::size_t width = 0;
+    for (const std::string& name : names) width = std::max(width, name.size());
+    for (const std::string& name : names) try {
             const suite::Suite suite = suite::read_suite(name);
-            all.push_back({{"name", name}, {"source", suite.source}, {"sets", suite.sets.size()}});
-            text += fmt::format("  {}  {}\n", name, suite.source);
+            all.push_back({{"name", name}, {"question", suite.question}, {"source", suite.source}, {"sets", suite.sets.size()}});
+            text += fmt::format("  {:<{}}  {}\n", name, width, suite.question.empty() ? suite.source : suite.question);
         } catch (const std::runtime_error& e) {
             all.push_back({{"name", name}, {"error", e.what()}});
             text += fmt::format("  {}  cannot be read: {}\n", name, e.what());
@@ -144,7 +155,7 @@ int list_command(const ListRequest& r) {
     if (asked("columns")) add("columns", list_columns());
     if (asked("scenes")) add("matrix", list_matrix(shelf, both));
     text.pop_back();
-    console.print(text);
+    console.print(wrapped(text, Console::width()));
     console.print_json(store::indented(json));
     return exit_code::done;
 }

@@ -117,19 +117,16 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
 }
 
 Listing list_pairings() {
-    constexpr int string_width = 31, cell_width = 44;
+    std::size_t width = 0;
+    for (const Pairing& p : pairings()) width = std::max(width, std::string(p.rule).size());
     Json json = Json::array();
-    std::string head, body, row, notes;
+    std::string text = "pairings of a string and an obstacle rule\n", string;
     for (const Pairing& p : pairings()) {
         json.push_back({{"string", p.string}, {"rule", p.rule}, {"scheme", p.scheme}, {"why_not", p.why_not}});
-        if (p.string != row) body += fmt::format("\n  {:<{}}", p.string, string_width);
-        if (row.empty() || (p.string == row && std::ranges::count(body, '\n') == 1)) head += fmt::format("{:<{}}", p.rule, cell_width);
-        body += fmt::format("{:<{}}", p.scheme.empty() ? "-" : p.scheme, cell_width);
-        if (p.scheme.empty()) notes += fmt::format("  no {} of {}: {}\n", p.rule, p.string, p.why_not);
-        row = p.string;
+        if (p.string != string) text += fmt::format("  {}\n", string = p.string);
+        text += fmt::format("    {:<{}}  {}\n", p.rule, width, p.scheme.empty() ? "none: " + std::string(p.why_not) : p.scheme);
     }
-    return {std::move(json),
-            fmt::format("pairings of a string and an obstacle rule\n  {:<{}}{}{}\n{}", "string", string_width, head, body, notes), ""};
+    return {std::move(json), text, ""};
 }
 
 Listing list_options(const std::vector<const Descriptor*>& schemes) {
