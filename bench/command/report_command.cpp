@@ -4,6 +4,7 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
+#include "bench/report/crate.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -18,11 +19,18 @@ namespace fs = std::filesystem;
 struct ReportRequest : Common {
     std::string folder, width;
     report::Print print;
-    bool playground = false;
+    bool playground = false, crate = false;
 };
 
 int report_command(const ReportRequest& r) {
     const Console console(r.json, r.quiet);
+    if (r.crate) {
+        report::write_crate(r.folder);
+        const std::string file = (fs::path(r.folder) / report::crate_file).string();
+        console.print("written: " + file);
+        console.print_json(store::indented({{"folder", r.folder}, {"files", {file}}}));
+        return exit_code::done;
+    }
     report::Print print = r.print;
     if (!r.width.empty()) print.width = report::width_of(r.width);
     const std::string play = r.playground ? report::playground() : "";
@@ -45,6 +53,8 @@ Act report_verb(CLI::App& program) {
     verb->add_option("--width", r->width, "of the pictures, as 85mm for a column of a paper")->type_name("WIDTH");
     verb->add_flag("--pdf", r->print.pdf, "each picture as PDF too, by rsvg-convert");
     verb->add_flag("--playground", r->playground, "puts the page that ./play builds into the report, opened on its scene: 1.4 MB more");
+    verb->add_flag("--crate", r->crate,
+                   "writes ro-crate-metadata.json alone, for an archive: authors, licence, date and the files that lie there now");
     verb->footer("Example: jvari report report");
     add_common(*verb, *r);
     return [r] { return report_command(*r); };

@@ -58,25 +58,22 @@ bool of_this_program(const Json& manifest) {
 
 struct Returned {
     int same = 0, moved = 0;  // fields to the last digit, and others
-    std::string references;   // whether they are the same
 };
 Returned returned(const store::Table& before, const store::Table& after) {
     Returned r;
     const bool with_modes = diff::modes_name(before) || diff::modes_name(after);
     const diff::Named old = diff::named_cells(before, with_modes, true), now = diff::named_cells(after, with_modes, true);
-    int differ = 0;
-    for (const auto& [name, i] : old) {
-        const auto found = now.find(name);
-        if (found == now.end()) continue;
-        for (const std::string& column : before.columns)
-            if (!diff::is_cost(column) && !diff::is_skipped(column))
-                ++(before.at(i, column) == after.at(found->second, column) ? r.same : r.moved);
-        if (before.at(i, "reference") != after.at(found->second, "reference") ||
-            before.at(i, "reference_modes") != after.at(found->second, "reference_modes"))
-            ++differ;
-    }
-    if (differ > 0) r.references = fmt::format("the reference of {} cells is another: their errors are against another solution\n", differ);
+    for (const auto& [name, i] : old)
+        if (const auto found = now.find(name); found != now.end())
+            for (const std::string& column : before.columns)
+                if (!diff::is_cost(column) && !diff::is_skipped(column))
+                    ++(before.at(i, column) == after.at(found->second, column) ? r.same : r.moved);
     return r;
+}
+
+// An error that moved lies within the certificates of both sides: neither knows the true one better.
+bool is_lost(const diff::Finding& f) {
+    return f.turn != diff::Turn::same && !diff::is_cost(f.column) && !(f.turn == diff::Turn::moved && diff::is_judged(f.column));
 }
 
 int verify_command(const VerifyRequest& r) {
@@ -93,18 +90,18 @@ int verify_command(const VerifyRequest& r) {
     const diff::Folder before = diff::read_folder(fs::path(r.folder)), after = diff::read_folder(out);
     const diff::Difference d = diff::difference(before, after);
     const Returned back = returned(before.cells, after.cells);
-    const int lost = static_cast<int>(std::ranges::count_if(
-                         d.findings, [](const diff::Finding& f) { return f.turn != diff::Turn::same && !diff::is_cost(f.column); })) +
-                     d.missing();
-    console.print(fmt::format("{}{} of {} cells came back: {} fields to the last digit, {} within their uncertainty, {} did not\n{}",
-                              back.references, d.cells_in_both, before.cells.rows.size(), back.same, std::max(0, back.moved - lost), lost,
-                              lost > 0 || !back.references.empty() ? diff::text_of(d, before, after) : ""));
+    const int lost = static_cast<int>(std::ranges::count_if(d.findings, is_lost)) + d.missing();
+    const bool whole = lost == 0 && d.references.empty() && !(same && back.moved > 0);
+    console.print(fmt::format("{}{} of {} cells came back: {} fields to the last digit, {} within their uncertainty, {} did not{}",
+                              d.references.empty() ? "" : d.references + "\n", d.cells_in_both, before.cells.rows.size(), back.same,
+                              std::max(0, back.moved - lost), lost, whole ? "" : "\n" + diff::text_of(d, before, after)));
     if (r.out.empty()) {
         std::error_code gone;
         fs::remove_all(out, gone);
     }
     console.print_json(store::indented({{"folder", r.folder},
                                         {"same_program", same},
+                                        {"references", d.references},
                                         {"to_the_last_digit", back.same},
                                         {"within_uncertainty", std::max(0, back.moved - lost)},
                                         {"lost", lost}}));

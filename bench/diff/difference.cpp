@@ -61,15 +61,16 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
             const Turn turn = turn_of(column, a.cells, p.before, b.cells, p.after);
             if (turn == Turn::same) continue;
             d.findings.push_back({turn, p.name, column, a.cells.at(p.before, column), b.cells.at(p.after, column), ""});
-            if (!column.starts_with("reference")) continue;
+            if (column != "reference" && column != "reference_modes" && column != "reference_doubling") continue;
             same_truth = false;
-            if (how.empty()) how = fmt::format("{} {} -> {}", column, a.cells.at(p.before, column), b.cells.at(p.after, column));
+            const std::string change = fmt::format("{} {} -> {}", column, a.cells.at(p.before, column), b.cells.at(p.after, column));
+            if (how.size() < 100 && how.find(change) == std::string::npos) how += (how.empty() ? "" : ", ") + change;
         }
         other_truth += !same_truth;
     }
     if (other_truth > 0)
-        d.notes.push_back(fmt::format("{} of {} cells were judged by another reference ({}): their errors differ by its change too",
-                                      other_truth, pairs.size(), how));
+        d.references = fmt::format("the references differ in {} of {} cells ({}): there errors are against another solution", other_truth,
+                                   pairs.size(), how);
     std::vector<CostPair> costs;
     for (const Pair& p : pairs) costs.push_back({p.name, p.before, p.after});
     compare_costs(a, b, costs, d);

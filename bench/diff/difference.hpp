@@ -24,6 +24,7 @@ struct Only {  // what one of the folders has alone
 struct Difference {
     std::vector<Finding> findings;  // of what both have; those of a row stand together, headline columns first
     Only cells, columns, points, boundaries, modes;
+    std::string references;          // that they are others, and how; "": they are the same
     std::vector<std::string> notes;  // what could not be compared, and why
     int cells_in_both = 0;
     int compared = 0;  // fields

@@ -73,10 +73,10 @@ Json json_of(const Folder& f) {
 }  // namespace
 
 std::string text_of(const Difference& d, const Folder& before, const Folder& after, std::size_t most) {
-    std::string text;
+    std::string text = d.references.empty() ? "" : d.references + "\n";  // first: what the figures below rest on
     for (const auto& [name, f] : {std::pair{"before", &before}, std::pair{"after", &after}})
         text += fmt::format("{:<7} {}: commit {}, {}, {}\n", name, f->name, f->made.commit, f->made.date, f->made.machine());
-    for (const std::string& note : d.notes) text += "note: " + note + "\n";  // first: what the figures below rest on
+    for (const std::string& note : d.notes) text += "note: " + note + "\n";
     text += fmt::format("{} cells in both, {} fields compared: {} worse, {} better, {} moved{}\n", d.cells_in_both, d.compared,
                         d.count(Turn::worse), d.count(Turn::better), d.count(Turn::moved),
                         d.missing() > 0 ? fmt::format(", {} missing after, which counts as worse", d.missing()) : "");
@@ -106,6 +106,7 @@ std::string json_of(const Difference& d, const Folder& before, const Folder& aft
                                                      : "changed"},
                             {"before", json_of(before)},
                             {"after", json_of(after)},
+                            {"references", d.references},
                             {"cells_in_both", d.cells_in_both},
                             {"fields_compared", d.compared},
                             {"worse", d.count(Turn::worse)},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/report/crate.hpp"
 #include "bench/report/derived.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/samples.hpp"
@@ -205,6 +206,8 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     add_pictures(data, folder, own);
     store::write_fresh(folder / "report.html", fitting_page_of(std::move(data), scripts, page_limit));
     written.emplace_back("report.html");
+    write_crate(folder);
+    written.emplace_back(crate_file);
     return written;
 }
 
