@@ -52,12 +52,7 @@ std::string worst_partial(const Descriptor& d, const Scene& scene, bool& any) {
 
 // ---- A map: five rates x four of what makes a scheme stiff.
 
-struct Point {
-    Scene scene;
-    Settings settings;
-    std::string name;
-};
-std::vector<Point> map_of(const Descriptor& d) {
+std::vector<map::Trial> map_of(const Descriptor& d) {
     const auto scene_at = [&d](int level) {
         Scene scene = ringing(true, true);
         scene.duration = 20e-3;
@@ -73,12 +68,12 @@ std::vector<Point> map_of(const Descriptor& d) {
         if (!d.represents.has(Feature::frequency_dependent_damping)) s.damping = NoDamping{};
         return std::pair{scene, fmt::format("a bending stiffness of {:g} N m^2", s.bending_stiffness)};
     };
-    std::vector<Point> all;
+    std::vector<map::Trial> all;
     for (const double rate : {22050.0, 29400.0, 44100.0, 66150.0, 96000.0})
         for (int level = 0; level < 4; ++level) {
-            const auto [scene, what] = scene_at(level);
-            all.push_back(
-                {map::listened(scene), {rate, map::row_rate(rate), contract_modes, {}}, fmt::format("{} at {:g} Hz", what, rate)});
+            auto [scene, what] = scene_at(level);
+            scene.name = fmt::format("{} at {:g} Hz", what, rate);
+            all.push_back({&d, map::listened(scene), {rate, map::row_rate(rate), contract_modes, {}}, "none"});
         }
     return all;
 }
@@ -95,17 +90,16 @@ Verdict partials_are_its_own_relations(const Case& c) {
 Verdict stays_sound_over_a_map(const Case& c) {
     const Descriptor& d = c.scheme;
     if (d.balance == Balance::none) return not_asked("it promises no balance");
+    const compare::Catalogue catalogue;
+    map::Trials trials(catalogue);
     int sound = 0;
-    for (const Point& p : map_of(d)) {
-        if (!takes(d, p.scene, p.settings)) continue;
-        if (d.limit.margin && d.limit.margin(p.scene, p.settings) < 0) continue;  // on the unsound side, as it says itself
-        const jvari::Run r = run(d, p.scene, p.settings, {.energy = true});
-        study::Cell cell{&d, p.settings};
-        cell.summary = study::summary_of(d, p.scene, p.settings, r);
-        const study::Judgement j = study::judge(cell, std::nan(""));
+    for (const map::Trial& t : map_of(d)) {
+        if (!takes(d, t.scene, t.settings)) continue;
+        if (d.limit.margin && d.limit.margin(t.scene, t.settings) < 0) continue;  // on the unsound side, as it says itself
+        const study::Judgement j = trials(t).judgement;
         if (j.verdict == study::Verdict::diverged || j.verdict == study::Verdict::not_converged ||
             j.verdict == study::Verdict::energy_gaining)
-            return broken(fmt::format("{} with {}: {}", name_of(j.verdict), p.name, j.detail));
+            return broken(fmt::format("{} with {}: {}", name_of(j.verdict), t.scene.name, j.detail));
         ++sound;
     }
     return sound > 0 ? kept(fmt::format("{} of {} points", sound, points)) : not_asked("it refuses all points");

@@ -16,8 +16,6 @@
 namespace jvari::bench::compare {
 
 namespace {
-using KnownOf = std::map<const study::Point*, study::References::Of>;
-
 std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
     std::string text = "jvari certify " + r.scene;
     if (r.duration) text += fmt::format(" --duration {:.6g}", *r.duration);
@@ -47,72 +45,62 @@ void describe(Comparison& c, const CompareRequest& request, const study::Referen
                                   name_of(reference.run.status.outcome), c.reference_summary.duration));
 }
 
-// Errors of the windows that a shorter run covers; of the whole run nothing is known.
-study::Errors covered_by(study::Errors errors, double window) {
-    for (auto& tap : errors)
-        for (std::size_t k = 0; k < study::measures().size(); ++k)
-            if (!(study::measures()[k].window <= window)) tap[k] = store::nan;
-    return errors;
-}
-
-// Runs all cells over the headline's window and marks those that are needed.
-std::vector<study::Cell> search(const Comparison& c, const KnownOf& known, int threads, const store::Listener& listener) {
-    Scene shown = c.scene();
-    shown.duration = std::min(shown.duration, study::headline_window(shown.duration));
-    const bool shorter = shown.duration < c.scene().duration;
-    std::vector<study::Cell> tried;
-    std::vector<double> sizes;
-    for (const study::Job& job : c.plan.jobs) {
-        tried.push_back(job.cell);
-        sizes.push_back(std::max(job.cell.settings.sample_rate, 44100.0) * std::max(1, job.cell.settings.modes));
+// Runs all cells over the headline's window and marks those that are needed: jobs of the scene cut short there, judged by the motion of the
+// whole.
+std::vector<study::Record> search(const Comparison& c, study::References& references, int threads, const store::Listener& listener) {
+    const double end = std::min(c.scene().duration, study::headline_window(c.scene().duration));
+    study::Measures covered;  // by the shorter run
+    for (std::size_t k = 0; k < study::measures().size() && end < c.scene().duration; ++k)
+        if (study::measures()[k].window <= end) covered.push_back(k);
+    study::Plan shown;
+    std::map<const study::Point*, const study::Point*> part_of;
+    for (const study::Point& whole : c.plan.points) {
+        study::Point& part = shown.points.emplace_back(whole);
+        part_of[&whole] = &part;
+        part.whole = whole.scene;
+        part.scene.duration = end;
     }
-    std::vector<double> errors(tried.size(), HUGE_VAL);
-    store::side_by_side(
-        sizes, threads, listener, "search",
-        [&](std::size_t i, store::Done& done) {
-            const Trace& reference = known.at(c.plan.jobs[i].point).truth->reference.run.trace;
-            try {
-                const Trace trace = study::run_cell(
-                    tried[i], shown, [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); });
-                tried[i].errors = covered_by(study::errors_of(trace, reference), shorter ? shown.duration : HUGE_VAL);
-                if (tried[i].reason.empty())
-                    errors[i] = relative_difference(trace.column(c.headline.nut), reference.column(c.headline.nut), reference.tap_rate,
-                                                    shown.duration);
-            } catch (const std::exception& e) {
-                study::fail(tried[i], e);
-            }
-        },
-        [&](std::size_t i) { return study::what_of(c.plan.jobs[i]); });
-    const std::size_t window = shown.duration >= 50e-3 ? 1 : shown.duration >= 10e-3 ? 0 : 2;
-    mark_needed(tried, errors, c.against.trust.of_scene(static_cast<std::size_t>(c.headline.nut), window));
-    return tried;
+    for (const study::Job& job : c.plan.jobs) {
+        study::Job& tried = shown.jobs.emplace_back(job);
+        tried.point = part_of.at(job.point);
+        tried.errors = covered;
+        tried.sounds = false;
+        tried.repeats = 0;
+        references.hold(*tried.point);
+    }
+    study::Kept nowhere;
+    std::vector<study::Record> records = study::run(shown, references, nowhere, threads, listener).records;
+    const auto nut = static_cast<std::size_t>(c.headline.nut), window = std::size_t{end >= 50e-3 ? 1u : end >= 10e-3 ? 0u : 2u};
+    std::vector<study::Cell> tried;
+    std::vector<double> errors;
+    for (study::Record& r : records) {
+        r.cell.in_model.clear();
+        errors.push_back(r.cell.ran() && r.cell.reason.empty() ? r.cell.errors.at(nut).at(window) : HUGE_VAL);
+        tried.push_back(std::move(r.cell));
+    }
+    mark_needed(tried, errors, c.against.trust.of_scene(nut, window));
+    for (std::size_t i = 0; i < records.size(); ++i) records[i].cell = std::move(tried[i]);
+    return records;
 }
 
 // Of the cells that were sought those that are needed run whole, and the others stay as the search left them. What was sought and cannot be
 // made goes.
-void run(Comparison& c, study::References& references, const KnownOf& known, std::vector<study::Cell> tried, study::Kept& keep, int threads,
+void run(Comparison& c, study::References& references, std::vector<study::Record> tried, study::Kept& keep, int threads,
          const store::Listener& listener) {
-    std::map<const study::Point*, study::Against> against;  // references go with the last job that needs them
-    for (const auto& [point, of] : known) against[point] = of.against();
     study::Plan whole, all;
-    std::vector<bool> needed;
     std::vector<study::Record> records;
+    std::vector<std::size_t> places;  // of those that run whole
     for (std::size_t i = 0; i < c.plan.jobs.size(); ++i) {
-        const study::Cell& cell = tried[i];
+        const study::Cell& cell = tried[i].cell;
         const bool run = cell.ran() && cell.needed;
         if (!run) references.release(*c.plan.jobs[i].point);
         if (!cell.ran() && cell.added) continue;
-        needed.push_back(run);
+        if (run) places.push_back(records.size()), whole.jobs.push_back(c.plan.jobs[i]);
         all.jobs.push_back(c.plan.jobs[i]);
-        if (run) whole.jobs.push_back(c.plan.jobs[i]);
+        records.push_back(std::move(tried[i]));
     }
     study::Study outcome = study::run(whole, references, keep, threads, listener);
-    std::size_t next = 0;
-    for (std::size_t i = 0, k = 0; i < c.plan.jobs.size(); ++i) {
-        if (!tried[i].ran() && tried[i].added) continue;
-        if (needed[k++]) records.push_back(std::move(outcome.records[next++]));
-        else records.push_back({tried[i], against.at(c.plan.jobs[i].point), {}, {}});
-    }
+    for (std::size_t k = 0; k < places.size(); ++k) records[places[k]] = std::move(outcome.records[k]);
     outcome.records = std::move(records);
     c.outcome = std::move(outcome);
     c.plan.jobs = std::move(all.jobs);
@@ -148,19 +136,18 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     study::address(c.plan, store::program_identity(plugins));
 
     study::References references(c.plan.jobs);
-    KnownOf known;
+    std::map<const study::Point*, study::References::Of> known;
     for (const study::Point& point : c.plan.points) {
         known[&point] = references.make(point, request.jobs, listener);
         if (!known[&point].truth) throw Refusal(known[&point].refused);
     }
     describe(c, request, known.at(&c.plan.points.front()), listener);
-    std::vector<study::Cell> tried;
-    for (const study::Job& job : c.plan.jobs) {
-        tried.push_back(job.cell);
-        c.searched = c.searched || job.cell.searched;
-    }
-    if (c.searched) tried = search(c, known, request.jobs, listener);
-    run(c, references, known, std::move(tried), keep, request.jobs, listener);
+    std::vector<study::Record> tried;
+    if (std::ranges::any_of(c.plan.jobs, [](const study::Job& job) { return job.cell.searched; }))
+        tried = search(c, references, request.jobs, listener);
+    else
+        for (const study::Job& job : c.plan.jobs) tried.push_back({job.cell, {}, {}, {}});
+    run(c, references, std::move(tried), keep, request.jobs, listener);
     return c;
 }
 

@@ -21,7 +21,6 @@ struct Comparison {
     study::ReferenceChoice reference;
     study::Summary reference_summary;
     study::Against against;                                     // what the reference of the first point is known to
-    bool searched = false;                                      // modes or compliance, beside what was named
     double horizon = std::numeric_limits<double>::quiet_NaN();  // of the reference against itself with half its modes [s]
     store::Sound reference_sound;
     const Scene& scene() const { return plan.points.front().scene; }

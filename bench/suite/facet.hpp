@@ -29,7 +29,7 @@ struct Facet {
     store::Table (*rows)(const MeasuredCell&) = nullptr;  // may come without rows; repeats bit for bit
     // Lays what was gathered into the folder of the suite in another form than <name>.csv.
     void (*write)(const std::filesystem::path& folder, const store::Table& gathered) = nullptr;
-    store::Key<FigureFacets> (*described)() = nullptr;  // a table of the set, of the facet's name, that must stand where it is measured
+    store::Kind<FigureRows> (*described)() = nullptr;  // a table of the set, of the facet's name, that must stand where it is measured
 };
 std::span<const Facet> facets();
 

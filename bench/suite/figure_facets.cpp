@@ -43,24 +43,13 @@ std::vector<double> column_of(const MeasuredCell& m, const std::string& tap) {
     return sound::radiation_of(*m.scene.body, p->end, m.trace.tap_rate)(x);
 }
 
-double position_of(const ProfileRows& p, int i) {
-    return p.positions == 1 ? p.from : p.from + (p.to - p.from) * i / (p.positions - 1);
+double position_of(const FigureRows& p, int i) {
+    return p.count == 1 ? p.from : p.from + (p.to - p.from) * i / (p.count - 1);
 }
 
-template <class Part>
-store::Key<Part> taps_key(std::vector<std::string> Part::*taps) {
-    return store::needed("taps", taps, store::several(store::text()), "names of taps, or energy, bridge_pressure, nut_pressure");
-}
-
-// A table of the set, which makes a cell with another one another cell.
-template <class Member, class T>
-store::Key<FigureFacets> table_key(const char* name, Member FigureFacets::*member, const store::Kind<T>& kind, const char* meaning) {
-    store::Key<FigureFacets> key = store::key(name, member, kind, meaning);
-    key.read = [read = key.read, name](FigureFacets& f, const store::Entry& e) {
-        read(f, e);
-        f.identity += std::string(name) + "=" + e.identity() + ";";
-    };
-    return key;
+using store::needed;
+store::Key<FigureRows> taps_key() {
+    return needed("taps", &FigureRows::taps, store::several(store::text()), "names of taps, or energy, bridge_pressure, nut_pressure");
 }
 
 std::vector<std::pair<std::string, Quantity>> quantities() {
@@ -77,32 +66,39 @@ store::Key<FigureFacets> figure_taps_key() {
                                  store::needed("quantity", &Tap::quantity, store::one_of("quantity", quantities()), "what is heard"),
                                  store::key("string", &Tap::string, store::whole(0, 1000), "which one", "of forces, the sum over strings"),
                                  store::key("position", &Tap::position, store::not_negative("m"), "of displacement and velocity")});
-    return table_key("taps", &FigureFacets::taps, store::several(tap), "taps beside those of the scene");
+    store::Key<FigureFacets> key = store::key("taps", &FigureFacets::taps, store::several(tap), "taps beside those of the scene");
+    key.read = [read = key.read](FigureFacets& f, const store::Entry& e) {
+        read(f, e);
+        f.identity += "taps=" + e.identity() + ";";
+    };
+    return key;
+}
+
+store::Key<FigureFacets> figure_rows_key(const char* facet, const store::Kind<FigureRows>& kind) {
+    return {{facet, kind.says, "", fmt::format("describes the measure `{}`", facet), false, kind.below},
+            [facet, read = kind.read](FigureFacets& f, const store::Entry& e) {
+                f.rows[facet] = read(e);
+                f.identity += std::string(facet) + "=" + e.identity() + ";";
+            }};
 }
 
 Scene with_figure_taps(Scene scene, const FigureFacets& f) {
     scene.taps.insert(scene.taps.end(), f.taps.begin(), f.taps.end());
     std::vector<std::string> names{"energy"};
     for (const Tap& t : scene.taps) names.push_back(t.name);
-    const auto must_be_there = [&](const auto& facet, const char* key) {
-        if (!facet) return;
-        for (const std::string& tap : facet->taps) {
+    for (const auto& [facet, rows] : f.rows)
+        for (const std::string& tap : rows.taps) {
             if (std::find(names.begin(), names.end(), tap) != names.end()) continue;
             const Pressure* p = pressure_of(tap);
-            if (!p) throw store::UsageError(std::string(key) + ": " + store::unknown("tap", tap, names));
+            if (!p) throw store::UsageError(facet + ": " + store::unknown("tap", tap, names));
             if (!scene.body || ((*scene.body).*p->end.response).empty())
-                throw store::UsageError(fmt::format("{}: tap {}: the scene has no {}", key, tap, p->end.key));
+                throw store::UsageError(fmt::format("{}: tap {}: the scene has no {}", facet, tap, p->end.key));
             scene.taps.push_back({tap, p->end.force, {}, 0});
             names.push_back(tap);
         }
-    };
-    must_be_there(f.trace, "trace");
-    must_be_there(f.extent, "extent");
-    must_be_there(f.envelope, "envelope");
-    must_be_there(f.centroid, "centroid");
-    if (f.profile)
-        for (int i = 0; i < f.profile->positions; ++i)
-            scene.taps.push_back({fmt::format("{}{}", profile_tap, i), Quantity::displacement, 0, position_of(*f.profile, i)});
+    if (const auto profile = f.rows.find("profile"); profile != f.rows.end())
+        for (int i = 0; i < profile->second.count; ++i)
+            scene.taps.push_back({fmt::format("{}{}", profile_tap, i), Quantity::displacement, 0, position_of(profile->second, i)});
     validate(scene);
     return scene;
 }
@@ -112,18 +108,15 @@ Scene without_drawn_taps(Scene scene) {
     return scene;
 }
 
-store::Key<FigureFacets> trace_key() {
-    return table_key(
-        "trace", &FigureFacets::trace,
-        store::table(std::vector{taps_key(&TraceRows::taps),
-                                 store::needed("windows", &TraceRows::windows, store::several(store::from_to(store::not_negative("s"))),
-                                               "every row of each is kept")}),
-        "describes the measure `trace`");
+store::Kind<FigureRows> trace_table() {
+    return store::table(std::vector{
+        taps_key(),
+        needed("windows", &FigureRows::windows, store::several(store::from_to(store::not_negative("s"))), "every row of each is kept")});
 }
 
 store::Table trace_rows(const MeasuredCell& m) {
     store::Table t{{"tap", "window_s", "time_s", "value"}, {}};
-    const TraceRows& f = *m.set.figures.trace;
+    const FigureRows& f = m.set.figures.rows.at("trace");
     for (const std::string& tap : f.taps) {
         const auto x = column_of(m, tap);
         for (const auto& [from, to] : f.windows) {
@@ -135,21 +128,18 @@ store::Table trace_rows(const MeasuredCell& m) {
     return t;
 }
 
-store::Key<FigureFacets> extent_key() {
-    return table_key(
-        "extent", &FigureFacets::extent,
-        store::table(std::vector{taps_key(&ExtentRows::taps),
-                                 store::needed("intervals", &ExtentRows::intervals, store::whole(1, 100'000), "equal parts of the run")}),
-        "describes the measure `extent`");
+store::Kind<FigureRows> extent_table() {
+    return store::table(
+        std::vector{taps_key(), needed("intervals", &FigureRows::count, store::whole(1, 100'000), "equal parts of the run")});
 }
 
 store::Table extent_rows(const MeasuredCell& m) {
     store::Table t{{"tap", "time_s", "low", "high"}, {}};
-    const ExtentRows& f = *m.set.figures.extent;
+    const FigureRows& f = m.set.figures.rows.at("extent");
     for (const std::string& tap : f.taps) {
         const auto x = column_of(m, tap);
-        const double each = static_cast<double>(x.size()) / f.intervals;
-        for (int i = 0; i < f.intervals; ++i) {
+        const double each = static_cast<double>(x.size()) / f.count;
+        for (int i = 0; i < f.count; ++i) {
             const auto first = static_cast<std::size_t>(i * each), end = std::min(x.size(), static_cast<std::size_t>((i + 1) * each));
             if (first >= end) continue;
             const auto [low, high] = std::minmax_element(x.begin() + first, x.begin() + end);
@@ -159,52 +149,47 @@ store::Table extent_rows(const MeasuredCell& m) {
     return t;
 }
 
-store::Key<FigureFacets> profile_key() {
-    const auto from_below_to = [](ProfileRows& p, const store::Entry& e) {
+store::Kind<FigureRows> profile_table() {
+    const auto from_below_to = [](FigureRows& p, const store::Entry& e) {
         if (!(p.from < p.to)) e.need("to").refuse("more than from");
     };
-    return table_key("profile", &FigureFacets::profile,
-                     store::table(std::vector{store::needed("instants", &ProfileRows::instants, store::several(store::not_negative("s")),
-                                                            "the row nearest each is kept"),
-                                              store::needed("from", &ProfileRows::from, store::not_negative("m"), "along string 0"),
-                                              store::needed("to", &ProfileRows::to, store::positive("m"), "along string 0"),
-                                              store::needed("positions", &ProfileRows::positions, store::whole(1, 2000), "between them")},
-                                  +from_below_to),
-                     "describes the measure `profile`");
+    return store::table(
+        std::vector{needed("instants", &FigureRows::instants, store::several(store::not_negative("s")), "the row nearest each is kept"),
+                    needed("from", &FigureRows::from, store::not_negative("m"), "along string 0"),
+                    needed("to", &FigureRows::to, store::positive("m"), "along string 0"),
+                    needed("positions", &FigureRows::count, store::whole(1, 2000), "between them")},
+        +from_below_to);
 }
 
 store::Table profile_rows(const MeasuredCell& m) {
     store::Table t{{"time_s", "position_m", "displacement_m"}, {}};
-    const ProfileRows& f = *m.set.figures.profile;
-    const int first = m.trace.taps() - f.positions;
+    const FigureRows& f = m.set.figures.rows.at("profile");
+    const int first = m.trace.taps() - f.count;
     for (const double instant : f.instants) {
         const long row = std::lround(instant * m.trace.tap_rate);
         if (row >= m.trace.rows) continue;
-        for (int i = 0; i < f.positions; ++i)
+        for (int i = 0; i < f.count; ++i)
             t.rows.push_back({short_text(static_cast<double>(row) / m.trace.tap_rate), short_text(position_of(f, i)),
                               short_text(m.trace.column(first + i)[row])});
     }
     return t;
 }
 
-store::Key<FigureFacets> envelope_key() {
-    return table_key("envelope", &FigureFacets::envelope,
-                     store::table(std::vector{taps_key(&EnvelopeRows::taps),
-                                              store::needed("width_hz", &EnvelopeRows::width_hz, store::positive("Hz"),
-                                                            "the largest bin within half of it is the envelope"),
-                                              store::needed("to_hz", &EnvelopeRows::to_hz, store::positive("Hz"), "the last point"),
-                                              store::needed("points", &EnvelopeRows::points, store::whole(1, 100'000), "spaced evenly")}),
-                     "describes the measure `envelope`");
+store::Kind<FigureRows> envelope_table() {
+    return store::table(std::vector{
+        taps_key(), needed("width_hz", &FigureRows::width_hz, store::positive("Hz"), "the largest bin within half of it is the envelope"),
+        needed("to_hz", &FigureRows::to_hz, store::positive("Hz"), "the last point"),
+        needed("points", &FigureRows::count, store::whole(1, 100'000), "spaced evenly")});
 }
 
 store::Table envelope_rows(const MeasuredCell& m) {
     store::Table t{{"tap", "frequency_hz", "level_db"}, {}};
-    const EnvelopeRows& f = *m.set.figures.envelope;
+    const FigureRows& f = m.set.figures.rows.at("envelope");
     for (const std::string& tap : f.taps) {
         const PowerSpectrum s = power_spectrum(column_of(m, tap), m.trace.tap_rate);
         const auto envelope = spectral_envelope(s, f.width_hz);
-        for (int i = 1; i <= f.points; ++i) {
-            const double frequency = f.to_hz * i / f.points;
+        for (int i = 1; i <= f.count; ++i) {
+            const double frequency = f.to_hz * i / f.count;
             const auto bin = static_cast<std::size_t>(std::lround(frequency / s.bin_hz));
             if (bin < envelope.size()) t.rows.push_back({tap, short_text(frequency), short_text(envelope[bin])});
         }
@@ -212,19 +197,16 @@ store::Table envelope_rows(const MeasuredCell& m) {
     return t;
 }
 
-store::Key<FigureFacets> centroid_key() {
-    return table_key("centroid", &FigureFacets::centroid,
-                     store::table(std::vector{
-                         taps_key(&CentroidRows::taps), store::needed("window", &CentroidRows::window, store::positive("s"), "of a frame"),
-                         store::needed("hop", &CentroidRows::hop, store::positive("s"), "from frame to frame"),
-                         store::key("from_hz", &CentroidRows::from_hz, store::not_negative("Hz"), "what is below does not count"),
-                         store::key("to_hz", &CentroidRows::to_hz, store::positive("Hz"), "what is above does not count", "all")}),
-                     "describes the measure `centroid`");
+store::Kind<FigureRows> centroid_table() {
+    return store::table(std::vector{taps_key(), needed("window", &FigureRows::window, store::positive("s"), "of a frame"),
+                                    needed("hop", &FigureRows::hop, store::positive("s"), "from frame to frame"),
+                                    store::key("from_hz", &FigureRows::from_hz, store::not_negative("Hz"), "what is below does not count"),
+                                    store::key("to_hz", &FigureRows::to_hz, store::positive("Hz"), "what is above does not count", "all")});
 }
 
 store::Table centroid_rows(const MeasuredCell& m) {
     store::Table t{{"tap", "time_s", "centroid_hz"}, {}};
-    const CentroidRows& f = *m.set.figures.centroid;
+    const FigureRows& f = m.set.figures.rows.at("centroid");
     for (const std::string& tap : f.taps) {
         const int window = std::max(2, static_cast<int>(std::lround(f.window * m.trace.tap_rate)));
         const int hop = std::max(1, static_cast<int>(std::lround(f.hop * m.trace.tap_rate)));

@@ -8,7 +8,7 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,45 +17,31 @@
 
 namespace jvari::bench::suite {
 
-struct TraceRows {
+struct FigureRows {  // of one kind: what its table says
     std::vector<std::string> taps;
     std::vector<std::array<double, 2>> windows;  // [s]
-};
-struct ExtentRows {
-    std::vector<std::string> taps;
-    int intervals = 0;
-};
-struct ProfileRows {
-    std::vector<double> instants;  // [s]
-    double from = 0, to = 0;       // [m]
-    int positions = 0;
-};
-struct EnvelopeRows {
-    std::vector<std::string> taps;
-    double width_hz = 0, to_hz = 0;
-    int points = 0;
-};
-struct CentroidRows {
-    std::vector<std::string> taps;
-    double window = 0, hop = 0;  // [s]
-    double from_hz = 0, to_hz = HUGE_VAL;
+    std::vector<double> instants;                // [s]
+    double from = 0, to = 0;                     // along string 0 [m]
+    double window = 0, hop = 0;                  // of frames [s]
+    double width_hz = 0, from_hz = 0, to_hz = HUGE_VAL;
+    int count = 0;  // of intervals, positions or points
 };
 struct FigureFacets {
-    std::vector<Tap> taps;
-    std::optional<TraceRows> trace;
-    std::optional<ExtentRows> extent;
-    std::optional<ProfileRows> profile;
-    std::optional<EnvelopeRows> envelope;
-    std::optional<CentroidRows> centroid;
-    std::string identity;  // all of it as text: what makes a cell another cell
+    std::vector<Tap> taps;                   // beside those of the scene
+    std::map<std::string, FigureRows> rows;  // by the name of their facet
+    std::string identity;                    // all of it as text: what makes a cell another cell
 };
 
-store::Key<FigureFacets> figure_taps_key();  // beside those of the scene
-store::Key<FigureFacets> trace_key();
-store::Key<FigureFacets> extent_key();
-store::Key<FigureFacets> profile_key();
-store::Key<FigureFacets> envelope_key();
-store::Key<FigureFacets> centroid_key();
+// What the table of each kind says.
+store::Kind<FigureRows> trace_table();
+store::Kind<FigureRows> extent_table();
+store::Kind<FigureRows> profile_table();
+store::Kind<FigureRows> envelope_table();
+store::Kind<FigureRows> centroid_table();
+
+// The keys of a set: `taps`, and a table for each facet that is described by one.
+store::Key<FigureFacets> figure_taps_key();
+store::Key<FigureFacets> figure_rows_key(const char* facet, const store::Kind<FigureRows>&);
 
 // The scene with the taps that the set asks for; those of a profile come last. Throws BadScene, and UsageError for a tap that is not there.
 Scene with_figure_taps(Scene, const FigureFacets&);

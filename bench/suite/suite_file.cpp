@@ -88,7 +88,7 @@ std::vector<store::Key<CellSet>> set_keys() {
         key("elements", &Set::elements, store::several(element()), "beside the scene, the scene without each of these", "none"),
         store::inside(&Set::figures, figure_taps_key())};
     for (const Facet& f : facets())
-        if (f.described) keys.push_back(store::inside(&Set::figures, f.described()));
+        if (f.described) keys.push_back(store::inside(&Set::figures, figure_rows_key(f.name, f.described())));
     return keys;
 }
 

@@ -53,16 +53,6 @@ std::optional<double> CheapestSettings::error_within(const Model& m, double limi
     return worst;
 }
 
-double CheapestSettings::worst_error(const Model& m) {
-    double worst = 0;
-    for (const int s : starts_) {
-        const Verdict v = judged(m, s, HUGE_VAL);
-        if (v.status != "ok") return std::nan("");
-        worst = std::max(worst, v.error);
-    }
-    return worst;
-}
-
 Verdict CheapestSettings::judged(const Model& m, int start, double limit) {
     const double seconds = std::min(longest, judged_over_timed * limit * judge_.scene().duration + 0.01);
     Verdict v = judge_.verdict(m, start, seconds);
@@ -177,7 +167,7 @@ std::optional<Found> CheapestSettings::as_published(const std::vector<const Desc
     const auto found = of_variants(variants, {}, HUGE_VAL);
     within = found.has_value();
     if (found || !nearest_) return found;
-    return Found{*nearest_, worst_error(*nearest_), judge_.cost(*nearest_)};
+    return Found{*nearest_, judge_.worst_error(*nearest_, starts_), judge_.cost(*nearest_)};
 }
 
 std::optional<Found> CheapestSettings::of_variants(const std::vector<Variant>& variants, const std::vector<int>& left_out, double limit) {

@@ -41,7 +41,6 @@ public:
 
     Judge& judge() { return judge_; }
     std::optional<double> error_within(const Model&, double limit);  // the worst; nothing where one start is not within
-    double worst_error(const Model&);                                // NaN where one start fails
     Verdict judged(const Model&, int start, double limit);           // limit: a cost [s per s] that makes it pointless
 
     // Between two rates; nothing that costs `limit` or more is looked for.

@@ -68,6 +68,13 @@ std::string Model::settings_text() const {
     return text + fmt::format(", {:g} Hz", settings.sample_rate);
 }
 
+Model toggled(Model m, int part) {
+    const auto at = std::ranges::lower_bound(m.left_out, part);
+    if (at != m.left_out.end() && *at == part) m.left_out.erase(at);
+    else m.left_out.insert(at, part);
+    return m;
+}
+
 double processor_time(const Model& m, const Scene& left) {
     const auto scheme = make_scheme(*m.scheme, left, m.settings);
     double least = HUGE_VAL;
@@ -192,15 +199,29 @@ Verdict Judge::verdict(const Model& m, int start, double limit) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         }
     const study::Cell& cell = made->cell;
-    if (cell.failure == "past_time_limit") return {"slow", store::nan, limit, 0};
+    if (cell.failure == "past_time_limit") return {"slow", store::nan, limit};
     if (!cell.ran()) return verdicts_[job.id] = {"refused"};  // what is left is no model of this scheme
     const std::string flags = names_of(study::flags_of(cell.summary));
     const bool whole = cell.summary.status.outcome == Outcome::ok;
     return verdicts_[job.id] = {!whole          ? name_of(cell.summary.status.outcome)
                                 : flags.empty() ? "ok"
                                                 : flags,
-                                whole ? cell.errors.at(static_cast<std::size_t>(tap_))[place_] : store::nan, cell.summary.processor_seconds,
-                                cell.summary.dofs};
+                                whole ? cell.errors.at(static_cast<std::size_t>(tap_))[place_] : store::nan,
+                                cell.summary.processor_seconds};
+}
+
+double Judge::worst_error(const Model& m, const std::vector<int>& of_starts) {
+    double worst = 0;
+    try {
+        for (const int start : of_starts) {
+            const Verdict v = verdict(m, start);
+            if (v.status != "ok") return std::nan("");
+            worst = std::max(worst, v.error);
+        }
+    } catch (const std::exception&) {
+        return std::nan("");
+    }
+    return worst;
 }
 
 bool Judge::certain(int start) {

@@ -39,11 +39,12 @@ struct Model {
     std::string settings_text() const;  // "modal_two_point compliance=matched, 80 modes, 44100 Hz"
 };
 
+Model toggled(Model, int part);  // without it, or with it once more
+
 struct Verdict {
     std::string status;  // ok, or what speaks against it: refused, diverged, flags as compare has them
     double error = std::numeric_limits<double>::quiet_NaN();
     double seconds = 0;  // of processor, of the judged run
-    int dofs = 0;
 };
 
 struct Truth {  // of one start
@@ -77,6 +78,7 @@ public:
 
     // A run of more than `limit` s of processor is ended and not kept: "slow".
     Verdict verdict(const Model&, int start, double limit = HUGE_VAL);
+    double worst_error(const Model&, const std::vector<int>& of_starts);  // NaN where one start fails, or what is left makes no scene
     // The reference tells what is within the tolerance: its certificate is below that, below half of it for other starts than the
     // scene's.
     bool certain(int start);

@@ -13,13 +13,6 @@ namespace jvari::bench::trim {
 namespace {
 constexpr double worth = 0.95;  // what is cheaper costs less than this of what it replaces
 
-std::vector<int> toggled(std::vector<int> set, int k) {
-    const auto at = std::lower_bound(set.begin(), set.end(), k);
-    if (at != set.end() && *at == k) set.erase(at);
-    else set.insert(at, k);
-    return set;
-}
-
 // Step 2: toggles of single parts, settings sought anew, until none is cheaper.
 void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener& listener) {
     const int parts = static_cast<int>(s.judge().reductions().size());
@@ -32,8 +25,7 @@ void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener&
         std::vector<Candidate> order;
         for (int k = 0; k < parts; ++k) {
             if (!s.judge().may_go(k)) continue;
-            Model m = now.model;
-            m.left_out = toggled(m.left_out, k);
+            const Model m = toggled(now.model, k);
             double value = -1;  // of a part that is put back, or whose leaving is not within at these settings: last
             try {
                 if (const auto e = s.error_within(m, now.cost); e && m.left_out.size() > now.model.left_out.size())
@@ -46,7 +38,7 @@ void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener&
         std::ranges::stable_sort(order, [](const Candidate& a, const Candidate& b) { return a.saved_per_error > b.saved_per_error; });
         for (const Candidate& c : order) {
             const double rate = now.model.settings.sample_rate;
-            const std::vector<int> left_out = toggled(now.model.left_out, c.part);
+            const std::vector<int> left_out = toggled(now.model, c.part).left_out;
             const auto found = s.of_variant({now.model.scheme, now.model.settings.options}, left_out, rate / 2, rate * 2, worth * now.cost);
             if (!found || found->cost > worth * now.cost) continue;
             const bool gone = left_out.size() > now.model.left_out.size();
@@ -70,8 +62,7 @@ void leave_out_what_costs_nothing(CheapestSettings& s, Found& now, Path& path) {
             const Part p = s.judge().reductions()[k].part;
             if (!s.judge().may_go(k) || p == Part::contact_stiffness) continue;  // another value is no plainer
             if (std::ranges::binary_search(now.model.left_out, k)) continue;
-            Model m = now.model;
-            m.left_out = toggled(m.left_out, k);
+            const Model m = toggled(now.model, k);
             try {
                 if (s.judge().scene_of(m) == s.judge().scene_of(now.model)) continue;  // it went with another
                 const auto e = s.error_within(m, HUGE_VAL);

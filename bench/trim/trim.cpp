@@ -59,27 +59,6 @@ bool fails(const Verified& v, const Target& target) {  // where the reference is
 }
 constexpr int rounds_of_needs = 5;
 
-Model turned_round(Model m, int k) {
-    const auto at = std::ranges::find(m.left_out, k);
-    if (at != m.left_out.end()) m.left_out.erase(at);
-    else m.left_out.insert(std::ranges::lower_bound(m.left_out, k), k);
-    return m;
-}
-
-double error_of(Judge& judge, const Model& m, const std::vector<int>& starts) {
-    try {
-        double worst = 0;
-        for (const int s : starts) {
-            const Verdict v = judge.verdict(m, s);
-            if (v.status != "ok") return std::nan("");
-            worst = std::max(worst, v.error);
-        }
-        return worst;
-    } catch (const std::exception&) {  // what is left makes no scene
-        return std::nan("");
-    }
-}
-
 std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimmed, const std::vector<int>& starts) {
     std::vector<Need> needs;
     std::vector<Model> timed{whole};
@@ -88,10 +67,10 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
     for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k) {
         if (!judge.may_go(k)) continue;
         const Reduction& r = judge.reductions()[k];
-        const Model alone = turned_round(whole, k);
+        const Model alone = toggled(whole, k);
         Need n{r.key,
                r.becomes.empty() ? "left out" : r.becomes,
-               error_of(judge, alone, starts),
+               judge.worst_error(alone, starts),
                std::nan(""),
                std::nan(""),
                std::ranges::binary_search(trimmed.left_out, k),
@@ -102,7 +81,7 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
             timed_needs.push_back(needs.size());
             gone.push_back(std::ranges::binary_search(whole.left_out, k));
         }
-        n.error_in_trimmed = error_of(judge, turned_round(trimmed, k), starts);
+        n.error_in_trimmed = judge.worst_error(toggled(trimmed, k), starts);
         needs.push_back(n);
     }
     const std::vector<Spread> costs = judge.costs(timed, rounds_of_needs);

@@ -230,7 +230,8 @@ TEST(FigureRows, TheExtentOfARampHasTheFirstAndTheLastRowOfEachInterval) {
     trace.names = {"nut"};
     for (int n = 0; n < 100; ++n) trace.tap.push_back(n);
     bench::suite::CellSet set;
-    set.figures.extent = bench::suite::ExtentRows{{"nut"}, 10};
+    set.figures.rows["extent"].taps = {"nut"};
+    set.figures.rows["extent"].count = 10;
     const bench::store::Table t = bench::suite::extent_rows({scene, catalogue.find("modal_two_point"), {}, trace, nullptr, 0, set});
     ASSERT_EQ(t.rows.size(), 10u);
     for (int i = 0; i < 10; ++i) {

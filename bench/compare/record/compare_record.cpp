@@ -71,6 +71,8 @@ Json manifest_of(const Comparison& c, const CompareRequest& r) {
                    {"horizon_of_1e-12_s", study::horizon_of(c.against.floor, c.headline)},
                    {"certificate", certificate_json(c)},
                    {"facts", facts}};
+    Json tap_rates = Json::array();
+    for (const study::Point& p : c.plan.points) tap_rates.push_back(p.references.front().settings.tap_rate);
     Json tunings = Json::array();
     for (const String& string : c.scene().strings) tunings.push_back(tuning_text(string));
     const Json scene{{"name", c.scene().name},
@@ -85,6 +87,7 @@ Json manifest_of(const Comparison& c, const CompareRequest& r) {
     Json manifest = store::made_by();
     manifest.update({{"scene", scene},
                      {"tap_rate", c.reference.settings.tap_rate},
+                     {"tap_rates", tap_rates},  // of each kind of rows: tap_rate is the first's
                      {"schemes", schemes},
                      {"reference", reference},
                      {"headline",
