@@ -43,7 +43,7 @@ TEST(Check, ExcusesAKnownBadControlByNameAndSaysSo) {
 
 TEST(Check, WritesWhatContinuousIntegrationReads) {
     const Scratch scratch;
-    const Outcome o = jvari(scratch, "check --plugin " JVARI_GIVES_NAN " --json --quiet --junit " + (scratch / "check.xml"));
+    const Outcome o = jvari(scratch, "check gives_nan --plugin " JVARI_FAULTS " --json --quiet --junit " + (scratch / "check.xml"));
     EXPECT_EQ(o.code, 4) << o.err;
     const Json scheme = Json::parse(o.out)["schemes"][0];
     EXPECT_EQ(scheme["broken"], Json({"GivesNumbersToTheLastRow"}));

@@ -1,11 +1,11 @@
 #!/bin/sh
-# `jvari check` of one plugin breaks just this promise. usage: check.sh JVARI PLUGIN [PROMISE], without PROMISE: it breaks none
-said=$("$1" check --plugin "$2" 2>&1)
+# `jvari check` of a scheme breaks just this promise. usage: check.sh JVARI PLUGIN SCHEME [PROMISE], without PROMISE: it breaks none
+said=$("$1" check "$3" --plugin "$2" 2>&1)
 code=$?
 broken=$(echo "$said" | sed -n 's|^  BROKEN  *\([A-Za-z]*\).*|\1|p' | tr '\n' ' ')
 asked=$(echo "$said" | grep -c '^  kept')
-[ -n "$3" ] && expected=4 || expected=0
-[ "$asked" -gt 0 ] && [ "$broken" = "${3:+$3 }" ] && [ $code = $expected ] && exit 0
+[ -n "$4" ] && expected=4 || expected=0
+[ "$asked" -gt 0 ] && [ "$broken" = "${4:+$4 }" ] && [ $code = $expected ] && exit 0
 echo "$said"
-echo "$2 breaks: ${broken:-nothing}; expected: ${3:-nothing}; exit code $code" >&2
+echo "$3 breaks: ${broken:-nothing}; expected: ${4:-nothing}; exit code $code" >&2
 exit 1

@@ -1,4 +1,4 @@
-// A scheme that keeps the whole contract: the exact solution of each mode of one free string, from row to row. The plugins of this folder
+// A scheme that keeps the whole contract: the exact solution of each mode of one free string, from row to row. The schemes of this folder
 // derive from it, and each breaks one promise. Leaves out contacts, thread, pluck and further strings.
 #pragma once
 
@@ -66,8 +66,7 @@ public:
     }
     int dofs() const override { return static_cast<int>(y_.size() + v_.size()); }
 
-protected:
-    // What a plugin breaks in a row that is written: row n of the block, row_ of the run.
+    // What a fault breaks in a row that is written: row n of the block, row_ of the run.
     virtual void spoil(const Block&, int /*n*/) noexcept {}
 
     struct Step {
