@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <iterator>
 #include <thread>
 
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/system/file_lock.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {
@@ -129,49 +131,38 @@ TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
     EXPECT_EQ(content(scratch / "stopped/errors.csv"), content(scratch / "whole/errors.csv"));
 }
 
+// The test holds one cell, so that the comparison comes to the others and waits.
 TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
     const Scratch scratch;
-    const std::string out = scratch / "stopped";
-    const auto arguments = [](const std::string& folder, bool resume) {
-        std::vector<std::string> all = {"compare",
-                                        "tanpura_c3_release",
-                                        "--schemes",
-                                        "modal_two_point,modal_strang,modal_quadratised",
-                                        "--rates",
-                                        "44100,88200,176400",
-                                        "--modes",
-                                        "40",
-                                        "--option",
-                                        "compliance=own",
-                                        "--duration",
-                                        "0.05",
-                                        "--repeats",
-                                        "1",
-                                        "--reference-modes",
-                                        "40",
-                                        "--jobs",
-                                        "1",
-                                        "--out",
-                                        folder};
-        if (resume) all.push_back("--resume");
-        return all;
+    const std::string out = scratch / "stopped", cells = out + "/cells";
+    const auto arguments = [](const std::string& folder, const std::string& more = "") {
+        std::istringstream words(
+            "compare tanpura_c3_release --schemes modal_two_point,modal_strang --rates 44100,88200 --modes 40 --option compliance=own "
+            "--duration 0.05 --repeats 1 --reference-modes 40 --jobs 1 --out " +
+            folder + more);
+        return std::vector<std::string>(std::istream_iterator<std::string>(words), {});
     };
-    ASSERT_EQ(Started(scratch, arguments(scratch / "whole", false)).end(), -1) << content(scratch / "stderr");
-    Started compare(scratch, arguments(out, false));
-    compare.once([&] { return cells_in(out + "/cells") > 2; });
-    compare.send(SIGINT);
-    EXPECT_EQ(compare.end(), SIGINT);
-    const std::string kept = std::to_string(cells_in(out + "/cells")) + " of 9 cells";
-    EXPECT_NE(
-        content(scratch / "stderr").find("interrupted: the errors of " + kept + " are kept in " + out + "; --resume goes on from there"),
-        std::string::npos)
-        << content(scratch / "stderr");
+    ASSERT_EQ(Started(scratch, arguments(scratch / "whole")).end(), -1) << content(scratch / "stderr");
+    fs::path held;
+    for (const auto& entry : fs::directory_iterator(scratch / "whole/cells"))
+        if (entry.path().extension() == ".json") held = cells / entry.path().filename();
+    fs::create_directories(cells);
+    {
+        const bench::store::FileLock lock(held, "is held by a test");
+        Started compare(scratch, arguments(out));
+        compare.once([&] { return content(scratch / "stderr").find("waiting for") != std::string::npos; });
+        compare.send(SIGINT);
+        EXPECT_EQ(compare.end(), SIGINT);
+    }
+    EXPECT_EQ(cells_in(cells), 3);
+    const std::string said = content(scratch / "stderr");
+    EXPECT_NE(said.find("interrupted: the errors of 3 of 4 cells are kept in " + out + "; --resume goes on from there"), std::string::npos)
+        << said;
     EXPECT_FALSE(fs::exists(out + "/cells.csv"));
-    ASSERT_EQ(Started(scratch, arguments(out, true)).end(), -1) << content(scratch / "stderr");
-    EXPECT_NE(content(scratch / "stderr").find("the errors of " + kept + " were read back"), std::string::npos)
+    ASSERT_EQ(Started(scratch, arguments(out, " --resume")).end(), -1) << content(scratch / "stderr");
+    EXPECT_NE(content(scratch / "stderr").find("the errors of 3 of 4 cells were read back"), std::string::npos)
         << content(scratch / "stderr");
-    EXPECT_EQ(content(out + "/errors.csv"), content(scratch / "whole/errors.csv"));
-    EXPECT_EQ(content(out + "/convergence.csv"), content(scratch / "whole/convergence.csv"));
+    for (const char* table : {"/errors.csv", "/convergence.csv"}) EXPECT_EQ(content(out + table), content(scratch / "whole" + table));
     for (const auto& sound : fs::directory_iterator(scratch / "whole/sounds"))
         EXPECT_EQ(content(out + "/sounds/" + sound.path().filename().string()), content(sound.path())) << sound.path();
 }
