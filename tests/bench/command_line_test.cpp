@@ -643,6 +643,22 @@ TEST(Plot, ShowsEveryTapAndTheContactForceFirstWhateverIsWritten) {
     EXPECT_LT(bridge.find("bridge (bridge_force)"), bridge.find("nut (nut_force)"));
 }
 
+TEST(Plot, IsAsWideAsItWasAskedForToHalfAMillimetre) {
+    if (!bench::report::find_vega().missing.empty()) GTEST_SKIP() << bench::report::find_vega().missing;
+    const Scratch scratch;
+    const std::string run = "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --width 85mm --plot ";
+    ASSERT_EQ(jvari(scratch, run + (scratch / "a.svg")).code, 0);
+    const std::string picture = content(scratch / "a.svg");
+    EXPECT_NE(picture.find(" width=\"85.00mm\" height=\""), std::string::npos) << picture.substr(0, 300);
+    EXPECT_NE(picture.find(" viewBox=\"0 0 "), std::string::npos) << picture.substr(0, 300);
+    const Outcome pdf = jvari(scratch, run + (scratch / "a.pdf"));
+    if (pdf.err.find("rsvg-convert is missing") != std::string::npos) GTEST_SKIP() << pdf.err;
+    const std::string page = content(scratch / "a.pdf");
+    const auto box = page.find("/MediaBox [ 0 0 ");  // in points of 1/72 in
+    ASSERT_NE(box, std::string::npos);
+    EXPECT_NEAR(std::stod(page.substr(box + 16)) * 25.4 / 72, 85, 0.5);
+}
+
 TEST(Plot, DrawsTheRunOnOnePicture) {
     const Scratch scratch;
     const std::string run = "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --plot ";

@@ -95,13 +95,14 @@ const in_page = {
         press("2");
         const took = performance.now() - from, second = heard(), goes_on = player.playing !== null;
         for (let k = 0; k < 100 && player.playing; ++k) await wait(20);
+        const rms = player.shown.map(s => s.buffer.getChannelData(0)).map(x => Math.sqrt(x.reduce((sum, v) => sum + v * v, 0) / x.length));
         const blind = document.querySelector("#player input");
         blind.checked = true;
         blind.onchange();
         const hidden = player.buttons.every(b => !/modal|finite|reference/.test(b.textContent));
         blind.checked = false;
         blind.onchange();
-        return {first, second, took, goes_on, ended: player.playing === null, hidden, listen: document.querySelectorAll(".listen").length,
+        return {first, second, took, goes_on, loudness: Math.max(...rms) / Math.min(...rms), ended: player.playing === null, hidden, listen: document.querySelectorAll(".listen").length,
                 found: report.verdicts.find(v => v.scene === scene_shown()).answers.filter(a => player.sounds.some(s => s.name === a.scheme && s.detail === a.rate && s.problem === scene_shown())).length, shown: player.shown.length, length: player.shown.map(s => s.buffer?.duration)};
     })()`,
     table: `(async () => {
@@ -466,8 +467,9 @@ async function check(browser, name, file, charts) {
     if (name !== "made-up") {
         const sound = await browser.evaluate(in_page.sound);
         expect(String(sound.first) === "0" && String(sound.second) === "1" && sound.goes_on && sound.took < 50 && sound.ended, `another scheme is heard within 50 ms in the middle of the sound: ${JSON.stringify(sound)}`);
-        expect(sound.listen === sound.found && (name !== "demo" || sound.found >= 3), `each answer that was heard can be listened to: ${JSON.stringify(sound)}`);
-        expect(sound.shown >= 3 && sound.length.every(s => Math.abs(s - 0.06) < 0.001) && sound.hidden, `${sound.shown} sounds are whole, and without names where names are hidden: ${JSON.stringify(sound)}`);
+        expect(sound.loudness < 1.05, `all sounds are as loud, but for the 5 ms of their fades: ${JSON.stringify(sound)}`);
+        expect(sound.listen === sound.found && (name !== "demo" || sound.found >= 2), `each answer that was heard can be listened to: ${JSON.stringify(sound)}`);
+        expect(sound.shown >= 3 && sound.length.every(s => Math.abs(s - (name === "demo" ? 1 : 0.06)) < 0.001) && sound.hidden, `${sound.shown} sounds are whole, and without names where names are hidden: ${JSON.stringify(sound)}`);
     }
     await browser.evaluate("[...document.querySelectorAll('#cells th button')].find(b => b.textContent.startsWith('rate')).focus()");
     const before = await browser.evaluate(in_page.table);

@@ -282,6 +282,10 @@ test("steps to a trimmed scene have the look of their schemes", () => {
         assert.equal(dashes.length, 2);
         assert.deepEqual(left.data.values.map(r => r.series), names);
     }
+    globalThis.innerWidth = 390;
+    const {vconcat} = chart.spec({narrow: true}, false).spec;
+    assert.ok(vconcat.length === 2 && vconcat.every(part => part.width <= 300 && /split/.test(part.encoding.y.axis.labelExpr)), "on a phone one above the other, named by the steps' numbers");
+    for (const axis of vconcat.map(part => part.layer.at(-1).encoding.x.axis)) assert.ok(!/domain/.test(axis.labelExpr), "labels of a part do not ask for the whole's scale");
 });
 
 // ---- Looks

@@ -1,12 +1,17 @@
 // Under node, after the other files: node draw.js makes of page.json beside it every picture of the charts, the suite's figures (figures.js), and
 // plot.py, which draws the first chart with matplotlib. drawn.json lists what was written, and what could not be drawn with the reason.
+// A picture as wide as it was asked for, to the point: what stands beside the plot makes it a little wider or narrower than planned.
+function sized(svg) {
+  const [whole, before, width, height] = svg.match(/^<svg([^>]*?) width="([\d.]+)" height="([\d.]+)"/) ?? [], mm = page.width * 25.4 / 96;
+  return page.width && whole ? svg.replace(whole, `<svg${before} width="${mm.toFixed(2)}mm" height="${(mm * height / width).toFixed(2)}mm"`) : svg;
+}
 async function draw_all() {
   const fs = require("fs"), vega = require("vega"), lite = require("vega-lite"), drawn = [], failed = [];
   const draw = async (file, make) => {
     try {
       const spec = make(), log = vega.logger(vega.Error);
       const view = new vega.View(vega.parse(lite.compile(spec, {logger: log}).spec), {renderer: "none", logLevel: vega.Error});
-      fs.writeFileSync(file, await view.toSVG());
+      fs.writeFileSync(file, sized(await view.toSVG()));
       drawn.push(file);
     } catch (error) {
       failed.push([file, error.message ?? String(error)]);

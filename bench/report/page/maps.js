@@ -104,16 +104,18 @@ function path_spec(choice, print) {
   const steps = records("path").map((r, k, all) => ({label: `${r.step}. ${r.change}`, before: k ? `${all[k - 1].step}. ${all[k - 1].change}` : null, series: variant(r), cost: number(r.cost_s_per_s),
     cost_before: k ? number(all[k - 1].cost_s_per_s) : null, error: number(r.error), target: number(r.target), told: told([["", r.change], ["scheme", spoken(variant(r))], ["modes", r.modes], ["rate", kilohertz(number(r.rate))],
       ["cost", cost_text(number(r.cost_s_per_s), "cost_s_per_s")], ["error", r.error], ["uncertainty of the reference", r.certificate]])}));
-  const names = in_order(steps.map(s => s.series)), {color, shape, strokeDash} = encodings_of(names), width = Math.min(300, print_width() / 2.5);
-  const y = {field: "label", type: "nominal", sort: null, axis: {title: null, labelLimit: 480, domain: false, ticks: false}}, part = (more, layer) => ({width, height: {step: 24}, data: {values: steps}, encoding: {y: {...y, axis: {...y.axis, ...more}}, color}, layer});
+  const names = in_order(steps.map(s => s.series)), {color, shape, strokeDash} = encodings_of(names), waveform = records("path")[0].measure.includes("error");
+  // Where it is narrow the two stand one above the other, and their lines have the numbers that the table has.
+  const small = choice.narrow || (print && print_width() < 500), width = choice.narrow ? Math.max(200, innerWidth - 120) : small ? print_width() - 30 : Math.min(300, print_width() / 2.5);
+  const y = {field: "label", type: "nominal", sort: null, axis: {title: null, labelLimit: 480, domain: false, ticks: false, ...(small ? {labelExpr: "split(datum.label, '. ')[0]"} : {})}};
+  const part = (more, layer) => ({width, height: {step: small ? 18 : 24}, data: {values: steps}, encoding: {y: {...y, axis: {...y.axis, ...more}}, color}, layer});
   const moved = {data: {values: steps.filter(s => s.before !== null)}, mark: {type: "rule", strokeWidth: 1.6}};
-  const ms = "datum.value < 1 ? format(1000*datum.value, ',~r') + ' ms' : format(datum.value, ',~r') + ' s'", waveform = records("path")[0].measure.includes("error");
   const left = part({}, [{...moved, encoding: {x: {field: "cost_before", type: "quantitative"}, x2: {field: "cost"}, y: {...y, field: "before"}, strokeDash}},
                          {...moved, encoding: {x: {field: "cost", type: "quantitative"}, y: {...y, field: "before"}, y2: {field: "label"}, strokeDash}},
-                         points({x: quantity("cost", {...decades("x", ms), title: "computing time for one second of sound"}, log(20)), shape})]);
-  const right = part({labels: false}, [{mark: {type: "rule", strokeDash: [2, 3], opacity: 0.8, tooltip: null}, encoding: {x: {field: "target", type: "quantitative", aggregate: "max"}, y: null, color: null}},
-                                       points({x: quantity("error", {...decades("x", waveform ? "format(100*datum.value, ',~r') + ' %'" : plain_number), title: "error, " + records("path")[0].measure}, log(20)), shape})]);
-  return {legend: names, spec: framed({width: undefined, spacing: 24, hconcat: [left, right]}, {title: page.title, subtitle: "each step leaves out one thing more; dotted: the tolerance", names}, print)};
+                         points({x: quantity("cost", {labelExpr: "datum.value < 1 ? format(1000*datum.value, '.3~r') + ' ms' : format(datum.value, '.3~r') + ' s'", title: "computing time for one second of sound"}, log(20)), shape})]);
+  const right = part({labels: Boolean(small)}, [{mark: {type: "rule", strokeDash: [2, 3], opacity: 0.8, tooltip: null}, encoding: {x: {field: "target", type: "quantitative", aggregate: "max"}, y: null, color: null}},
+                                       points({x: quantity("error", {labelExpr: waveform ? "format(100*datum.value, '.3~r') + ' %'" : "format(datum.value, '.3~r')", title: "error, " + records("path")[0].measure}, log(20)), shape})]);
+  return {legend: names, spec: framed({width: undefined, spacing: 24, ...(small ? {vconcat: [left, right]} : {hconcat: [left, right]})}, {title: page.title, subtitle: "each step leaves out one thing more; dotted: the tolerance", names}, print)};
 }
 function path_section() {
   if (!records("path").length) return null;

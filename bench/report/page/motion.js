@@ -10,16 +10,16 @@ function motions() {  // of each scene: {reference, schemes}
   });
 }
 // Two pictures of one string: from `from` to `to` along it, as high as it gets there.
-function view_of(all, from, to, left, width) {
+function view_of(all, from, to, left, width, down = 0) {
   const inside = all[0].x.map((x, i) => [x, i]).filter(([x]) => x >= from && x <= to).map(([, i]) => i), values = all.flatMap(m => m.frames.flatMap(f => inside.map(i => f[i])));
   const solid = all[0].obstacle.filter(([x]) => x >= from && x <= to), top = Math.max(...values, ...solid.map(([, h]) => h)), bottom = Math.min(...values, ...solid.map(([, h]) => h));
-  const x = at => left + 10 + (width - 20) * (at - from) / (to - from), y = value => 24 + (motion_down - 50) * (top - value) / (top - bottom || 1);
-  return {inside, solid, x, y, top, bottom, width, left, line: (m, k) => "M" + inside.map(i => `${x(m.x[i]).toFixed(1)},${y(m.frames[k][i]).toFixed(1)}`).join("L")};
+  const x = at => left + 10 + (width - 20) * (at - from) / (to - from), y = value => down + 24 + (motion_down - 50) * (top - value) / (top - bottom || 1);
+  return {inside, solid, x, y, top, bottom, width, left, down, line: (m, k) => "M" + inside.map(i => `${x(m.x[i]).toFixed(1)},${y(m.frames[k][i]).toFixed(1)}`).join("L")};
 }
 function motion_of() {
   const all = motions(), scenes = distinct(all.map(m => m.problem));
   if (!all.length) return [];
-  const picture = svg_element("svg", {viewBox: `0 0 ${motion_across} ${motion_down}`, role: "img", "aria-label": "the string as it moves, slowed"}), said = element("p", {className: "soft small-text"});
+  const picture = svg_element("svg", {role: "img", "aria-label": "the string as it moves, slowed"}), said = element("p", {className: "soft small-text"});
   const go = element("button", {type: "button", className: "play"}), which = element("select"), choose_it = element("label", {}, "over the reference: ", which);
   let shown = [], parts = [], running = !matchMedia("(prefers-reduced-motion: reduce)").matches, at = 0, before = 0;
   const slowed = 400;  // times
@@ -29,7 +29,7 @@ function motion_of() {
       lines.forEach((line, m) => line.setAttribute("d", view.line(shown[m], k)));
       if (!arrow) continue;
       const most = Math.max(1e-12, ...shown.flatMap(m => m.force.map(Math.abs))), force = shown[0].force[k] ?? 0, [place, top] = view.solid.reduce((a, b) => b[1] > a[1] ? b : a), x = view.x(place), y = view.y(top);
-      arrow.setAttribute("d", `M${x},${y}v${-Math.min(y - 20, 60) * Math.abs(force) / most}`);
+      arrow.setAttribute("d", `M${x},${y}v${-Math.min(y - view.down - 20, 60) * Math.abs(force) / most}`);
       label.textContent = Math.abs(force) > 1e-9 ? `${digits(force, 2)} N` : "";
       label.setAttribute("x", x + 7);
       label.setAttribute("y", y + 16);
@@ -41,14 +41,17 @@ function motion_of() {
     shown = [reference, scheme].filter(Boolean);
     if (!shown.length) return;
     const length = shown[0].x.at(-1), solid = shown[0].obstacle.map(([x]) => x), near = solid.length ? Math.min(length, 2.5 * Math.max(...solid)) : 0, colours = [ink[0], looks_of([scheme?.series ?? ""]).get(scheme?.series ?? "").colour];
-    const views = near > 0 && near < 0.6 * length ? [view_of(shown, 0, length, 0, 0.58 * motion_across), view_of(shown, 0, near, 0.6 * motion_across, 0.4 * motion_across)] : [view_of(shown, 0, length, 0, motion_across)];
+    const two = near > 0 && near < 0.6 * length, stacked = narrow.matches, across = stacked ? 380 : motion_across;  // on a phone one above the other
+    const touching = () => stacked ? view_of(shown, 0, near, 0, across, motion_down) : view_of(shown, 0, near, 0.6 * across, 0.4 * across);
+    const views = two ? [view_of(shown, 0, length, 0, stacked ? across : 0.58 * across), touching()] : [view_of(shown, 0, length, 0, across)];
+    picture.setAttribute("viewBox", `0 0 ${across} ${two && stacked ? 2 * motion_down : motion_down}`);
     picture.replaceChildren();
     parts = views.map((view, v) => {
-      const close = v === views.length - 1, floor = motion_down - 22, ground = view.solid.length ? `M${view.x(view.solid[0][0])},${floor}L` + view.solid.map(([x, h]) => `${view.x(x)},${view.y(h)}`).join("L") + `L${view.x(view.solid.at(-1)[0])},${floor}Z` : "";
+      const close = v === views.length - 1, floor = view.down + motion_down - 22, ground = view.solid.length ? `M${view.x(view.solid[0][0])},${floor}L` + view.solid.map(([x, h]) => `${view.x(x)},${view.y(h)}`).join("L") + `L${view.x(view.solid.at(-1)[0])},${floor}Z` : "";
       if (ground) picture.append(svg_element("path", {d: ground, fill: "#c9b48f", stroke: "#c9b48f", "stroke-width": 4, "stroke-linejoin": "round"}));
       const lines = shown.map((m, k) => svg_element("path", {fill: "none", stroke: shade(colours[k] ?? ink[0]), "stroke-width": k ? 1.8 : 2.2, "stroke-dasharray": k ? "6 4" : "none"}));
       const arrow = close && view.solid.length ? svg_element("path", {stroke: shade("#610a2d"), "stroke-width": 4, fill: "none"}) : null, label = svg_element("text", {"font-size": 13, fill: "currentColor"});
-      const name = svg_element("text", {x: view.left + 10, y: 14, "font-size": 12, fill: "currentColor"});
+      const name = svg_element("text", {x: view.left + 10, y: view.down + 14, "font-size": 12, fill: "currentColor"});
       const height = 1000 * (view.top - view.bottom);
       name.textContent = `${close && views.length > 1 ? `the first ${digits(1000 * near, 3)} mm, where it touches` : `the whole string, ${digits(length, 3)} m`}: ${height < 0.1 ? `${digits(1000 * height, 2)} \u00b5m` : `${digits(height, 2)} mm`} high`;
       picture.append(...lines, ...(arrow ? [arrow, label] : []), name);
@@ -78,7 +81,7 @@ function motion_of() {
   which.onchange = build;
   const section = element("section", {id: "motion", ariaLabel: "the string as it moves"}, picture, element("div", {className: "menus"}, go, choose_it, said));
   on_scene.push(follow);
-  dark.addEventListener("change", build);
+  for (const media of [dark, narrow]) media.addEventListener("change", build);
   follow();
   running = !running;
   toggle();

@@ -137,6 +137,11 @@ function spectrogram_spec(choice, print) {
   const all = heard_cells();
   if (print) {  // problems down, schemes across
     const across = distinct(all.map(p => p.series + p.rate)), down = distinct(all.map(p => p.problem)), frame = tiled(all, 14000);
+    if (page.width) {  // in a column of a paper: one after the other, two across
+      const size = {width: (print_width() - 60) / 2, height: 90}, title = p => [...(down.length > 1 ? [p.problem] : []), p.series, p.rate.trim()].filter(Boolean);
+      const concat = all.map((p, k) => panel_spec({...p, title: title(p)}, frame, {left: k % 2 ? null : "", lowest: k + 2 >= all.length, size}));
+      return {spec: framed({width: undefined, columns: 2, spacing: 10, concat}, {title: page.title, subtitle: `spectrograms; ${page.source}`}, true)};
+    }
     const concat = down.flatMap((row, k) => across.map((column, m) => {
       const panel = all.find(p => p.problem === row && p.series + p.rate === column) ?? {levels: null, status: ""};
       return panel_spec({...panel, title: k ? "" : column}, frame, {left: m ? null : row, lowest: k === down.length - 1});
