@@ -105,7 +105,7 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces, 
     for (const auto& [rate, given] : by_rate) {
         const double hz = rate.cast<double>();
         const Trace t = trace_of(py::reinterpret_borrow<py::object>(given), judged, rows.rate, hz);
-        judge::check_rows(t, "trace at " + store::text_of(hz) + " Hz", rows.count);
+        judge::must_be_whole(t, "trace at " + store::text_of(hz) + " Hz", rows.count);
         c.contents.append(reinterpret_cast<const char*>(t.tap.data()), t.tap.size() * sizeof(double));
         c.traces.emplace(hz, std::make_shared<const Trace>(t));
         if (cost.is_none()) continue;

@@ -53,6 +53,7 @@ judge::Candidate candidate_of(JudgeRequest& r) {
     for (std::size_t k = 0; k < files.size(); ++k) {
         const NamedFile& f = files[k];
         auto trace = std::make_shared<const Trace>(judge::read_trace(f.path, scene, rows.rate, rows.count));
+        judge::must_be_whole(*trace, f.path, rows.count);
         if (!c.traces.emplace(f.rate, std::move(trace)).second)
             throw store::UsageError(fmt::format("--trace: found more than one at {:.12g} Hz", f.rate));
         if (!r.costs.empty()) c.costs[f.rate] = r.costs[k];
@@ -78,15 +79,14 @@ int judge_command(JudgeRequest r) {
     const auto manifest = compare::manifest_of(c, r);
     ResultsFolder folder(r.out, console);
     folder.add_all(c, cells, manifest);
-    const int code = judge::failed(c) ? exit_code::run_failed : exit_code::done;
     console.print(headline_text(cells, Console::width()) + "\n" + judge::verdict_of(c));
     if (!r.out.empty()) console.print("written: " + r.out);
     console.print_json(store::indented(with_results({{"scene", c.scene().name},
                                                      {"reference", c.reference.name()},
-                                                     {"status", exit_code::status(code)},
+                                                     {"status", exit_code::status(exit_code::done)},
                                                      {"verdict", judge::verdict_of(c)}},
                                                     manifest, cells, compare::cheapest_of(cells), folder.files)));
-    return code;
+    return exit_code::done;
 }
 }  // namespace
 
@@ -123,7 +123,9 @@ Act judge_verb(CLI::App& program) {
         "report\n"
         "\n"
         "Row n of a trace is at n/44100 s, from the start on; contact forces are means over the interval that ends at the row.\n"
-        "Exit code 4 where a trace holds NaN or stops early: it is judged up to there. `jvari export` writes the problem.");
+        "A file that is no trace of the scene is refused with exit code 2, and nothing is written: other row times, a missing tap, other "
+        "than\n"
+        "all rows, NaN. `jvari export` writes the problem.");
     add_common(*verb, *r);
     return [r] { return judge_command(*r); };
 }

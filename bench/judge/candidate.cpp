@@ -99,23 +99,12 @@ compare::Comparison judge(Candidate candidate, compare::CompareRequest request, 
     return c;
 }
 
-bool failed(const compare::Comparison& c) {
-    return std::ranges::any_of(c.outcome.records, [](const study::Record& r) { return is_candidate(r.cell) && r.cell.status() != "ok"; });
-}
-
 std::string verdict_of(const compare::Comparison& c) {
     const store::Table cells = compare::cells_of(c);
     std::string text;
     for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-        const study::Record& r = c.outcome.records[i];
-        if (!is_candidate(r.cell)) continue;
+        if (!is_candidate(c.outcome.records[i].cell)) continue;
         text += (text.empty() ? "" : "\n") + sentence_of(cells, i);
-        if (r.cell.status() == "ok") continue;
-        const long row = r.cell.summary.rows;
-        const auto& trace = *static_cast<const Candidate*>(r.cell.scheme->own)->traces.at(r.cell.settings.sample_rate);
-        text += fmt::format("; but {} row {}, at {}: later windows have no error",
-                            row < trace.rows ? "it holds no number in" : "it stops before", row,
-                            compare::time_text(static_cast<double>(row) / trace.tap_rate));
     }
     const store::Table orders = compare::convergence_of(cells);
     for (std::size_t i = 0; i < orders.rows.size(); ++i)

@@ -28,7 +28,6 @@ Rows rows_for(const compare::CompareRequest&, const Scene&);
 compare::Comparison judge(Candidate, compare::CompareRequest, const std::vector<std::string>& plugins, const store::Listener&,
                           study::Kept&);
 
-bool failed(const compare::Comparison&);             // a trace holds what is no number, or stops early
 std::string verdict_of(const compare::Comparison&);  // in words, a line a rate, and the observed order
 
 }  // namespace jvari::bench::judge

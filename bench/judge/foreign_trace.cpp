@@ -110,6 +110,22 @@ void check_rows(const Trace& trace, const std::string& what, long rows) {
     if (trace.rows == 0) throw store::UsageError(what + ": has no row");
 }
 
+void must_be_whole(const Trace& trace, const std::string& what, long rows) {
+    check_rows(trace, what, rows);
+    const auto ends = [&trace](long row) {
+        return fmt::format("To judge what comes before, leave out the rows from {} on and add --duration {:.12g}", row,
+                           static_cast<double>(row - 1) / trace.tap_rate);
+    };
+    if (trace.rows < rows)
+        throw store::UsageError(
+            fmt::format("{}: has {} rows, the scene has {}: it stops early. {}", what, trace.rows, rows, ends(trace.rows)));
+    for (long row = 0; row < rows; ++row)
+        for (std::size_t k = 0; k < trace.names.size(); ++k)
+            if (!std::isfinite(trace.tap[static_cast<std::size_t>(row) + k * static_cast<std::size_t>(trace.stride)]))
+                throw store::UsageError(fmt::format("{}: tap {} holds no number in row {}, at {:.6g} s. {}", what, trace.names[k], row,
+                                                    static_cast<double>(row) / trace.tap_rate, ends(row)));
+}
+
 Trace read_trace(const std::filesystem::path& path, const Scene& scene, double tap_rate, long rows) {
     const std::string extension = path.extension().string();
     if (extension == ".wav") return from_wav(path, scene, tap_rate, rows);

@@ -21,6 +21,9 @@ Trace read_trace(const std::filesystem::path&, const Scene&, double tap_rate, lo
 // Throws UsageError where an array of a tap has more rows than the scene, or other arrays have other lengths.
 void check_rows(const Trace&, const std::string& what, long rows);
 
+// The same, and where it has fewer rows, or holds what is no number: such a trace cannot be judged whole.
+void must_be_whole(const Trace&, const std::string& what, long rows);
+
 // ---- A trace that another program made, as a scheme: whatever is asked of schemes is asked of it.
 
 // Gives its rows; beyond them, NaN, so that a run ends there as diverged.
