@@ -1,30 +1,13 @@
 #!/bin/sh
 # The templates of docs/own-scheme on an exported problem: they give modal_two_point's motion, `jvari judge` says how wrong it is, and what
 # is no trace of the scene is refused with a sentence. usage: own_scheme.sh JVARI
-jvari=$1
-templates=$(cd "$(dirname "$0")/../docs/own-scheme" && pwd) || exit 2
-scratch=$(mktemp -d) || exit 2
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 2
-status=0
-fail() {
-    echo "$1" >&2
-    status=1
-}
+. "$(dirname "$0")/outside.sh"
+templates=$tree/docs/own-scheme
 python=
 for candidate in python3 /usr/bin/python3; do
     "$candidate" -c "import numpy" 2>/dev/null && python=$candidate && break
 done
-scene="tanpura_c3_release --duration 0.01"
 "$jvari" export $scene --rate 88200 --out problem.json --quiet || fail "export fails"
-"$jvari" run $scene --rate 88200 --scheme modal_two_point --out own.csv --quiet || exit 2
-
-# agree NAME FILE: two traces differ by no more than rounding, in every tap
-agree() {
-    paste -d, own.csv "$2" | awk -F, -v name="$1" '
-        NR > 1 { for (k = 2; k <= 5; ++k) { d = $k - $(k + 5); sum[k] += d * d; of[k] += $k * $k } }
-        END { for (k = 2; k <= 5; ++k) if (NR != 443 || !(sum[k] <= 1e-20 * of[k])) { print name, "column", k, "differs"; exit 1 } }' >&2 || status=1
-}
 if [ -n "$python" ]; then
     "$python" "$templates/two_point.py" problem.json python.csv && agree "the Python template" python.csv || fail "the Python template fails"
 fi
@@ -39,6 +22,17 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k }
     END { exit !(error["again"] == error["modal_two_point"] && error["again"] > 0 && cost["again"] + 0 == 0.25 && options["again"] == "cost=as_reported") }' \
     judged/cells.csv || fail "the line in the picture is not that of the trace"
 grep -q again judged/work_precision.svg || fail "the picture lacks the trace"
+
+said=$("$jvari" judge $scene --trace 88200=own.csv --schemes modal_two_point)
+echo "$said" | grep -q "it differs from modal_two_point by 0 (nut), 0 (y03), 0 (bridge), 0 (thread)" || fail "a trace differs from its own scheme: $said"
+
+# A fault that is planted in one line of the Octave template is told at its size, however wrong the scheme itself is.
+if command -v octave-cli >/dev/null; then
+    sed 's/F_c = v_c - beta_c\*F_b;/F_b = 1.001*F_b; F_c = v_c - beta_c*F_b;/' "$templates/two_point.m" > mine.m
+    octave-cli mine.m problem.json mine.csv 2>/dev/null || fail "the changed Octave template fails"
+    said=$("$jvari" judge $scene --trace 88200=mine.csv --schemes modal_two_point | sed -n 's/.*it differs from modal_two_point by \([0-9.e-]*\) (nut).*/\1/p')
+    awk -v d="$said" 'BEGIN { exit !(d > 2e-4 && d < 5e-3) }' || fail "a planted error of 1e-3 is told as \"$said\""
+fi
 
 # A planted error is told at its right size: 1e-3 of every value, where the reference is modal_two_point's own solution.
 "$jvari" judge free_string --duration 0.01 --trace 44100=nothing.csv 2>/dev/null && fail "a file that is not there is judged"

@@ -79,12 +79,13 @@ int judge_command(JudgeRequest r) {
     const auto manifest = compare::manifest_of(c, r);
     ResultsFolder folder(r.out, console);
     folder.add_all(c, cells, manifest);
-    console.print(headline_text(cells, Console::width()) + "\n" + judge::verdict_of(c));
+    const std::string verdict = judge::verdict_of(c);
+    console.print(headline_text(cells, Console::width()) + "\n" + verdict);
     if (!r.out.empty()) console.print("written: " + r.out);
     console.print_json(store::indented(with_results({{"scene", c.scene().name},
                                                      {"reference", c.reference.name()},
                                                      {"status", exit_code::status(exit_code::done)},
-                                                     {"verdict", judge::verdict_of(c)}},
+                                                     {"verdict", verdict}},
                                                     manifest, cells, compare::cheapest_of(cells), folder.files)));
     return exit_code::done;
 }
@@ -106,7 +107,9 @@ Act judge_verb(CLI::App& program) {
         ->delimiter(',')
         ->type_name("S,...")
         ->check(positive);
-    verb->add_option("--schemes", r->schemes, "run and timed beside it, at its rates; absent: none")->delimiter(',')->type_name("A,B,...");
+    verb->add_option("--schemes", r->schemes, "run and timed beside it, at its rates: it is said how far the traces differ; absent: none")
+        ->delimiter(',')
+        ->type_name("A,B,...");
     verb->add_option("--tap", r->tap, "judged alone; absent: all taps of the scene")->type_name("NAME");
     add_modes(*verb, r->modes_of_each);
     verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/error.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/diagnosis.hpp"
@@ -13,6 +14,7 @@
 #include "bench/judge/foreign_trace.hpp"
 #include "bench/store/usage.hpp"
 #include "schemes/registry.hpp"
+#include "schemes/run.hpp"
 
 namespace jvari::bench::judge {
 
@@ -76,6 +78,21 @@ std::string sentence_of(const store::Table& cells, std::size_t row) {
     text += fmt::format(" ({}); within 10 % for {}", headline, compare::time_text(horizon));
     return std::isfinite(octaves) ? text + fmt::format("; third octaves {:.2g} dB apart", octaves) : text;
 }
+
+// How far the trace is from each scheme that ran beside it at its rate, tap by tap: whether two programs compute the same.
+std::string beside(const compare::Comparison& c, const study::Record& own) {
+    const Trace& trace = *static_cast<const Candidate*>(own.cell.scheme->own)->traces.at(own.cell.settings.sample_rate);
+    std::string text;
+    for (const study::Record& r : c.outcome.records) {
+        const Settings& settings = r.cell.settings;
+        if (is_candidate(r.cell) || r.cell.status() != "ok" || settings.sample_rate != own.cell.settings.sample_rate) continue;
+        const TapErrors apart = relative_l2(trace, run(*r.cell.scheme, c.scene(), settings).trace);
+        text += fmt::format("\n  it differs from {} by", store::variant_name(r.cell.scheme->name, store::options_text(settings.options)));
+        for (std::size_t k = 0; k < apart.tap.size(); ++k)
+            text += fmt::format("{} {:.2g} ({})", k > 0 ? "," : "", apart.tap[k], trace.names[k]);
+    }
+    return text;
+}
 }  // namespace
 
 Rows rows_for(const compare::CompareRequest& request, const Scene& scene) {
@@ -104,7 +121,7 @@ std::string verdict_of(const compare::Comparison& c) {
     std::string text;
     for (std::size_t i = 0; i < cells.rows.size(); ++i) {
         if (!is_candidate(c.outcome.records[i].cell)) continue;
-        text += (text.empty() ? "" : "\n") + sentence_of(cells, i);
+        text += (text.empty() ? "" : "\n") + sentence_of(cells, i) + beside(c, c.outcome.records[i]);
     }
     const store::Table orders = compare::convergence_of(cells);
     for (std::size_t i = 0; i < orders.rows.size(); ++i)

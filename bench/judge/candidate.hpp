@@ -28,6 +28,6 @@ Rows rows_for(const compare::CompareRequest&, const Scene&);
 compare::Comparison judge(Candidate, compare::CompareRequest, const std::vector<std::string>& plugins, const store::Listener&,
                           study::Kept&);
 
-std::string verdict_of(const compare::Comparison&);  // in words, a line a rate, and the observed order
+std::string verdict_of(const compare::Comparison&);  // in words: of each rate, against what ran beside it, and the observed order
 
 }  // namespace jvari::bench::judge

@@ -95,6 +95,7 @@ double Boundary::relative_difference() const {
 
 MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogue, const MapRequest& request,
                 const store::Listener& listener) {
+    if (maps.empty()) return {};  // no folder is made for them
     const std::vector<PointPlace> places = places_of(maps, catalogue);
     for (const PointPlace& p : places) trial_at(p);  // scenes and keys that are none are said before anything runs
     Trials trials(catalogue, request);

@@ -1,64 +1,77 @@
 """The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-48): python3 two_point.py problem.json trace.csv
 
-One contact of exponent 1 at most, and a thread. `jvari export` writes the problem, `jvari judge` says how wrong the trace is.
+One contact of exponent 1 at most, and a thread. `jvari export` writes the problem, `jvari judge` says how wrong the trace is. In Python,
+`jvari.scheme("mine", represents=[...])(TwoPoint)` makes it a scheme, and picture.py draws it beside others.
 """
 
 import json
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 
-with open(sys.argv[1]) as file:
-    p = {key: np.array(value) if isinstance(value, list) else value for key, value in json.load(file).items()}
-assert p["contacts"] <= 1 and np.all(p["contact_exponent"] == 1), "this scheme takes one contact of exponent 1 at most"
-dt, modes, steps = 1 / p["sample_rate"], p["modes"], p["steps_per_row"]
-omega = np.sqrt((p["omega0"] ** 2 - p["sigma"] ** 2).astype(complex))
-R, E = np.exp(-p["sigma"] * dt), np.expm1(-p["sigma"] * dt)
-num, den = (E**2 + 4 * R * f(0.5 * omega * dt) ** 2 for f in (np.sin, np.cos))
-a, b = num.real / den.real, -2 * np.expm1(-2 * p["sigma"] * dt) / den.real  # (33)
-J, xi = 1 + a + b, dt**2 / (2 * p["modal_mass"])
 
-g_b = p["contact_weights"][0] if p["contacts"] else np.zeros(modes)
-g_c = p["thread_weights"] if p["threads"] else np.zeros(modes)
-g_e = p["pluck_weights"] if p["plucks"] else np.zeros(modes)
-e_b, e_c, e_e = xi / J * g_b, xi / J * g_c, xi / J * g_e
-k_b, h_b = (p["contact_stiffness"][0], p["contact_height"][0]) if p["contacts"] else (0, 0)
-phi_c = p["thread_stiffness"] / 2 + p["thread_damping"] / dt
-inverse_c, theta_bc = 1 / (1 + phi_c * (g_c @ e_c)), g_b @ e_c
-beta_c = phi_c * theta_bc * inverse_c  # (47)
-theta = g_b @ e_b - beta_c * theta_bc
-pluck = np.zeros((p["rows"] - 1) * steps + 2)
-pluck[: len(p["pluck_force"])] = p["pluck_force"][: len(pluck)]
+class TwoPoint:
+    def __init__(self, p):
+        assert p.contacts <= 1 and np.all(p.contact_exponent == 1), "this scheme takes one contact of exponent 1 at most"
+        self.p, self.dt = p, 1 / p.sample_rate
+        omega = np.sqrt((p.omega0**2 - p.sigma**2).astype(complex))
+        R, E = np.exp(-p.sigma * self.dt), np.expm1(-p.sigma * self.dt)
+        num, den = ((E**2 + 4 * R * f(0.5 * omega * self.dt) ** 2).real for f in (np.sin, np.cos))
+        self.a, self.b = num / den, -2 * np.expm1(-2 * p.sigma * self.dt) / den  # (33)
+        self.J, self.xi, none = 1 + self.a + self.b, self.dt**2 / (2 * p.modal_mass), np.zeros(p.modes)
+        self.g_b, self.k_b, self.h_b = (p.contact_weights[0], p.contact_stiffness[0], p.contact_height[0]) if p.contacts else (none, 0, 0)
+        self.g_c, self.g_e = p.thread_weights if p.threads else none, p.pluck_weights if p.plucks else none
+        self.e_b, self.e_c, self.e_e = (self.xi / self.J * g for g in (self.g_b, self.g_c, self.g_e))
+        self.phi_c, self.theta_bc = p.thread_stiffness / 2 + p.thread_damping / self.dt, self.g_b @ self.e_c
+        self.inverse = 1 / (1 + self.phi_c * (self.g_c @ self.e_c))
+        self.beta = self.phi_c * self.theta_bc * self.inverse  # (47)
+        self.theta = self.g_b @ self.e_b - self.beta * self.theta_bc
+        self.dofs = 2 * p.modes
+        self.reset()
+
+    def reset(self):
+        self.y, self.q, self.n, self.forces = self.p.start.copy(), np.zeros(self.p.modes), 0, np.zeros(2)
+
+    def pluck(self, n):
+        return self.p.pluck_force[n] if n < len(self.p.pluck_force) else 0.0
+
+    def contact(self, d, b):
+        """Root of r + b = theta F (48), F = k mean of [penetration] from d to d - r: the four cases of fig 4; returns F."""
+        phi = 0.5 * self.theta * self.k_b
+        if self.k_b == 0 or (d <= 0 and d + b <= 0):
+            return 0.0
+        if d > 0 and d * (1 - phi) + b > 0:
+            r = (2 * phi * d - b) / (1 + phi)
+        elif d > 0:
+            r = (-b + np.sqrt(b * b + 4 * phi * d * d)) / 2
+        else:
+            r = -(b - 2 * phi * d + np.sqrt(b * b - 4 * phi * d * (b + d))) / (2 * (1 + phi))
+        return (r + b) / self.theta
+
+    def step(self):
+        u = 2 / self.J * (self.q - self.a * self.y) + self.e_e * (0.5 * (self.pluck(self.n) + self.pluck(self.n + 1)))  # (42)
+        v_c = (self.p.thread_stiffness * (self.p.thread_height - self.g_c @ self.y) - self.phi_c * (self.g_c @ u)) * self.inverse
+        F_b = self.contact(self.h_b - self.g_b @ self.y, -(self.g_b @ u) - self.theta_bc * v_c)
+        F_c = v_c - self.beta * F_b  # (46)
+        s = u + self.e_b * F_b + self.e_c * F_c  # (41)
+        self.y, self.q, self.n, self.forces = self.y + s, s - self.q, self.n + 1, self.forces + (F_b, F_c)  # (40)
+        return s
+
+    def advance(self, rows):
+        trace = np.empty((rows, self.p.taps))
+        for row in trace:
+            (F_b, F_c), self.forces = self.forces / self.p.steps_per_row, np.zeros(2)
+            shape, speed = self.p.tap_weights @ self.y, self.p.tap_weights @ (2 / self.dt * self.q)
+            forces = {"bridge_force": F_b, "thread_force": F_c, "driving_force": -F_b - F_c}
+            row[:] = [forces.get(of, (speed if of == "velocity" else shape)[k]) for k, of in enumerate(self.p.tap_quantities)]
+            for _ in range(self.p.steps_per_row):
+                self.step()
+        return trace
 
 
-def contact(d, b):
-    """Root of r + b = theta F (48), F = k mean of [penetration] from d to d - r: the four cases of fig 4; returns F."""
-    phi = 0.5 * theta * k_b
-    if k_b == 0 or (d <= 0 and d + b <= 0):
-        return 0.0
-    if d > 0 and d * (1 - phi) + b > 0:
-        r = (2 * phi * d - b) / (1 + phi)
-    elif d > 0:
-        r = (-b + np.sqrt(b * b + 4 * phi * d * d)) / 2
-    else:
-        r = -(b - 2 * phi * d + np.sqrt(b * b - 4 * phi * d * (b + d))) / (2 * (1 + phi))
-    return (r + b) / theta
-
-
-y, q, n, trace = p["start"].copy(), np.zeros(modes), 0, []
-force = {"bridge_force": 0.0, "thread_force": 0.0, "driving_force": 0.0}
-for row in range(p["rows"]):
-    read = {"displacement": p["tap_weights"] @ y, "velocity": p["tap_weights"] @ (2 / dt * q), "nut_force": p["tap_weights"] @ y}
-    trace.append([row / p["tap_rate"]] + [force[t] if t in force else read[t][k] for k, t in enumerate(p["tap_quantities"])])
-    sum_b = sum_c = 0.0
-    for n in range(n, n + steps) if row + 1 < p["rows"] else []:
-        u = 2 / J * (q - a * y) + e_e * (0.5 * (pluck[n] + pluck[n + 1]))  # (42)
-        v_c = (p["thread_stiffness"] * (p["thread_height"] - g_c @ y) - phi_c * (g_c @ u)) * inverse_c
-        F_b = contact(h_b - g_b @ y, -(g_b @ u) - theta_bc * v_c)
-        F_c = v_c - beta_c * F_b  # (46)
-        s = u + e_b * F_b + e_c * F_c  # (41)
-        y, q = y + s, s - q  # (40)
-        sum_b, sum_c = sum_b + F_b, sum_c + F_c
-    n = (row + 1) * steps
-    force = {"bridge_force": sum_b / steps, "thread_force": sum_c / steps, "driving_force": -(sum_b + sum_c) / steps}
-np.savetxt(sys.argv[2], trace, "%.17g", ",", header="time_s," + ",".join(p["tap_names"]), comments="")
+if __name__ == "__main__":
+    with open(sys.argv[1]) as file:
+        p = SimpleNamespace(**{key: np.array(value) if isinstance(value, list) else value for key, value in json.load(file).items()})
+    trace = np.column_stack((np.arange(p.rows) / p.tap_rate, TwoPoint(p).advance(p.rows)))
+    np.savetxt(sys.argv[2], trace, "%.17g", ",", header="time_s," + ",".join(p.tap_names), comments="")

@@ -1,94 +1,59 @@
 """Schemes written in Python: they run, are judged and are checked like any other. own_scheme_test.py"""
 
+import copy
+import importlib.util
+import os
+import subprocess
+import sys
+import tempfile
 import unittest
 import warnings
+import xml.etree.ElementTree
 
 import jvari
 import numpy as np
 
+TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "own-scheme")
+sys.path.insert(0, TEMPLATES)
+from two_point import TwoPoint as Template  # noqa: E402
+
 FEATURES = ["bending stiffness", "damping", "frequency-dependent damping", "measured modes", "lumped barrier", "thread", "initial shape", "pluck"]
 
 
-class TwoPoint:
-    """van Walstijn et al. 2016, eqs 33, 38-52, with the energy ledger of eqs 49, 51, 52: exact in every step."""
+class TwoPoint(Template):
+    """The template with the energy ledger of eqs 49, 51, 52: exact in every step."""
 
     thread_sign = 1.0  # -1: the planted fault of a thread that pushes the wrong way
     kept = 1.0  # of the stored energy: another number is a planted fault
 
     def __init__(self, p):
-        self.p, self.dt = p, 1 / p.sample_rate
-        omega = np.sqrt((p.omega0**2 - p.sigma**2).astype(complex))
-        R, E = np.exp(-p.sigma * self.dt), np.expm1(-p.sigma * self.dt)
-        num, den = ((E**2 + 4 * R * f(0.5 * omega * self.dt) ** 2).real for f in (np.sin, np.cos))
-        self.a, self.b = num / den, -2 * np.expm1(-2 * p.sigma * self.dt) / den
-        self.J, self.xi = 1 + self.a + self.b, self.dt**2 / (2 * p.modal_mass)
-        none = np.zeros(p.modes)
-        self.g_b = p.contact_weights[0] if p.contacts else none
-        self.g_c = p.thread_weights if p.threads else none
-        self.g_e = p.pluck_weights if p.plucks else none
-        self.k_b, self.h_b = (p.contact_stiffness[0], p.contact_height[0]) if p.contacts else (0.0, 0.0)
-        if p.contacts > 1 or (p.contacts and (p.contact_exponent[0] != 1 or p.contact_loss[0] != 0)):
-            raise ValueError("one contact of exponent 1 without loss")
-        self.k_c, self.r_c = self.thread_sign * p.thread_stiffness, p.thread_damping
-        e_b, e_c = self.xi / self.J * self.g_b, self.xi / self.J * self.g_c
-        self.phi = self.k_c / 2 + self.r_c / self.dt
-        self.theta_bc, self.inverse = self.g_b @ e_c, 1 / (1 + self.phi * (self.g_c @ e_c))
-        self.beta = self.phi * self.theta_bc * self.inverse
-        self.theta = self.g_b @ e_b - self.beta * self.theta_bc
-        self.force_at = {"displacement": 0, "nut_force": 0, "velocity": 1, "bridge_force": 2, "thread_force": 3, "driving_force": 4}
-        self.dofs = 2 * p.modes
-        self.start()
+        p = copy.copy(p)
+        p.thread_stiffness *= self.thread_sign
+        if p.contacts and p.contact_loss[0] != 0:
+            raise ValueError("a contact without loss")
+        super().__init__(p)
 
-    def start(self):
-        self.y, self.q, self.n = self.p.start.copy(), np.zeros(self.p.modes), 0
-        self.impulse, self.supplied, self.lost = np.zeros(2), 0.0, 0.0
-
-    reset = start
-
-    def contact(self, d, b):
-        phi = 0.5 * self.theta * self.k_b
-        if self.k_b == 0 or (d <= 0 and d + b <= 0):
-            return 0.0
-        if d > 0 and d * (1 - phi) + b > 0:
-            r = (2 * phi * d - b) / (1 + phi)
-        elif d > 0:
-            r = (-b + np.sqrt(b * b + 4 * phi * d * d)) / 2
-        else:
-            r = -(b - 2 * phi * d + np.sqrt(b * b - 4 * phi * d * (b + d))) / (2 * (1 + phi))
-        return (r + b) / self.theta
-
-    def pluck(self, n):
-        return self.p.pluck_force[n] if n < len(self.p.pluck_force) else 0.0
+    def reset(self):
+        super().reset()
+        self.supplied, self.lost = 0.0, 0.0
 
     def step(self):
         F_e = 0.5 * (self.pluck(self.n) + self.pluck(self.n + 1))
-        u = (2 * (self.q - self.a * self.y) + self.xi * F_e * self.g_e) / self.J
-        v = (self.k_c * (self.p.thread_height - self.g_c @ self.y) - self.phi * (self.g_c @ u)) * self.inverse
-        F_b = self.contact(self.h_b - self.g_b @ self.y, -(self.g_b @ u) - self.theta_bc * v)
-        F_c = v - self.beta * F_b
-        s = u + self.xi / self.J * (self.g_b * F_b + self.g_c * F_c)
-        self.y, self.q, self.n = self.y + s, s - self.q, self.n + 1
-        self.impulse += (F_b, F_c)
+        s = super().step()
         self.supplied += F_e * (self.g_e @ s)
-        self.lost += self.b @ (s * s) / self.xi + self.r_c / self.dt * (self.g_c @ s) ** 2
+        self.lost += self.b @ (s * s) / self.xi + self.p.thread_damping / self.dt * (self.g_c @ s) ** 2
 
     def stored(self):
         modes = (self.q @ self.q + self.a @ (self.y * self.y)) / self.xi
         d_b, d_c = max(0.0, self.h_b - self.g_b @ self.y), self.p.thread_height - self.g_c @ self.y
-        return modes + 0.5 * self.k_b * d_b**2 + 0.5 * self.k_c * d_c**2 * self.p.threads
+        return modes + 0.5 * self.k_b * d_b**2 + 0.5 * self.p.thread_stiffness * d_c**2 * self.p.threads
 
     def advance(self, rows):
         taps, energy = np.empty((rows, self.p.taps)), np.empty((rows, 3))
         for row in range(rows):
-            mean = self.impulse / self.p.steps_per_row
-            values = (self.p.tap_weights @ self.y, self.p.tap_weights @ (2 / self.dt * self.q), mean[0], mean[1], -mean.sum())
-            for k, quantity in enumerate(self.p.tap_quantities):
-                value = values[self.force_at[quantity]]
-                taps[row, k] = value[k] if np.ndim(value) else value
             energy[row] = self.kept**self.n * self.stored(), self.supplied, self.lost
-            self.impulse, self.supplied, self.lost = np.zeros(2), 0.0, 0.0
-            for _ in range(self.p.steps_per_row):
-                self.step()
+            self.supplied, self.lost = 0.0, 0.0
+            taps[row] = super().advance(1)
         return taps, energy
 
 
@@ -112,6 +77,21 @@ class OwnScheme(unittest.TestCase):
             own, built_in = run["python_two_point"][tap], run["modal_two_point"][tap]
             self.assertLessEqual(np.linalg.norm(own - built_in), 1e-10 * np.linalg.norm(built_in), tap)
 
+    def test_the_template_as_it_stands_is_a_scheme(self):
+        jvari.scheme("template", represents=FEATURES)(Template)
+        run = {name: jvari.run("tanpura_c3_release", name, duration=0.05) for name in ("template", "modal_two_point")}
+        for tap in run["modal_two_point"].keys():
+            own, built_in = run["template"][tap], run["modal_two_point"][tap]
+            self.assertLessEqual(np.linalg.norm(own - built_in), 1e-10 * np.linalg.norm(built_in), tap)
+
+    @unittest.skipIf(importlib.util.find_spec("matplotlib") is None, "matplotlib is not installed (Debian: python3-matplotlib)")
+    def test_ten_lines_make_the_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, os.path.join(TEMPLATES, "picture.py"), folder + "/picture.svg"], check=True, env={**os.environ, "MPLBACKEND": "Agg"})
+            drawing = xml.etree.ElementTree.parse(folder + "/picture.svg").getroot()
+        points = [len(list(e.iter("{http://www.w3.org/2000/svg}use"))) for e in drawing.iter() if e.get("id", "").startswith("line2d_")]
+        self.assertEqual(points.count(3), 2, "two lines of three rates")
+
     def test_it_is_compared_like_any_other_but_for_its_cost(self):
         registered("python_two_point")
         rows = jvari.compare("tanpura_c3_release", ["python_two_point", "modal_two_point"], rates=[44100], modes=133, duration=0.01, repeats=1)
@@ -128,15 +108,16 @@ class OwnScheme(unittest.TestCase):
         self.assertEqual(broken("honest_in_python"), set())
         registered("thread_turned_round", thread_sign=-1.0)
         self.assertIn("StoresNoNegativeEnergyAndDissipates", broken("thread_turned_round"))
-        registered("thread_turned_round_unprobed", balance="none", thread_sign=-1.0)
+        unprobed = {"advance": lambda self, rows: Template.advance(self, rows), "thread_sign": -1.0}  # without energies
+        registered("thread_turned_round_unprobed", balance="none", **unprobed)
         self.assertEqual(broken("thread_turned_round_unprobed"), {"ConvergesToTheReference"})
         registered("loses_energy", kept=0.999)
         self.assertTrue({"KeepsItsEnergyLedgerInEveryRow", "KeepsItsEnergyLedgerInSum"} & broken("loses_energy"))
 
         def reset(self):
-            y = self.y
-            TwoPoint.start(self)
-            self.y = y
+            y = getattr(self, "y", None)
+            TwoPoint.reset(self)
+            self.y = self.y if y is None else y
 
         registered("forgets_to_reset", reset=reset)
         self.assertIn("StartsAnewAfterAReset", broken("forgets_to_reset"))
