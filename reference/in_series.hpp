@@ -1,10 +1,10 @@
 // What the points of a string whose modes are cut lack (compliance=matched): each yields by D more than the modes do,
 //
-//     Y_a = y_a + D_a + C_ae F_e,      R D' = F - P,      P = C^-1 D,
+//     Y_a = y_a + D_a + C_ae F_e,      F = C^-1 D + R (D' - v),      M v' = R (D' - v),
 //
-// a spring with a damper beside it: C the static deflection of the modes left out, R what they resist (schemes/contact/compliance.hpp). The
-// references are exact in time, so nothing else is missing. Between contact events this is linear; as a system of first order with the
-// states z, of which the first are the D,
+// a spring with a mass beside it that a damper holds: C the static deflection of the modes left out, M their inertia
+// (schemes/contact/compliance.hpp). The references are exact in time, so nothing else is missing. Between contact events this is linear; as
+// a system of first order with the states z = (D, v),
 //
 //     z' = A z + B F,      z' Q z' is lost [W],      z' S z/2 is stored.
 //

@@ -104,11 +104,11 @@ double householder_step(const Gap::Values& v) {  // of order 3, of order 4 where
     return newton * (1 - bend) / (1 - 2 * bend + newton * newton * v.third / (6 * v.slope));
 }
 
-struct PairBounds {  // of derivatives
+struct PairBounds {  // of derivatives, from an instant on: the pairs decay
     double second = 0, third = 0;
-    explicit PairBounds(const Gap& gap) {
+    PairBounds(const Gap& gap, double from) {
         for (int k = 0; k < gap.pairs; ++k) {
-            const double square = std::norm(gap.lambda[k]), size = std::sqrt(std::norm(gap.b[k]));
+            const double square = std::norm(gap.lambda[k]), size = std::sqrt(std::norm(gap.b[k])) * std::exp(gap.lambda[k].real() * from);
             second += size * square;
             third += size * square * std::sqrt(square);
         }
@@ -119,7 +119,8 @@ struct Bounds {  // of derivatives from the start to `until`
     int terms;
     double second, third, slow_third;
 };
-Bounds bounds_until(const Gap& gap, const PairBounds& pairs, double until) noexcept {
+Bounds bounds_between(const Gap& gap, double from, double until) noexcept {
+    const PairBounds pairs(gap, from);
     const int terms = gap.terms_until(until);
     double slow[2];
     sweep_functions().bound(gap.p, terms, until, slow);
@@ -179,15 +180,14 @@ double first_crossing(const Gap& gap, double end, double bound) noexcept {
     double fastest = 0;
     for (int k = 0; k < gap.pairs; ++k) fastest = std::max({fastest, gap.lambda[k].imag(), -gap.lambda[k].real()});
     Gap::Values v = gap.at_start();
-    const PairBounds pairs(gap);
-    const Bounds whole = bounds_until(gap, pairs, end);
+    const Bounds whole = bounds_between(gap, 0, end);
     if (!std::isfinite(whole.third)) return 2;  // beyond all numbers: so is the motion, which ends the run
     if (safe_over(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end)) return 2;
     if (stays_open(gap, end)) return 2;
     double from = 0;
     for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {  // a stage has its own terms and bounds: early ones are cheap
         if (to > 0.5 * end) to = end;
-        const double crossing = crossing_within(gap, from, to == end ? whole : bounds_until(gap, pairs, to), bound, v);
+        const double crossing = crossing_within(gap, from, from == 0 && to == end ? whole : bounds_between(gap, from, to), bound, v);
         if (crossing <= end || to == end) return crossing;
         from = to;
     }

@@ -133,7 +133,7 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     known_zero_.resize(contacts + 1);
     touched_.reserve(contacts);
     for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
-    amplitude_.assign(contacts * contacts + 1, 0.0);
+    amplitude_.assign(2 * contacts * contacts + 1, 0.0);
     const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
     if (springs && contacts <= most_sets_of) {
         sets_.resize(1u << contacts);

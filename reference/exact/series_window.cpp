@@ -1,5 +1,6 @@
 #include "reference/exact/series_window.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -88,25 +89,10 @@ std::vector<double> series_kernel(const InSeries& s, double rate, int point, int
     return h;
 }
 
-double series_rate(const InSeries& s) {  // |A^64|^(1/64), by squares
-    const int n = s.states;
-    std::vector<double> power = s.A, square(power.size());
-    double log_size = 0;
-    for (int times = 1;; times *= 2) {
-        double size = 0;
-        for (double x : power) size += std::abs(x);
-        if (size == 0) return 0;
-        for (double& x : power) x /= size;
-        log_size += std::log(size) / times;
-        if (times == 64) return std::exp(log_size);
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n; ++j) {
-                double sum = 0;
-                for (int k = 0; k < n; ++k) sum += power[i * n + k] * power[k * n + j];
-                square[i * n + j] = sum;
-            }
-        power.swap(square);
-    }
+double series_rate(const InSeries& s) {
+    if (s.states == 0) return 0;
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    return Eigen::EigenSolver<Matrix>(Eigen::Map<const Matrix>(s.A.data(), s.states, s.states), false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
 }  // namespace jvari

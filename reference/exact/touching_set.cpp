@@ -16,10 +16,10 @@ using Complex = std::complex<Real>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr Real stiff = 12;           // the slowest fast pair in radians per window, or decay
-constexpr Real most_spans = 100;     // of a window
-constexpr Real longest_span = 9;     // of a soft set's growth: e^9 last bits are as much as the tolerances here bear
-constexpr int resolvent_terms = 72;  // 9^72/72! is nothing
+constexpr Real stiff = 12, least = 10;  // what a contact alone has in radians per window, and the slowest of what is split off
+constexpr Real most_spans = 100;        // of a window
+constexpr Real longest_span = 9;        // of a soft set's growth: e^9 last bits are as much as the tolerances here bear
+constexpr int resolvent_terms = 72;     // 9^72/72! is nothing
 
 // x^n, n < `powers`, on [0, 1] as polynomials of degree N - 1 by their Chebyshev series: coefficients of x^i [i][n].
 // x^n = 2^(1 - 2n) (C(2n, n)/2 + sum_k C(2n, n - k) T_k(2x - 1)). Up to n = N - 1 nothing changes.
@@ -50,97 +50,103 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
         for (int a = 0; a < P; ++a)
             for (int b = 0; b < P; ++b) A[j](a, b) = h(points_[a], points_[b], j) * k_[b];
 
-    // The fast invariant subspace: (p, ... p^(o-1))' = L (p, ... p^(o-1)) with I^i p = [1 0] L^-i (p, ...).
-    const int o = order_ = A[0].isZero(0) ? 2 : 1;
+    // The fast invariant subspace: (p, p')' = L (p, p')' with I^i p = [1 0] L^-i (p, p')'.
     Matrix symmetric(P, P);
+    const Matrix squares = A[0].isZero(0) ? A[1] : Matrix(A[0] * stiff);  // of radians; a decay is to be as fast
     for (int a = 0; a < P; ++a)
-        for (int b = 0; b < P; ++b) symmetric(a, b) = A[o - 1](a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
+        for (int b = 0; b < P; ++b) symmetric(a, b) = squares(a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
     const Matrix even = (symmetric + symmetric.transpose()) / 2;
-    const bool all_stiff = Eigen::LLT<Matrix>(even - std::pow(stiff, Real(o)) * Matrix::Identity(P, P)).info() == Eigen::Success;
+    const bool all_stiff = Eigen::LLT<Matrix>(even - stiff * stiff * Matrix::Identity(P, P)).info() == Eigen::Success;
     if (!all_stiff) {
         soften();
         return;
     }
-    Matrix first = Matrix::Zero(o * P, o * P);
-    if (o == 2) first.topRightCorner(P, P).setIdentity();
-    first.bottomLeftCorner(P, P) = -A[o - 1];
+    Matrix first = Matrix::Zero(2 * P, 2 * P);
+    first.topRightCorner(P, P).setIdentity();
+    first.bottomLeftCorner(P, P) = -A[1];
+    first.bottomRightCorner(P, P) = -A[0];
     Matrix L = first;
     Real change = 1;
     for (int i = 0; i < 200 && change >= 1e-18L; ++i) {
         const Matrix inverse = L.inverse();
         Matrix next = first, power = inverse;
-        for (int j = o; j < N; ++j, power = power * inverse) next.bottomRows(P) -= A[j] * power.topRows(P);
+        for (int j = 2; j < N; ++j, power = power * inverse) next.bottomRows(P) -= A[j] * power.topRows(P);
         change = (next - L).norm() / L.norm();
         L = next;
     }
     if (!(change < 1e-15L)) return;  // no part is so much faster than the others
     const Eigen::EigenSolver<Matrix> eigen(L);
     std::vector<Complex> rates;
-    ComplexMatrix v(P, P);
-    for (int k = 0; k < o * P; ++k) {
-        const bool wanted = o == 2 ? eigen.eigenvalues()(k).imag() > 0 : eigen.eigenvalues()(k).imag() == 0;
-        if (!wanted || static_cast<int>(rates.size()) == P) continue;
-        v.col(static_cast<int>(rates.size())) = eigen.eigenvectors().col(k).head(P);
-        v.col(static_cast<int>(rates.size())) /= v.col(static_cast<int>(rates.size())).norm();
-        rates.push_back(eigen.eigenvalues()(k));
+    ComplexMatrix v(P, 2 * P);
+    for (int k = 0; k < 2 * P; ++k) {
+        const Complex rate = eigen.eigenvalues()(k);
+        if (rate.real() > 0 || std::abs(rate) < least) return;
+        if (rate.imag() < 0) continue;
+        const int now = static_cast<int>(rates.size());
+        v.col(now) = eigen.eigenvectors().col(k).head(P);
+        v.col(now) /= v.col(now).norm();
+        rates.push_back(rate);
     }
-    if (static_cast<int>(rates.size()) < P) return;  // a pair that does not oscillate, or a decay that does
-    for (const Complex& rate : rates)
-        if (rate.real() > 0) return;
+    const int E = static_cast<int>(rates.size());
 
     // G: rows and columns [derivative][point].
     Matrix operation = Matrix::Zero(P * N, P * N);
     for (int n = 0; n < N; ++n) {
-        if (n + o < N) operation.block(n * P, (n + o) * P, P, P).setIdentity();
-        for (int j = o - 1; j <= n + o - 1 && j < N; ++j) operation.block(n * P, (n + o - 1 - j) * P, P, P) += A[j];
+        if (n + 2 < N) operation.block(n * P, (n + 2) * P, P, P).setIdentity();
+        for (int j = n + 1 < N ? 0 : 1; j <= n + 1 && j < N; ++j) operation.block(n * P, (n + 1 - j) * P, P, P) += A[j];
     }
     const Matrix G = operation.partialPivLu().inverse();
 
-    ComplexMatrix q = ComplexMatrix::Zero(P * N, P);
-    for (int k = 0; k < P; ++k)
+    ComplexMatrix q = ComplexMatrix::Zero(P * N, E);
+    for (int k = 0; k < E; ++k)
         for (int n = 0; n < N; ++n) {
             Complex power = Complex(1) / rates[k];
-            for (int j = n + o; j < N; ++j, power /= rates[k]) q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
+            for (int j = n + 2; j < N; ++j, power /= rates[k]) q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
         }
     const ComplexMatrix Q = G * q;
 
-    Matrix start(o * P, o * P);  // beta, real and for pairs imaginary part -> p(0) and for pairs p'(0)
-    for (int k = 0; k < P; ++k) {
+    Matrix start(2 * P, 2 * P);  // Re beta, and -Im beta of pairs that oscillate -> p(0), p'(0)
+    int column = 0;
+    for (int k = 0; k < E; ++k, ++column) {
+        const bool oscillates = rates[k].imag() != 0;
         ComplexMatrix here = v.col(k);
-        for (int d = 0; d < o; ++d, here *= rates[k]) {
+        for (int d = 0; d < 2; ++d, here *= rates[k]) {
             const ComplexMatrix all = here + Q.block(d * P, k, P, 1);
-            start.block(d * P, k, P, 1) = all.real();
-            if (o == 2) start.block(d * P, P + k, P, 1) = -all.imag();
+            start.block(d * P, column, P, 1) = all.real();
+            if (oscillates) start.block(d * P, column + 1, P, 1) = -all.imag();
         }
+        if (oscillates) ++column;
     }
     const Matrix inverse = start.inverse();
 
-    pairs_ = P;
+    pairs_ = E;
     growth_ = w.reach;
     for (const Complex& rate : rates) rate_.push_back(static_cast<std::complex<double>>(rate));
-    beta_.resize(2 * P);
-    start_.resize(o * o * P * P);
-    for (int i = 0; i < o * P; ++i)
-        for (int j = 0; j < o * P; ++j) start_[i * o * P + j] = static_cast<double>(inverse(i, j));
+    beta_.assign(2 * E, 0.0);
+    for (int b = 0; b < P; ++b) pushed_at_once_.push_back(static_cast<double>(A[0](b, b)));
+    start_.assign(static_cast<std::size_t>(2 * E) * 2 * P, 0.0);
+    for (int k = 0, row = 0; k < E; ++k)
+        for (int part = 0; part < (rates[k].imag() != 0 ? 2 : 1); ++part, ++row)
+            for (int j = 0; j < 2 * P; ++j) start_[(2 * k + part) * 2 * P + j] = static_cast<double>(inverse(row, j));
     inverse_.assign(static_cast<std::size_t>(P) * N * P * size, 0.0);
-    for (int m = 0; m + o < N; ++m)
+    for (int m = 0; m + 2 < N; ++m)
         for (int b = 0; b < P; ++b)
             for (int a = 0; a < P; ++a)
                 for (int n = 0; n < N; ++n)
                     inverse_[(static_cast<std::size_t>(m * P + b) * P + a) * size + n] = static_cast<double>(G(n * P + a, m * P + b));
-    shape_.assign(static_cast<std::size_t>(w.contacts) * P, 0.0);
-    slow_.assign(static_cast<std::size_t>(P) * w.contacts * 2 * size, 0.0);
-    for (int k = 0; k < P; ++k)
+    shape_.assign(static_cast<std::size_t>(w.contacts) * E, 0.0);
+    slow_.assign(static_cast<std::size_t>(E) * w.contacts * 2 * size, 0.0);
+    for (int k = 0; k < E; ++k)
         for (int a = 0; a < w.contacts; ++a) {
             const auto touching = std::find(points_.begin(), points_.end(), a);
-            double* slow = slow_.data() + (static_cast<std::size_t>(a) * P + k) * 2 * size;
+            double* slow = slow_.data() + (static_cast<std::size_t>(a) * E + k) * 2 * size;
             const auto add = [&](int n, Complex x) {
                 slow[n] += static_cast<double>(x.real());
                 slow[size + n] += static_cast<double>(x.imag());
             };
             if (touching != points_.end()) {
                 const int at = static_cast<int>(touching - points_.begin());
-                shape_[a * P + k] = static_cast<std::complex<double>>(v(at, k));
+                shape_[a * E + k] = static_cast<std::complex<double>>(v(at, k));
                 for (int n = 0; n < N; ++n) add(n, Q(n * P + at, k));
                 continue;
             }
@@ -151,7 +157,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
                     sum += part * std::pow(rates[k], static_cast<Real>(-j - 1));
                     for (int n = 0; n <= j; ++n) add(n, -part * std::pow(rates[k], static_cast<Real>(n - j - 1)));
                 }
-            shape_[a * P + k] = static_cast<std::complex<double>>(sum);
+            shape_[a * E + k] = static_cast<std::complex<double>>(sum);
         }
 }
 
@@ -206,23 +212,21 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
         double* out = path + points_[a] * stride;
         std::fill_n(out, size, 0.0);
         for (int b = 0; b < P; ++b)
-            combine(out, size, r + points_[b] * stride + order_, N - order_, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
+            combine(out, size, r + points_[b] * stride + 2, N - 2, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
                     static_cast<long>(P) * P * size);
     }
-    for (int k = 0; k < pairs_; ++k) {
-        double re = 0, im = 0;
-        for (int b = 0; b < P; ++b)
-            for (int d = 0; d < order_; ++d) {
-                const double x = r[points_[b] * stride + d] - path[points_[b] * stride + d];
-                re += start_[k * order_ * P + d * P + b] * x;
-                if (order_ == 2) im += start_[(P + k) * 2 * P + d * P + b] * x;
-            }
-        beta_[2 * k] = re;
-        beta_[2 * k + 1] = -im;
+    for (int k = 0; k < 2 * pairs_; ++k) {
+        double sum = 0;
+        for (int b = 0; b < P; ++b) {
+            const double *rb = r + points_[b] * stride, *pb = path + points_[b] * stride;
+            sum += start_[k * 2 * P + b] * (rb[0] - pb[0]) + start_[k * 2 * P + P + b] * (rb[1] - pushed_at_once_[b] * rb[0] - pb[1]);
+        }
+        beta_[k] = k % 2 == 0 ? sum : -sum;
     }
     const auto add_pairs = [&](int a) {
-        combine(path + a * stride, size, beta_.data(), 2 * pairs_, slow_.data() + static_cast<std::size_t>(a) * P * 2 * size, size);
-        for (int k = 0; k < pairs_; ++k) amplitude[a * P + k] = std::complex<double>(beta_[2 * k], -beta_[2 * k + 1]) * shape_[a * P + k];
+        combine(path + a * stride, size, beta_.data(), 2 * pairs_, slow_.data() + static_cast<std::size_t>(a) * pairs_ * 2 * size, size);
+        for (int k = 0; k < pairs_; ++k)
+            amplitude[a * pairs_ + k] = std::complex<double>(beta_[2 * k], -beta_[2 * k + 1]) * shape_[a * pairs_ + k];
     };
     for (int a : points_) add_pairs(a);
     if (P == w.contacts) return;

@@ -1,15 +1,14 @@
 // Linear contacts in touch, their stiff oscillation split off. With p the displacements of the contact points from their barriers,
 //
-//     p^(o) + H_(o-1) K p + sum_{j >= o} H_j K I^(j-o+1) p = r^(o)      (I: integral from 0; r: the points' motion if they let go at 0)
+//     p'' + H_0 K p' + H_1 K p + sum_{j >= 2} H_j K I^(j-1) p = r''      (I: integral from 0; r: the points' motion if they let go at 0)
 //
-// with o = 2 where they push nothing but the string's modes (H_0 = 0), and o = 1 where each has a damper in series (in_series.hpp): then
-// the fast part is no oscillation but a decay. The solution is p = p_s + Re sum_k beta_k v_k e^(lambda_k u): one fast pair, or decay, per
-// touching point, lambda and v from (lambda^o + sum_j H_j K lambda^(o-1-j)) v = 0, and a polynomial as slow as the string,
-// p_s = G (r^(o) + Re sum_k beta_k q_k), with G the inverse of the operator on truncated vectors of derivatives and
-// q_k,n = sum_{j >= n+o} H_j K v_k lambda_k^(n+o-1-j). beta follows from p^(i)(0) = r^(i)(0), i < o. The series in G is asymptotic: see
-// longest_reach. Where some direction is not stiff nothing is split off: p follows from r by the resolvent, over a window or a part of it.
-// All of it is made once per set of touching points. Leaves out: sets with such a direction beside one so stiff that spans are short;
-// solves() is false for them.
+// H_0 is zero where they push nothing but the string's modes: each touching point then has one fast pair. With something in series
+// (in_series.hpp) it has two decays, or a damped pair. The solution is p = p_s + Re sum_k beta_k v_k e^(lambda_k u): lambda and v from
+// (lambda^2 + sum_j H_j K lambda^(1-j)) v = 0, and a polynomial as slow as the string, p_s = G (r'' + Re sum_k beta_k q_k), with G the
+// inverse of the operator on truncated vectors of derivatives and q_k,n = sum_{j >= n+2} H_j K v_k lambda_k^(n+1-j). beta follows from
+// p(0) = r(0) and p'(0) = r'(0) - H_0 K r(0). The series in G is asymptotic: see longest_reach. Where some direction is not stiff nothing
+// is split off: p follows from r by the resolvent, over a window or a part of it. All of it is made once per set of touching points. Leaves
+// out: sets with such a direction beside one so stiff that spans are short; solves() is false for them.
 #pragma once
 
 #include <complex>
@@ -48,13 +47,14 @@ private:
     const MacroWindow* window_;
     std::vector<int> points_;
     std::vector<double> k_;
-    int pairs_ = 0, order_ = 2;
+    int pairs_ = 0;
     double growth_ = 0, span_ = 1;
     std::vector<std::complex<double>> rate_, shape_;  // [pair], [contact][pair]
     std::vector<double> resolvent_;                   // of a soft set: r -> path over its span [contact][point][column: derivative][row]
     std::vector<double> inverse_;                     // G [column: derivative][column: point][row: point][row: derivative]
-    std::vector<double> start_;                       // p^(i)(0), i < order -> beta [order x pairs][order x pairs]
+    std::vector<double> start_;                       // p(0), p'(0) -> Re beta and -Im beta [pair][2][2 x points]
     std::vector<double> slow_;                        // what Re beta and -Im beta of a pair add to the slow part [contact][pair][2][size]
+    std::vector<double> pushed_at_once_;              // p' = r' - this x p at a start [touching contact]
     std::vector<double> beta_;                        // [pair][Re, -Im]
 };
 
