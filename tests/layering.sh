@@ -50,7 +50,7 @@ only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin
 }
 only "toml++" 'toml' 'scenes/document'
 only GSL 'gsl/' 'analysis/'
-only Eigen 'Eigen/' 'schemes/|reference/exact/(touching_set|collocated_contact)|analysis/'
+only Eigen 'Eigen/' 'schemes/|reference/(in_series|exact/(touching_set|collocated_contact|series_window))|analysis/'
 only Highway 'hwy/' 'schemes/|reference/exact/modal_sweep'
 only FFTW 'fftw' 'analysis/(spectrum|convolution)'
 only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'
