@@ -52,7 +52,7 @@ void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener&
     }
 }
 
-// Step 4.
+// Step 4. No clock is asked: what step 2 found too little to tell goes here whatever the clock said.
 void leave_out_what_costs_nothing(CheapestSettings& s, Found& now, Path& path) {
     for (bool more = true; more;) {
         more = false;
@@ -67,14 +67,13 @@ void leave_out_what_costs_nothing(CheapestSettings& s, Found& now, Path& path) {
                 if (s.judge().scene_of(m) == s.judge().scene_of(now.model)) continue;  // it went with another
                 const auto e = s.error_within(m, HUGE_VAL);
                 if (!e || (best && *e >= best->error)) continue;
-                const double cost = s.judge().cost(m);
-                if (cost > now.cost / worth) continue;
-                best = Found{m, *e, cost}, part = k;
+                best = Found{m, *e, 0}, part = k;
             } catch (const std::exception&) {
                 continue;
             }
         }
         if (!best) break;
+        best->cost = s.judge().cost(best->model);
         now = *best;
         path.steps.push_back({s.judge().reductions()[part].said(), now.model, now.error, now.cost, true});
         more = true;
