@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/compare/catalogue.hpp"
 #include "schemes/run.hpp"
 #include "schemes/scheme.hpp"
 
@@ -81,7 +82,7 @@ Verdict writes_rows_at_their_instants(const Case&);
 Verdict converges_to_the_reference(const Case&);
 Verdict stays_sound_over_a_map(const Case&);
 
-bool represents(const Descriptor&, const Scene&);
+using compare::represents;
 Settings settings_for(const Descriptor&, const Scene&);
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
 Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it

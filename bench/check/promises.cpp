@@ -74,10 +74,6 @@ const char* name_of(Verdict::Answer a) {
     return names[static_cast<int>(a)];
 }
 
-bool represents(const Descriptor& d, const Scene& scene) {
-    return (needed_by(scene) - d.represents).empty();
-}
-
 Settings settings_for(const Descriptor& d, const Scene& scene) {
     Settings s{4 * contract_tap_rate, contract_tap_rate, contract_modes, {}};
     if (d.clock == Clock::continuous && needed_by(scene).has(Feature::profile_barrier) && declares(d, "nodes"))

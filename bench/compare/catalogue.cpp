@@ -92,6 +92,19 @@ Settings settings_of_run(const Descriptor& d, double rate, std::optional<double>
     return s;
 }
 
+bool represents(const Descriptor& d, const Scene& scene) {
+    return (needed_by(scene) - d.represents).empty();
+}
+
+std::optional<int> dofs_with(int modes, const Descriptor& d, const Scene& scene, Settings settings) {
+    settings.modes = modes;
+    try {
+        return make_scheme(d, scene, settings)->dofs();
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+}
+
 std::vector<std::string> names_in(Features features) {
     std::vector<std::string> names;
     for (int i = 0; i < feature_count; ++i)

@@ -35,6 +35,9 @@ Scene load_scene(const CompareRequest&);  // with the tap that is asked for alon
 Settings settings_of_run(const Descriptor&, double rate, std::optional<double> tap_rate, int modes, const std::vector<SchemeOption>&);
 bool whole_multiple(double rate, double of);  // rate = n x of, n = 1, 2, ...
 
+bool represents(const Descriptor&, const Scene&);
+// Doubles of state with that many modes; nothing where it cannot be made. A grid has as many whatever it is told.
+std::optional<int> dofs_with(int modes, const Descriptor&, const Scene&, Settings);
 std::vector<std::string> names_in(Features);  // one by one
 
 }  // namespace jvari::bench::compare

@@ -94,7 +94,7 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     }
     if (!r.schemes.empty()) return chosen;
     for (const Descriptor* d : catalogue.schemes)
-        if ((needed_by(scene) - d->represents).empty() && (r.controls || !is_control(*d))) chosen.push_back(d);
+        if (represents(*d, scene) && (r.controls || !is_control(*d))) chosen.push_back(d);
     if (chosen.empty()) throw Refusal("no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
     return chosen;
 }
@@ -122,7 +122,7 @@ std::vector<study::ReferenceChoice> references_for(const CompareRequest& r, cons
         return choices;
     }
     for (const Descriptor* d : catalogue.references)
-        if ((needed_by(scene) - d->represents).empty()) add(*d, "");
+        if (represents(*d, scene)) add(*d, "");
     auto able = stand_ins(scene);  // of those in the program; else one that a plugin brought
     if (able.empty()) able.push_back(&first_scheme);
     const std::string why =

@@ -136,17 +136,9 @@ std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const S
         if (!rung.rates.empty()) rungs.push_back(std::move(rung));
     }
     if (rungs.size() == 1) return rungs;
-    const auto dofs = [&](int modes) {  // a grid takes its own whatever it is told
-        Settings s = settings;
-        s.modes = modes;
-        s.sample_rate = rungs[1].rates.front();
-        try {
-            return make_scheme(d, scene, s)->dofs();
-        } catch (const std::exception&) {
-            return 0;
-        }
-    };
-    if (dofs(settings.modes) == dofs(rungs[1].modes)) rungs.resize(1);
+    Settings at_lowest = settings;
+    at_lowest.sample_rate = rungs[1].rates.front();
+    if (dofs_with(settings.modes, d, scene, at_lowest) == dofs_with(rungs[1].modes, d, scene, at_lowest)) rungs.resize(1);
     return rungs;
 }
 

@@ -28,21 +28,6 @@ struct External {
     std::string command, name;
 };
 
-struct Folder {  // of one call, gone after it
-    fs::path path;
-    Folder() {
-        std::string made = (fs::temp_directory_path() / "jvari-XXXXXX").string();
-        if (!mkdtemp(made.data())) throw store::Unwritable("cannot make a folder in " + fs::temp_directory_path().string());
-        path = made;
-    }
-    ~Folder() {
-        std::error_code gone;
-        fs::remove_all(path, gone);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-};
-
 std::string last_line(const std::string& text) {
     std::istringstream lines(text);
     std::string last;
@@ -52,7 +37,8 @@ std::string last_line(const std::string& text) {
 }
 
 std::shared_ptr<const Trace> computed(const External& e, const Exported& of, const std::string& problem) {
-    const Folder folder;
+    const store::Scratch folder;
+    if (folder.path.empty()) throw store::Unwritable("cannot make a folder in " + store::Scratch::place().string());
     const fs::path asked = folder.path / "problem.json", given = folder.path / "trace.csv";
     store::write_fresh(asked, problem);
     const store::Said said =

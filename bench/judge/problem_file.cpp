@@ -33,10 +33,6 @@ Json json_of(const Plain& value) {
     return value;
 }
 
-Json or_null(double x) {
-    return std::isfinite(x) ? Json(x) : Json();
-}
-
 Json reference_json(const Scene& scene, const study::Truth& truth) {
     const study::Reference& r = truth.reference;
     const Trace &trace = r.run.trace, &moved = r.moved.trace;
@@ -46,12 +42,12 @@ Json reference_json(const Scene& scene, const study::Truth& truth) {
            {"modes", r.choice.settings.modes},
            {"doubling", truth.said},
            {"rows", trace.rows},
-           {"horizon_of_1e-12_s", or_null(horizon(moved.column(nut), trace.column(nut), trace.tap_rate))},
-           {"horizon_of_half_s", or_null(truth.horizon)}};
+           {"horizon_of_1e-12_s", horizon(moved.column(nut), trace.column(nut), trace.tap_rate)},
+           {"horizon_of_half_s", truth.horizon}};
     for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
         const std::string window = std::string(trust::Trust::columns[w]).substr(std::string("certificate_").size());
         Json known = Json::array();
-        for (std::size_t k = 0; k < scene.taps.size(); ++k) known.push_back(or_null(r.trust.of_scene(k, w)));
+        for (std::size_t k = 0; k < scene.taps.size(); ++k) known.push_back(r.trust.of_scene(k, w));
         j["uncertainty_" + window] = known;
     }
     Json taps = Json::array();

@@ -11,26 +11,20 @@
 #include "bench/store/cell_rows.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::report {
 
 namespace fs = std::filesystem;
 
-namespace {
 using Json = nlohmann::ordered_json;
-
-std::string as_utf8(const std::string& bytes) {  // what is none becomes U+FFFD
-    return Json::parse(Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-}  // namespace
 
 store::Table read_table(const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return {};
     try {
-        return store::read_csv(as_utf8(store::read_whole(path)));
+        return store::read_csv(store::as_utf8(store::read_whole(path)));
     } catch (const store::UsageError&) {
         throw;
     } catch (const std::runtime_error& e) {

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "bench/report/page.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/program.hpp"
@@ -30,29 +31,6 @@ std::optional<std::string> whole(const fs::path& path) {
     if (!stream || !(text << stream.rdbuf())) return std::nullopt;
     return text.str();
 }
-
-fs::path temporary() {
-    const char* set = std::getenv("TMPDIR");
-    return set && *set ? set : "/tmp";
-}
-
-struct Scratch {  // a folder of our own, gone at the end
-    Scratch() = default;
-    ~Scratch() { remove(); }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    const fs::path path = [] {
-        std::string name = (temporary() / "jvari-XXXXXX").string();
-        return mkdtemp(name.data()) ? fs::path(name) : fs::path();
-    }();
-
-private:
-    void remove() const {
-        std::error_code ignored;
-        if (!path.empty()) fs::remove_all(path, ignored);
-    }
-    const store::WhenInterrupted removed_{[this] { remove(); }};
-};
 }  // namespace
 
 Vega find_vega() {
@@ -85,7 +63,7 @@ std::string inside_script(std::string text) {
 
 Drawn draw(const Vega& v, const Json& data) {
     Drawn drawn;
-    const Scratch scratch;
+    const store::Scratch scratch;
     const auto file = [&scratch](const char* name) { return scratch.path / name; };
     const auto write = [](const fs::path& path, const std::string& text) {
         return static_cast<bool>(std::ofstream(path, std::ios::binary) << text);
@@ -94,7 +72,7 @@ Drawn draw(const Vega& v, const Json& data) {
                                 page_text("figures.js") + page_text("plot.js") + page_text("draw.js") + "draw_all();\n";
     if (scratch.path.empty() || !write(file("draw.js"), program) ||
         !write(file("page.json"), data.dump(-1, ' ', false, Json::error_handler_t::replace))) {
-        drawn.notes.push_back("no picture: cannot write to " + temporary().string());
+        drawn.notes.push_back("no picture: cannot write to " + store::Scratch::place().string());
         return drawn;
     }
     std::error_code error;

@@ -80,6 +80,21 @@ void write_fresh(const fs::path& path, const std::string& content) {
     file.keep();
 }
 
+fs::path Scratch::place() {
+    const char* set = std::getenv("TMPDIR");
+    return set && *set ? set : "/tmp";
+}
+
+Scratch::Scratch() {
+    std::string name = (place() / "jvari-XXXXXX").string();
+    if (mkdtemp(name.data())) path = name;
+}
+
+void Scratch::remove() const {
+    std::error_code ignored;
+    if (!path.empty()) fs::remove_all(path, ignored);
+}
+
 void sweep_parts(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> parts;

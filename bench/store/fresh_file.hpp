@@ -31,6 +31,21 @@ std::string read_whole(const std::filesystem::path&);                        // 
 // Throws UsageError where no file could be written there, before an hour of work is spent on it.
 void must_be_writable(const std::filesystem::path&);
 
+// A folder of our own in $TMPDIR, or /tmp, gone at the end or at an interruption; its path is empty where none can be made.
+class Scratch {
+public:
+    Scratch();
+    ~Scratch() { remove(); }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    static std::filesystem::path place();
+    std::filesystem::path path;
+
+private:
+    void remove() const;
+    const WhenInterrupted removed_{[this] { remove(); }};
+};
+
 // Removes from a folder of ours what killed programs left: parts of files that nobody has written to for a day.
 void sweep_parts(const std::filesystem::path& folder);
 

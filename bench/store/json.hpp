@@ -15,6 +15,11 @@
 
 namespace jvari::bench::store {
 
+inline std::string as_utf8(const std::string& bytes) {  // what is none becomes U+FFFD
+    using Json = nlohmann::json;
+    return Json::parse(Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 inline std::string indented(const nlohmann::ordered_json& j) {
     return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

@@ -1,4 +1,5 @@
 #include "bench/store/machine.hpp"
+#include "bench/store/json.hpp"
 
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -79,8 +80,7 @@ std::string command() {  // as typed, by the kernel's account; a word with blank
         const bool plain = !word.empty() && word.find_first_of(" \t\n'\"") == std::string::npos;
         text += (first ? "" : " ") + (plain ? word : "'" + word + "'");
     }
-    using Json = nlohmann::json;
-    return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));  // what is no UTF-8 becomes U+FFFD
+    return as_utf8(text);
 }
 }  // namespace
 

@@ -155,7 +155,7 @@ std::optional<Found> CheapestSettings::of_all(const std::vector<const Descriptor
     const Scene scene = judge_.scene_of({left_out, nullptr, {}});
     std::vector<Variant> variants;
     for (const Descriptor* d : schemes)
-        if ((needed_by(scene) - d->represents).empty())
+        if (compare::represents(*d, scene))
             for (const Variant& v : variants_of(*d, scene, judge_.options())) variants.push_back(v);
     return of_variants(variants, left_out, limit);
 }
@@ -163,7 +163,7 @@ std::optional<Found> CheapestSettings::of_all(const std::vector<const Descriptor
 std::optional<Found> CheapestSettings::as_published(const std::vector<const Descriptor*>& schemes, bool& within) {
     std::vector<Variant> variants;
     for (const Descriptor* d : schemes)
-        if ((needed_by(judge_.scene()) - d->represents).empty()) variants.push_back({d, {}});
+        if (compare::represents(*d, judge_.scene())) variants.push_back({d, {}});
     const auto found = of_variants(variants, {}, HUGE_VAL);
     within = found.has_value();
     if (found || !nearest_) return found;
@@ -184,17 +184,9 @@ std::optional<Found> CheapestSettings::of_variants(const std::vector<Variant>& v
 
 // From few modes to the most that are sought; {0} where the scheme takes its own.
 std::vector<int> CheapestSettings::ladder(const Model& m) const {
-    const auto dofs = [&](int modes) {
-        Settings s = m.settings;
-        s.modes = modes;
-        try {
-            return make_scheme(*m.scheme, judge_.scene_of(m), s)->dofs();
-        } catch (const std::exception&) {
-            return -1;
-        }
-    };
     const Scene scene = judge_.scene_of(m);
     const double rate = m.settings.sample_rate;
+    const auto dofs = [&](int modes) { return compare::dofs_with(modes, *m.scheme, scene, m.settings); };
     const int all = compare::most_modes_sought(scene, std::max(1, modes_for(scene, {rate, tap_rate_, 0, {}})), rate);
     if (dofs(all) == dofs(std::max(1, all / 2)) && dofs(all) > 0) return {0};
     std::vector<int> modes;

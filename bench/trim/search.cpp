@@ -85,7 +85,7 @@ Path search(Judge& judge, const std::vector<const Descriptor*>& schemes, const s
     Path path;
     CheapestSettings s(judge, starts, listener);
     for (const Descriptor* d : schemes)
-        if ((needed_by(judge.scene()) - d->represents).empty()) path.tried.emplace_back(d->name);
+        if (compare::represents(*d, judge.scene())) path.tried.emplace_back(d->name);
     if (path.tried.empty())
         throw Refusal("no scheme represents scene " + judge.scene().name + ": it needs " + names_of(needed_by(judge.scene())));
     bool within = false;

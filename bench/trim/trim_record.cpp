@@ -20,10 +20,6 @@ std::string rounded(double x) {  // three digits: no more is known of an error o
     return std::isfinite(x) ? fmt::format("{:.3g}", x) : "";
 }
 
-Json number(double x) {
-    return std::isfinite(x) ? Json(x) : Json();
-}
-
 std::string comment(std::string text) {  // a line of TOML, whatever stands in the names that it holds
     std::ranges::replace_if(
         text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
@@ -103,8 +99,8 @@ Json manifest_of(const Trimmed& t, const Judge& judge, const Request& r) {
     Json verified = Json::array(), truths = Json::array();
     for (const Verified& v : t.verified)
         verified.push_back({{"start", v.said},
-                            {"error", number(v.error)},
-                            {"certificate", number(v.certificate)},
+                            {"error", v.error},
+                            {"certificate", v.certificate},
                             {"within", v.within},
                             {"decided", v.decided},
                             {"judged_by", v.judged_by}});
@@ -112,9 +108,9 @@ Json manifest_of(const Trimmed& t, const Judge& judge, const Request& r) {
         truths.push_back({{"reference", x.reference},
                           {"said", x.said},
                           {"modes", x.modes},
-                          {"certificate", number(x.certificate)},
-                          {"floor", number(x.floor)},
-                          {"horizon_s", number(x.horizon)}});
+                          {"certificate", x.certificate},
+                          {"floor", x.floor},
+                          {"horizon_s", x.horizon}});
     Json manifest = store::made_by();
     manifest.update({{"suite", "trim " + t.whole.name},
                      {"source", t.whole.source},

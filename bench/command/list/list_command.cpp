@@ -87,7 +87,7 @@ Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {  // its text h
         std::vector<std::string> able;
         crosses += fmt::format("  {:<{}}  ", d->name, width);
         for (const auto& [name, scene] : shelf.scenes) {
-            const bool represents = (needed_by(scene) - d->represents).empty();
+            const bool represents = compare::represents(*d, scene);
             crosses += represents ? "x  " : ".  ";
             if (represents) able.push_back(name);
         }
