@@ -460,18 +460,6 @@ TEST(CommandLine, AStringWithoutAModeIsRefusedByWhatCarriesModes) {
     }
 }
 
-TEST(CommandLine, WithoutNodePackagesTheTablesStillComeAndALineSaysWhatIsMissing) {
-    const Scratch scratch;
-    const std::string out = scratch / "cmp";
-    const Outcome o = jvari(scratch, "compare free_string --schemes modal_two_point --rates 44100 --duration 0.01 --repeats 1 --out " + out,
-                            "JVARI_NODE_MODULES=/nowhere");
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("npm ci"), std::string::npos) << o.err;
-    EXPECT_TRUE(std::filesystem::exists(out + "/report.html"));
-    EXPECT_FALSE(std::filesystem::exists(out + "/work_precision.svg"));
-    EXPECT_NE(content(out + "/report.html").find("npm ci"), std::string::npos);
-}
-
 // ---- A scene of one's own
 
 TEST(NewScene, EachInstrumentsSceneIsExplainedAndRunsAsItStands) {

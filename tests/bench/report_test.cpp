@@ -40,6 +40,7 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
     const MadeUp folder(every_file);
     const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
     ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("npm ci"), std::string::npos) << o.err;
     const Json data = data_of(content(folder / "report.html"));
     EXPECT_NE(data.at("missing").get<std::string>().find("npm ci"), std::string::npos);
     EXPECT_EQ(data.at("manifest").at("suite"), "made up");

@@ -264,26 +264,6 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
     }
 }
 
-TEST(SuiteRun, ASuiteThatLostCellsAndIsResumedGivesTheSameTableAndRunsThoseAlone) {
-    const Scratch scratch;
-    const Workshop w;
-    const bench::suite::Suite suite = bench::suite::parse_suite(counting_suite, "a.toml");
-    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
-    const std::string whole = bench::store::csv(
-        bench::study::errors_only(bench::study::table_of(plan, bench::study::run(plan, "", false, 1, w.listener).records)));
-    bench::study::run(plan, scratch.path, false, 3, w.listener);
-    fs::remove(scratch.path / (plan.jobs[1].id + ".json"));
-    fs::remove(scratch.path / (plan.jobs[6].id + ".json"));
-    fs::resize_file(scratch.path / (plan.jobs[3].id + ".json"), 100);  // not ours: files appear whole
-    fs::copy_file(scratch.path / (plan.jobs[5].id + ".json"), scratch.path / (plan.jobs[4].id + ".json"),
-                  fs::copy_options::overwrite_existing);  // another cell's
-    makes = 0;
-    const bench::study::Study resumed = bench::study::run(plan, scratch.path, true, 3, w.listener);
-    EXPECT_EQ(resumed.ran, 4);
-    EXPECT_EQ(makes, 4);  // their clocks are there
-    EXPECT_EQ(bench::store::csv(bench::study::errors_only(table_of(plan, resumed.records))), whole);
-}
-
 TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
     const Scratch scratch;
     const Workshop w;

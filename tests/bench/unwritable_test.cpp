@@ -42,18 +42,6 @@ TEST(Unwritable, AComparisonIsKeptWhereNobodyReadsItsTable) {
         EXPECT_TRUE(fs::exists(scratch.path / "kept" / name)) << name;
 }
 
-TEST(Unwritable, ASuiteIsKeptWhereNobodyReadsItsTable) {
-    const Scratch scratch;
-    std::ofstream(scratch / "a.toml")
-        << "[[map]]\nname = \"a\"\nscene = \"free_string\"\nschemes = [\"modal_two_point\"]\nduration = 0.005\n"
-           "x = { key = \"rate\", values = [44100, 88200] }\n"
-           "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\nrepeats = 1\n";
-    const Outcome o = shell(scratch, "$J suite a.toml --out kept | true\nexit ${PIPESTATUS[0]}");
-    EXPECT_EQ(o.code, 4) << o.err;
-    for (const char* name : {"maps.csv", "cells.csv", "errors.csv", "manifest.json", "report.html"})
-        EXPECT_TRUE(fs::exists(scratch.path / "kept" / name)) << name;
-}
-
 TEST(Unwritable, AResultThatDoesNotGetOutIsNoSuccess) {
     const Scratch scratch;
     for (const char* stream : {"> /dev/full", ">&-"})
