@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/command/compare_text.hpp"
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
+#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "bench/command/compare_text.hpp"
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
+#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"

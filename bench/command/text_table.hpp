@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/store/records.hpp"
+
 namespace jvari::bench::command {
 
 struct TextTable {
@@ -29,5 +31,10 @@ struct TextTable {
 // A listing: lines that are wider than the terminal go on in the next one, below where their last column begins. A column begins behind two
 // blanks or more; one that leaves less than 24 characters counts as none.
 std::string wrapped(const std::string& text, std::size_t width);
+
+// ---- The table of a comparison for the terminal.
+
+// The front marked, and what is not to be trusted; in lines of that width, cost and headline error always.
+std::string headline_text(const store::Table& cells, std::size_t width);
 
 }  // namespace jvari::bench::command

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "bench/compare/catalogue.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/contact/compliance.hpp"
