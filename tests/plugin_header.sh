@@ -24,6 +24,7 @@ for compiler in gcc clang; do
     command -v $compiler >/dev/null || continue
     compiled $compiler '' "$c" && runs "a plugin in C by $compiler" two_point_in_c
 done
+said=$("$jvari" check --plugin ./plugin.so) || fail "the template in C breaks a promise: $said"
 for compiler in g++ clang++; do
     command -v $compiler >/dev/null || continue
     compiled $compiler '' "$cpp" && runs "a plugin in C++ by $compiler" plain_two_point

@@ -69,7 +69,7 @@ struct jvari_rows {
     size_t size;
     int64_t rows, taps, stride;
     double* tap;
-    double* energy; /* three columns likewise: stored, supplied, dissipated [J], the last two of that interval; NULL: not asked for */
+    double* energy; /* three columns likewise: stored, supplied, dissipated [J], the last two of that interval; NULL: not asked for, 0 where left alone */
     int (*stop)(void* caller); /* NULL, or asked every few milliseconds: not 0 means that nobody needs the rest, so return */
     void* caller;
     int64_t failed_step; /* written by a scheme that fails: the step, counted from the start */

@@ -51,6 +51,8 @@ public:
     void reset() noexcept override { table_.reset(state_); }
     Status advance(const Block& out) noexcept override {
         jvari_rows rows{sizeof rows, out.rows, out.taps, out.stride, out.tap, out.energy, nullptr, const_cast<Block*>(&out), 0};
+        for (int k = 0; out.energy && k < 3; ++k)  // 0 where a scheme leaves them out
+            std::fill_n(out.energy + static_cast<std::ptrdiff_t>(k) * out.stride, out.rows, 0.0);
         if (out.stop) rows.stop = [](void* block) { return static_cast<const Block*>(block)->stopped() ? 1 : 0; };
         const int outcome = table_.advance(state_, &rows);
         return {static_cast<Outcome>(outcome), static_cast<long>(rows.failed_step)};
