@@ -29,7 +29,7 @@ struct Field {  // of one record: what a column is asked for
     double seconds() const { return ran() && summary().duration > 0 ? summary().duration : store::nan; }
     double of(double x) const { return ran() ? x : store::nan; }
     const char* untimed() const { return ran() && !record.timed() ? cell().scheme->untimed : ""; }
-    double clock(double x) const { return *untimed() ? store::nan : of(x); }
+    double clock(double x) const { return cell().clock.wall.median > 0 ? of(x) : store::nan; }  // nothing where none was timed
 };
 
 std::string count(long n, bool known) {

@@ -413,6 +413,9 @@ TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
     EXPECT_EQ(t.at(0, "status"), "ok");
     EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
     EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.5 s");
+    for (const char* of_the_clock : {"cost_s_per_s", "cost_lower", "processor_s_per_s", "wall_seconds", "ns_per_step", "times_real_time",
+                                     "worst_block_of_deadline", "repeats"})
+        EXPECT_EQ(t.at(0, of_the_clock), "") << of_the_clock;  // it was not timed
 }
 
 TEST(SuiteCommand, ASceneWithoutTapsIsRefused) {
