@@ -130,6 +130,27 @@ TEST_F(Claims, AreRefusedWithLineAndKey) {
     EXPECT_NE(refusal(of_trace("over = { tow = 1 }\nat_most = 1")).find("a.toml:8"), std::string::npos);
 }
 
+// The template that the documentation gives, as it stands: the suite writes the verdicts, and the verb makes them again of the tables
+// alone.
+TEST(ClaimsOfAPaper, AreMadeByTheSuiteAndMadeAgainWithoutARun) {
+    const Scratch scratch;
+    const std::string out = scratch / "raman";
+    const auto ran = jvari(scratch, "suite " JVARI_SOURCE "/docs/claims/raman.toml --out " + out, "JVARI_NODE_MODULES=/nowhere");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.out.find("3 claims: 3 hold, 0 do not hold, 0 cannot be told"), std::string::npos) << ran.out;
+    EXPECT_EQ(content(out + "/suite.toml"), content(JVARI_SOURCE "/docs/claims/raman.toml"));
+    const std::string first = content(out + "/claims.csv"), page = content(out + "/report.html");
+    EXPECT_NE(page.find("they sound powerfully"), std::string::npos);
+    std::filesystem::remove(out + "/claims.csv");
+    const auto again = jvari(scratch, "claims " + out);
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_NE(again.out.find("over the bridge of a tanpura they sound powerfully"), std::string::npos) << again.out;
+    EXPECT_EQ(content(out + "/claims.csv"), first);
+    const auto none = jvari(scratch, "claims " + out + " --suite smoke");
+    EXPECT_EQ(none.code, 2);
+    EXPECT_NE(none.err.find("smoke has no [[claim]]"), std::string::npos) << none.err;
+}
+
 TEST(Reduce, TakesOneNumberOfASeries) {
     const Series s{{0, -1}, {1, 0}, {2, 3}, {3, -4}};
     EXPECT_EQ(reduce(s, Take::mean).value, -0.5);
