@@ -43,7 +43,7 @@ MapRun run_maps(const std::vector<Map>&, const compare::Catalogue&, const MapReq
 
 // Bisection of a change between two outcomes along one axis: `verdict_at(x)` is asked at most `times` times, at the geometric mean of
 // positive numbers and the arithmetic of others, and not between neighbours where only `whole` numbers count. Where a third outcome lies
-// between, the search goes on towards the side that is sound, of two that are not towards the lower: what is found is where soundness ends.
+// between, the search goes on towards where stability ends, and where both sides are stable, or neither is, towards the lower.
 struct Bracket {
     double low, high;
     study::Verdict at_low, at_high;
@@ -80,7 +80,8 @@ jvari::bench::map::Bracket jvari::bench::map::bisect(Bracket b, int times, bool 
         if (whole) middle = std::round(middle);
         if (!(middle > b.low && middle < b.high)) break;
         const study::Verdict v = verdict_at(middle);
-        const bool lower = v == b.at_low || (v != b.at_high && study::is_stable(b.at_high));
+        const bool stable = study::is_stable(b.at_low), ends = stable != study::is_stable(b.at_high);
+        const bool lower = v == b.at_low || (v != b.at_high && ends && study::is_stable(v) == stable);
         if (lower) b.low = middle, b.at_low = v;
         else b.high = middle, b.at_high = v;
     }

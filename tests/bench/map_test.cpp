@@ -101,7 +101,7 @@ TEST(Bisection, OfWholeNumbersEndsAtNeighbours) {
     EXPECT_EQ(b.high, 138);
 }
 
-TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereSoundnessEnds) {
+TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereStabilityEnds) {
     const auto three = [](double x) {
         return x < 2 ? bench::study::Verdict::sound : x < 3 ? bench::study::Verdict::adhesive : bench::study::Verdict::diverged;
     };
@@ -114,6 +114,13 @@ TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereSoundnessEnds) {
         bench::map::bisect({1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound}, 30, false, mirrored);
     EXPECT_NEAR(start.high, 9, 1e-6);
     EXPECT_EQ(start.at_low, bench::study::Verdict::adhesive);
+    const auto flagged = [](double x) {  // an open ledger between is stable
+        return x < 2 ? bench::study::Verdict::diverged : x < 3 ? bench::study::Verdict::flagged : bench::study::Verdict::sound;
+    };
+    const bench::map::Bracket stable =
+        bench::map::bisect({1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound}, 30, false, flagged);
+    EXPECT_NEAR(stable.low, 2, 1e-6);
+    EXPECT_EQ(stable.at_high, bench::study::Verdict::flagged);
 }
 
 // ---- Boundaries against theory
