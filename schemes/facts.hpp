@@ -26,7 +26,6 @@ struct FactName {
     FACT(static_compliance, "", "deflection under a steady force at the barrier, over that of the scene's string")                     \
     FACT(series_compliance, "m/N", "compliance in series with the first contact")                                                      \
     FACT(compliance_excess, "m/N", "most that a scheme's string yields more than the true one under a load on several contacts: no spring in series takes that away") \
-    FACT(impact_share, "", "share of the contacts' impulse that is given within 50 us of their closing, with compliance=matched")    \
     FACT(start_phase_offset, "rad", "largest phase by which a mode leads the true motion after a start at rest")                       \
     FACT(modes_above_nyquist, "", "modes at or above half the sample rate, which alias")                                               \
     FACT(interior_nodes, "", "nodes of the grid between the ends")                                                                     \

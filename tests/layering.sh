@@ -81,6 +81,6 @@ for room in $(for file in $product; do dirname "$file"; done | sort -u); do
     fi
     case $room in */*) share 20 "$room" $(echo "$product" | grep "^$room/") ;; esac
 done
-share 47 bench $(echo "$product" | grep '^bench/')
+share 48 bench $(echo "$product" | grep '^bench/')
 forbid "-ffast-math is forbidden" 'ffast-math' CMakeLists.txt tests/CMakeLists.txt CMakePresets.json
 exit $status

@@ -120,7 +120,6 @@ int compare_command(const CompareCall& r) {
                               c.scene().taps.at(c.headline.nut).name, c.scene().taps.at(c.headline.bridge).name));
     console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
-    if (const std::string note = compare::matching_note(cells); !note.empty()) console.print(note);
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = code_of(c.outcome.records);

@@ -1,6 +1,6 @@
 // modal_spatial_newton against what one writes first: 1001 modes, 1 MHz, the point bridge and the 19 mm parabola of Issanchou et al. 2016.
 //
-//   fused       the scheme (restricted form)
+//   fused       the scheme (its kernel)
 //   restricted  the modal recursion, synthesis at the nodes of the obstacle, in plain Eigen, with the same contact solver
 //   dense       the paper's eq 15 in Eigen: u+ = D u - D~ u- + (dt^2/mu) f, with the same contact solver
 //
@@ -212,7 +212,7 @@ void report(benchmark::State& state, long steps, double error) {
 void fused(benchmark::State& state, bool parabola) {
     Scene scene = scene_of(parabola);
     scene.duration = 4e-3;
-    const Settings settings{rate, tap_rate, M, {{"form", "restricted"}}};
+    const Settings settings{rate, tap_rate, M, {}};
     const Run r = run(modal_spatial_newton, scene, settings);
     scene.duration = 20e-3 - 0.5 / tap_rate;
     const auto scheme = make_scheme(modal_spatial_newton, scene, settings);

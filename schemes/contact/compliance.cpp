@@ -219,11 +219,6 @@ bool matched_without_loss(const Descriptor& descriptor, const Scene& scene, cons
     return true;
 }
 
-void refuse_matched_points(const Descriptor& descriptor, const Settings& settings) {
-    if (choice_option(settings, compliance_option) == "matched")
-        throw Refusal(std::string(descriptor.name) + ": compliance=matched is for one lumped barrier without contact loss");
-}
-
 MissingCompliance::MissingCompliance(const MissingMatrix& m) {
     wave_resistance = m.wave_resistance;
     const bool barrier = m.contacts > 0;

@@ -100,8 +100,6 @@ struct MissingCompliance {                          // of one contact at most [m
 // Whether compliance=matched is asked for, of a scheme that leaves out contact loss and a moving body then: Refusal where the scene has
 // one.
 bool matched_without_loss(const Descriptor&, const Scene&, const Settings&);
-// Refusal where it is asked for, of a scheme that matches one lumped barrier alone.
-void refuse_matched_points(const Descriptor&, const Settings&);
 
 // ---- Profiles. A scheme's nodes are no places for what stands in series: at them a grid yields more than the true string. So a profile is
 // touched at points of its own, in the middles of as many equal parts.

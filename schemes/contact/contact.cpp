@@ -83,6 +83,19 @@ ContactSolution enter(double k, double p, double gap, double free, double theta)
 }
 }  // namespace
 
+double depth_in_series(const ContactLaw& law, double zeta, double S) {
+    if (zeta <= 0 || S == 0) return zeta;
+    if (law.alpha == 1) return zeta / (1 + S * law.k);
+    double eta = std::min(zeta, std::pow(zeta / (S * law.k), 1 / law.alpha));  // both are above the root, and the function is convex
+    for (int i = 0; i < most_iterations; ++i) {
+        const double load = S * law.k * std::pow(eta, law.alpha);
+        const double step = (eta + load - zeta) / (1 + law.alpha * load / eta);
+        eta -= step;
+        if (!(std::abs(step) > 1e-9 * eta)) break;
+    }
+    return std::max(eta, 0.0);
+}
+
 ContactSolution solve_power_contact(const ContactLaw& law, double eta, double b, double theta) {
     if (eta <= 0 && eta + b <= 0) return {-b, 0.0};  // stays out
     const double p = law.alpha + 1;

@@ -32,8 +32,8 @@ MeanForce mean_force(const ContactLaw& law, double eta, double depth) {
     return {F0 * S, std::min(0.0, -F0 / eta * (std::pow(1 + z, a) - S) / z)};
 }
 
-ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta)
-    : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {
+ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta, Force force)
+    : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()), at_the_end_(force == Force::at_the_end) {
     const int n = count();
     std::vector<char> seen(n, 0);
     for (int seed = 0; seed < n; ++seed) {
@@ -55,8 +55,18 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
     matrix_.assign(static_cast<std::size_t>(largest_) * largest_, 0.0);
 }
 
+[[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta, double b) const noexcept {
+    const double theta = theta_[a * count() + a];
+    if (!at_the_end_) return solve_contact(laws_[a], eta, b, theta);
+    const double force = laws_[a].force(depth_in_series(laws_[a], eta + b, theta));
+    return {theta * force - b, force};
+}
+
+MeanForce ContactGram::force_at(int a, double eta, double depth) const noexcept {
+    return at_the_end_ ? MeanForce{laws_[a].force(depth), -laws_[a].slope(depth)} : mean_force(laws_[a], eta, depth);
+}
+
 GramSolution ContactGram::solve(const double* eta, const double* b, double* r, double* force) noexcept {
-    const int n = count();
     GramSolution worst;
     for (const Group& g : groups_) {
         const int a = order_[g.first];
@@ -67,7 +77,7 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r, d
                 force[a] = 0;
                 continue;
             }
-            const ContactSolution one = solve_contact(laws_[a], eta[a], b[a], theta_[a * n + a]);
+            const ContactSolution one = alone(a, eta[a], b[a]);
             r[a] = one.r;
             force[a] = one.force;
             s = {one.iterations, one.residual, one.converged};
@@ -140,7 +150,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             double held = b[a];
             for (int j = 0; j < n; ++j)
                 if (j != i) held -= theta_[a * stride + set[j]] * f[set[j]];
-            f[a] = solve_contact(laws_[a], eta[a], held, theta_[a * stride + a]).force;
+            f[a] = alone(a, eta[a], held).force;
         }
 
     const auto reach = [&](int a) {  // the scale of rounding in r_a's equation
@@ -155,7 +165,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
     };
     const auto evaluate = [&] {  // F, dF/dr and the defect r + b - Theta F, all from the depths
         for (int i = 0; i < n; ++i) {
-            const MeanForce F = mean_force(laws_[set[i]], eta[set[i]], depth_[set[i]]);
+            const MeanForce F = force_at(set[i], eta[set[i]], depth_[set[i]]);
             mean_[set[i]] = F.value;
             slope_[set[i]] = F.slope;
         }
@@ -169,7 +179,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
         double sum = 0;
         for (int i = 0; i < n; ++i) {
             const int a = set[i];
-            sum += dr_[a] * (f[a] + t * df_[a] - mean_force(laws_[a], eta[a], depth_[a] - t * dr_[a]).value);
+            sum += dr_[a] * (f[a] + t * df_[a] - force_at(a, eta[a], depth_[a] - t * dr_[a]).value);
         }
         return sum;
     };

@@ -4,6 +4,7 @@
 //
 // with Theta the compliances between the contacts (a Gram matrix: symmetric, positive semi-definite, perhaps singular). Each F_a falls
 // with r_a, so with r = -b + Theta f the solution is the one minimum of the convex merit f' Theta f/2 - sum_a int F_a dr_a.
+// With Force::at_the_end F_a is V_a'(eta_a - r_a) instead, of the new depths alone: what a contact with Theta in series gives.
 // Contacts that Theta does not couple fall apart into scalar solves (all of them where Theta is diagonal); the coupled ones take Newton
 // steps on the active set, each with a line search on the merit's slope. Hunt-Crossley losses are left out.
 // It ends where a Newton step leads through forces k Theta times as large as the solution's, whose difference has no digits left: with
@@ -26,12 +27,22 @@ struct GramSolution {
     bool converged = true;
 };
 
+// F(r) and dF/dr <= 0 of one contact at r = eta - depth, limits at r -> 0 taken explicitly.
+struct MeanForce {
+    double value = 0;  // [N]
+    double slope = 0;  // [N/m]
+};
+MeanForce mean_force(const ContactLaw&, double eta, double depth);
+
 class ContactGram {
 public:
+    enum class Force { mean_of_the_step, at_the_end };
     ContactGram() = default;
-    ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta);  // theta: n x n, row-major [m/N]
+    ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta,  // theta: n x n, row-major [m/N]
+                Force = Force::mean_of_the_step);
 
     int count() const { return static_cast<int>(laws_.size()); }
+    std::span<const double> theta() const { return theta_; }
     int coupled() const { return largest_; }  // of the contacts that Theta couples to each other, the most; a step costs up to their cube
 
     // Other compliances, coupled where the first ones were. Allocates nothing.
@@ -46,21 +57,17 @@ private:
     };
     GramSolution solve_group(const Group&, const double* eta, const double* b, double* r, double* force) noexcept;
     bool newton_step(const int* set, int n) noexcept;
+    ContactSolution alone(int a, double eta, double b) const noexcept;
+    MeanForce force_at(int a, double eta, double depth) const noexcept;
 
     std::vector<ContactLaw> laws_;
     std::vector<double> theta_;
+    bool at_the_end_ = false;
     std::vector<int> order_;
     std::vector<Group> groups_;
     int largest_ = 0;                                                       // of them
     std::vector<double> depth_, mean_, slope_, defect_, dr_, df_, matrix_;  // workspaces
     std::vector<int> active_;
 };
-
-// F(r) and dF/dr <= 0 of one contact at r = eta - depth, limits at r -> 0 taken explicitly.
-struct MeanForce {
-    double value = 0;  // [N]
-    double slope = 0;  // [N/m]
-};
-MeanForce mean_force(const ContactLaw&, double eta, double depth);
 
 }  // namespace jvari

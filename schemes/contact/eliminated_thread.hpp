@@ -40,7 +40,7 @@ public:
     }
     const std::optional<Thread>& law() const { return thread_; }
     double coupling(int a) const { return coupling_[a]; }  // theta_bc of contact a
-    double theta_cc() const { return theta_cc_; }
+    double phi() const { return phi_; }
 
     // Of the contacts alone, the thread yielding: contacts x contacts.
     std::vector<double> between_contacts(std::span<const double> theta) const {

@@ -1,5 +1,8 @@
-// The force of the level that the step is centred on, known before it: F_a = V_a'(eta_a^n). A conditionally stable control, which balances
-// no energy. In two-point steps that level is the older one.
+// The force of the level that the step is centred on, known before it: F_a = V_a'(eta_a). A conditionally stable control, which balances no
+// energy. In two-point steps that level is the middle of the step, from where the string would move by itself: position Verlet, of second
+// order. (The force of the older level would act half a step late and gain energy at any rate.)
+// With a compliance in series (obstacle.hpp) its yield is no part of what is known before: F_a = V_a'(eta_a - (S F)_a), S [m/N] what the
+// compliance alone yields up to the middle of the step.
 #pragma once
 
 #include "schemes/contact/obstacle_rule.hpp"
@@ -8,10 +11,14 @@ namespace jvari {
 
 class ExplicitRule {
 public:
-    static constexpr bool conserves = false, iterates = false, known_before = true;
+    static constexpr bool conserves = false, iterates = false, centred = true;
 
     ExplicitRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
         : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {}
+    void put_in_series(std::span<const double> S) {  // row-major between the contacts
+        yielding_ = ContactGram(laws_, S, ContactGram::Force::at_the_end);
+        none_.assign(laws_.size(), 0.0);
+    }
     int dofs() const { return 0; }
     void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
     void begin(const double*) {}
@@ -22,6 +29,11 @@ public:
     }
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
         const std::size_t n = laws_.size();
+        if (!none_.empty()) {
+            const GramSolution s = yielding_.solve(at.now, none_.data(), r, force);
+            for (std::size_t a = 0; a < n; ++a) r[a] += at.older[a] - at.now[a];  // to where it touches
+            return s;
+        }
         for (std::size_t a = 0; a < n; ++a) force[a] = laws_[a].force(at.now[a]);
         for (std::size_t a = 0; a < n; ++a) {
             r[a] = -at.b[a];
@@ -36,6 +48,8 @@ public:
 private:
     std::vector<ContactLaw> laws_;
     std::vector<double> theta_;
+    ContactGram yielding_;
+    std::vector<double> none_;  // of nothing in series
 };
 
 }  // namespace jvari

@@ -12,7 +12,7 @@ namespace jvari {
 
 class GradientRule {
 public:
-    static constexpr bool conserves = true, iterates = true, known_before = false;
+    static constexpr bool conserves = true, iterates = true, centred = false;
 
     GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
         : laws_(laws.begin(), laws.end()), gram_(laws, theta) {}
@@ -24,7 +24,13 @@ public:
         for (std::size_t a = 0; a < laws_.size(); ++a) touching = touching || at.older[a] > 0 || at.older[a] + at.b[a] > 0;
         return touching;
     }
-    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept { return gram_.solve(at.older, at.b, r, force); }
+    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
+        if (laws_.size() != 1) return gram_.solve(at.older, at.b, r, force);
+        const ContactSolution s = solve_contact(laws_[0], at.older[0], at.b[0], gram_.theta()[0]);
+        *r = s.r;
+        *force = s.force;
+        return {s.iterations, s.residual, s.converged};
+    }
     GramSolution start(const BeforeStep& at, double* r, double* force) noexcept { return solve(at, r, force); }
     double potential(int a, double eta) const { return laws_[a].potential(eta); }
     std::vector<Fact> facts() const {

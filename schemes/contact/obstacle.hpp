@@ -17,6 +17,10 @@
 // W = (R C/span + 1/2)^-1 and K = C W,
 //     D+ = D + K (F - P),   P+ = P + W (F - P),   points at reading + C P,   r = free - K P + (Theta + K) F,
 // the equation above with Theta + K for Theta. P' C P/2 is stored, and (D+ - D)' R (D+ - D)/span lost.
+//
+// Where the contacts' forces are known before the step (explicit_rule.hpp), D is that of the instant by which they go, and D' the backward
+// difference of second order (3 D - 4 D- + D--)/(2 dt). Midpoints would alternate for ever there: a stiff contact says what D is, and not
+// by how much it moves. With F = P + R D' and q = R/dt C (2 P- - P--/2), P = W (F + q), W = (1 + 3/2 R C/dt)^-1, S = C W.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +62,8 @@ public:
           span_(span),
           levels_(levels) {
         for (auto* v : {&eta_, &now_, &b_, &r_}) v->assign(contacts.count(), 0.0);
-        alone_ = contacts.count() == 1 && !thread && contacts.loss[0] == 0;
+        one_ = contacts.count() == 0 || (contacts.count() == 1 && contacts.loss[0] == 0);
+        threaded_ = thread.has_value();
     }
 
     // The first half step of a three-point scheme, from rest: half the compliances, half the span, no contact loss.
@@ -72,15 +77,30 @@ public:
         return {elastic, thread, half, 0.5 * span_, levels_};
     }
     void put_in_series(const MissingMatrix& missing, int levels) {  // levels: how many of them a step spans
-        Series z{Residual(missing, span_), {}, {}, {}, {}};
+        const double dt = span_ / levels;
+        Series z{Residual(missing, known_before ? 4 * dt / 3 : span_), {}, {}, {}, {}, {}};
         std::vector<double> theta = theta_;
-        for (std::size_t i = 0; i < theta.size(); ++i) theta[i] += z.K[i];
+        for (std::size_t i = 0; i < theta.size(); ++i) {
+            if (known_before) z.K[i] *= 0.5, z.W[i] *= 0.5;
+            theta[i] += z.K[i];
+        }
+        if (known_before && thread_.law()) {  // to which D is r of another share: k + 3/2 r_c/dt for phi
+            const std::size_t n = z.points - 1;
+            z.on_thread = (thread_.law()->stiffness + 1.5 * thread_.law()->damping / dt) / thread_.phi();
+            for (std::size_t a = 0; a <= n; ++a)
+                for (std::size_t c = 0; c <= n; ++c)
+                    if (a == n || c == n) theta[a * z.points + c] += (z.on_thread - 1) * z.K[a * z.points + c];
+        }
         *this = Obstacle(Contacts(contacts_), std::optional(thread_.law()), theta, span_, levels_);
+        if constexpr (known_before) rule_.put_in_series(yield_alone(z));
+        z.span = known_before ? dt : span_;
         series_levels_ = levels;
-        for (auto* v : {&z.P[0], &z.P[1], &z.older, &z.now, &z.free}) v->assign(z.points, 0.0);
+        for (auto* v : {&z.P[0], &z.P[1], &z.older, &z.now, &z.free, &z.q}) v->assign(z.points, 0.0);
         series_ = std::move(z);
     }
 
+    // Of how many levels the potential is known when a row is written.
+    int levels_told() const { return series_ && known_before ? 1 : levels_; }
     int contacts() const { return contacts_.count(); }
     int points() const { return contacts() + (thread_.law() ? 1 : 0); }
     int dofs() const { return rule_.dofs(); }
@@ -93,21 +113,21 @@ public:
         if (series_)
             for (auto& P : series_->P) std::fill(P.begin(), P.end(), 0.0);
     }
-    void follow(const Obstacle& first) {  // after `first` made the first half step
-        rule_ = first.rule_;              // with its state, and other compliances
+    void follow(const Obstacle& first) {                   // after `first` made the first half step
+        if constexpr (!known_before) rule_ = first.rule_;  // with its state, and other compliances
         rule_.set(loss_.undamped());
         if (!series_) return;
-        std::fill(series_->P[0].begin(), series_->P[0].end(), 0.0);
+        for (auto& P : series_->P) std::fill(P.begin(), P.end(), 0.0);
         series_->P[1] = first.series_->P[0];
+        if (known_before)  // the level before the first, so that D begins as by Euler's backward step
+            for (double& P : series_->P[1]) P = -P;
     }
 
     // Forces on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
     bool solve(const ReadingsBeforeStep& at, double* force) noexcept {
-        return series_ ? solve_in_series(at, force) : solve_points<false>(at, force);
+        return !series_ ? solve_points<false>(at, force) : known_before ? solve_at_the_instant(at, force) : solve_in_series(at, force);
     }
-    bool start(const ReadingsBeforeStep& at, double* force) noexcept {
-        return series_ ? solve_in_series(at, force) : solve_points<true>(at, force);
-    }
+    bool start(const ReadingsBeforeStep& at, double* force) noexcept { return series_ ? solve(at, force) : solve_points<true>(at, force); }
 
     // At the readings of one level [J]; level: 0 the one that the next step starts from, 1 the one after it (with something in series).
     double potential(const double* reading, int level = 0) const {
@@ -142,31 +162,61 @@ public:
     }
 
 private:
-    // One contact alone, which loses nothing: the rule's closed form.
-    bool solve_alone(const ReadingsBeforeStep& at, double* force) noexcept {
-        const double eta = contacts_.heights[0] - at.older[0], now = contacts_.heights[0] - at.now[0], b = -at.free[0];
-        const BeforeStep before{&eta, &now, &b};
-        double r = 0;
-        if (!rule_.acts(before)) {
-            force[0] = 0;
+    static constexpr bool known_before = requires(Rule rule, std::vector<double> S) { rule.put_in_series(S); };
+    // eta of a contact at the level that the step is centred on, as its rule has it (obstacle_rule.hpp).
+    double centre(int a, const ReadingsBeforeStep& at, double b, double thread) const {
+        const double now = contacts_.heights[a] - at.now[a];
+        if constexpr (!Rule::centred) return now;
+        if (!series_) return levels_ == 1 ? now + 0.5 * b : now;
+        const double S = thread_.law() ? series_->K[a * series_->points + contacts()] : 0;
+        return now - (S + (levels_ == 1 ? 0.5 * (thread_.coupling(a) - series_->on_thread * S) : 0)) * thread;
+    }
+    // S between the contacts, the thread yielding too [m/N].
+    std::vector<double> yield_alone(const Residual& z) const {
+        const int n = contacts();
+        std::vector<double> S;
+        for (int a = 0; a < n; ++a)
+            for (int c = 0; c < n; ++c) {
+                S.push_back(z.K[a * z.points + c]);
+                if (thread_.law())
+                    S.back() -= 0.5 * (z.K[a * z.points + n] * thread_.answer(c, 1) + z.K[c * z.points + n] * thread_.answer(a, 1));
+            }
+        return S;
+    }
+
+    // One contact at most, which loses nothing, and a thread at most: the rule's closed form, without a detour by way of memory.
+    bool solve_one(const ReadingsBeforeStep& at, double* force) noexcept {
+        const double thread = threaded_ ? thread_.alone(at.older, at.free) : 0;
+        if (contacts_.count() == 0) {
+            if (threaded_) force[0] = thread;
             return true;
         }
-        const GramSolution s = rule_.solve(before, &r, force);
-        tally_.force.note(force[0]);
-        tally_.deepest = std::max({tally_.deepest, now, eta - r});
-        note(s);
-        return s.converged;
+        const double eta = contacts_.heights[0] - at.older[0], b = -at.free[0] - thread_.coupling(0) * thread,
+                     now = centre(0, at, b, thread);
+        const BeforeStep before{&eta, &now, &b};
+        bool converged = true;
+        force[0] = 0;
+        if (rule_.acts(before)) {
+            double r = 0;
+            const GramSolution s = rule_.solve(before, &r, force);
+            tally_.force.note(force[0]);
+            tally_.deepest = std::max({tally_.deepest, known_before && series_ ? 0 : contacts_.heights[0] - at.now[0], eta - r});
+            note(s);
+            converged = s.converged;
+        }
+        if (threaded_) force[1] = thread - thread_.answer(0, force[0]);
+        return converged;
     }
 
     template <bool at_start>
     bool solve_points(const ReadingsBeforeStep& at, double* force) noexcept {
-        if (!at_start && alone_) return solve_alone(at, force);
+        if (!at_start && one_) return solve_one(at, force);
         const int n = contacts();
         double thread = thread_.alone(at.older, at.free);
         for (int a = 0; a < n; ++a) {
             eta_[a] = contacts_.heights[a] - at.older[a];
-            now_[a] = contacts_.heights[a] - at.now[a];
             b_[a] = -at.free[a] - thread_.coupling(a) * thread;
+            now_[a] = centre(a, at, b_[a], thread);
         }
         const BeforeStep before{eta_.data(), now_.data(), b_.data()};
         bool converged = true;
@@ -184,7 +234,8 @@ private:
             for (int a = 0; a < n; ++a) {
                 thread -= thread_.answer(a, force[a]);
                 tally_.force.note(force[a]);
-                tally_.deepest = std::max({tally_.deepest, now_[a], eta_[a] - r_[a]});
+                tally_.deepest =
+                    std::max({tally_.deepest, known_before && series_ ? 0 : contacts_.heights[a] - at.now[a], eta_[a] - r_[a]});
             }
             note(s);
         } else {
@@ -220,6 +271,35 @@ private:
         return converged;
     }
 
+    bool solve_at_the_instant(const ReadingsBeforeStep& at, double* force) noexcept {
+        Series& z = *series_;
+        const std::size_t n = z.points;
+        const auto speed = [&](double D, std::size_t a) {
+            return (1.5 * D - 2 * z.yield(a, z.P[0].data()) + 0.5 * z.yield(a, z.P[1].data())) / z.span;
+        };
+        for (std::size_t a = 0; a < n; ++a) z.q[a] = -z.R[a] * speed(0, a);
+        for (std::size_t a = 0; a < n; ++a) {  // without forces D = S q
+            const double D = Residual::times(z.K, a, z.q.data(), n);
+            z.now[a] = at.now[a] + D + (levels_ == 1 ? 0.5 * at.free[a] : 0);
+            z.older[a] = at.older[a] + D;
+            z.free[a] = at.free[a] + (thread_.law() && a + 1 == n ? thread_.law()->damping / thread_.phi() * speed(D, a) : 0);
+        }
+        const bool converged = solve_points<false>({z.older.data(), z.now.data(), z.free.data()}, force);
+        for (std::size_t a = 0; a < n; ++a) z.q[a] += force[a];
+        z.lost = 0;
+        for (std::size_t a = 0; a < n; ++a) {
+            const double v = speed(Residual::times(z.K, a, z.q.data(), n), a);
+            z.lost += span_ * z.R[a] * v * v;
+            if (thread_.law() && a + 1 == n) {
+                z.thread_moved = at.free[a] + span_ * v;
+                for (std::size_t c = 0; c < n; ++c) z.thread_moved += (theta_[a * n + c] - z.on_thread * z.K[a * n + c]) * force[c];
+            }
+        }
+        z.P[0].swap(z.P[1]);
+        for (std::size_t a = 0; a < n; ++a) z.P[0][a] = Residual::times(z.W, a, z.q.data(), n);
+        return converged;
+    }
+
     struct Tally {  // over the solves since clear()
         ForceRange force;
         double deepest = 0, residual = 0;
@@ -229,8 +309,10 @@ private:
     struct Series : Residual {
         std::array<std::vector<double>, 2> P;  // at the two levels [N]
         std::vector<double> older, now, free;  // of the points where they touch [m]
-        double lost = 0;                       // in the last step [J]
-        double thread_moved = 0;               // in it [m]
+        std::vector<double> q;                 // [N]
+        double on_thread = 1;
+        double lost = 0;          // in the last step [J]
+        double thread_moved = 0;  // in it [m]
     };
     Contacts contacts_;
     ThreadAmongContacts thread_;
@@ -239,7 +321,7 @@ private:
     std::vector<double> theta_;  // of all points [m/N]
     double span_ = 1;
     int levels_ = 1, series_levels_ = 1;
-    bool alone_ = false;
+    bool one_ = false, threaded_ = false;
     std::optional<Series> series_;
     std::vector<double> eta_, now_, b_, r_;
     Tally tally_;

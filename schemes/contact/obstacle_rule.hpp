@@ -24,23 +24,22 @@ namespace jvari {
 
 struct BeforeStep {       // of each contact
     const double* older;  // eta at the level that the step starts from [m]
-    const double* now;    // at the level that it is centred on: two-point steps have the older one here
+    const double* now;    // at the level that it is centred on. Two-point steps have none there: the older one, or of a rule that is
+                          // `centred` the middle of the step as far as it is known without the contacts' forces, eta + b/2
     const double* b;      // minus the increment without contact forces, from the older to the newer level [m]
 };
 
 template <class Rule>
 concept ObstacleRule = requires(Rule rule, const Rule known, const BeforeStep& at, std::span<const double> theta,
                                 std::span<const ContactLaw> laws, double* out, const double* eta) {
-    Rule(laws, theta, 1);                              // theta: row-major between the contacts [m/N]; levels that a step spans
-    { Rule::conserves } -> std::convertible_to<bool>;  //
-    { Rule::iterates } -> std::convertible_to<bool>;   // whether it tells of iterations
-    {
-        Rule::known_before
-        } -> std::convertible_to<bool>;        // its force is that of `now` alone: in a two-point step it would act half a step late
-    { known.dofs() } -> std::same_as<int>;     // state of its own
-    rule.set(theta);                           // other compliances, coupled where the first ones were
-    rule.begin(eta);                           // at rest at t = 0
-    { known.acts(at) } -> std::same_as<bool>;  // false: no force, and nothing to be solved
+    Rule(laws, theta, 1);                                        // theta: row-major between the contacts [m/N]; levels that a step spans
+    { Rule::conserves } -> std::convertible_to<bool>;            //
+    { Rule::iterates } -> std::convertible_to<bool>;             // whether it tells of iterations
+    { Rule::centred } -> std::convertible_to<bool>;              // how two-point steps fill `now`
+    { known.dofs() } -> std::same_as<int>;                       // state of its own
+    rule.set(theta);                                             // other compliances, coupled where the first ones were
+    rule.begin(eta);                                             // at rest at t = 0
+    { known.acts(at) } -> std::same_as<bool>;                    // false: no force, and nothing to be solved
     { rule.solve(at, out, out) } -> std::same_as<GramSolution>;  // r [m], and F on the string [N]. Allocates nothing
     { rule.start(at, out, out) } -> std::same_as<GramSolution>;  // the first half of a three-point step, from rest: Theta is half as large
     { known.potential(1, 0.0) } -> std::same_as<double>;         // of a contact at a penetration [J]

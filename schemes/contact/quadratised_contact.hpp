@@ -18,7 +18,7 @@
 #include <cmath>
 #include <vector>
 
-#include "schemes/contact/series_contact.hpp"
+#include "schemes/contact/contact.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -31,23 +31,15 @@ struct QuadratisedLaw {
     double c = 0.5;      // two-point 1/2, three-point 1
     double slope = 0;    // sqrt(K (alpha+1)/2)/(2 c): gamma = slope [eta]^((alpha-1)/2)
     double root_2V = 0;  // sqrt(2 K/(alpha+1)): psi = root_2V [eta]^((alpha+1)/2)
-    SeriesLaw series{};  // with a compliance in series psi = sqrt(2 Phi), gamma = Phi'/(2 c psi), eta the approach
 
     static QuadratisedLaw make(const ContactLaw& law, Quadratisation variant, double c) {
-        return {law, variant, c, std::sqrt(0.5 * law.k * (law.alpha + 1)) / (2 * c), std::sqrt(2 * law.k / (law.alpha + 1)), {}};
-    }
-    static QuadratisedLaw make(const SeriesLaw& law, Quadratisation variant, double c) {
-        QuadratisedLaw q = make(law.law.alpha == 1 ? linear_in_series(law.law.k, law.S) : law.law, variant, c);
-        if (law.law.alpha != 1) q.series = law;
-        return q;
+        return {law, variant, c, std::sqrt(0.5 * law.k * (law.alpha + 1)) / (2 * c), std::sqrt(2 * law.k / (law.alpha + 1))};
     }
     double psi(double eta) const {  // sqrt(2 V(eta))
         if (eta <= 0) return 0;
-        if (series.S > 0) return std::sqrt(2 * series.potential(eta));
         return law.alpha == 1 ? root_2V * eta : root_2V * std::pow(eta, 0.5 * (law.alpha + 1));
     }
     double gamma(double eta) const {  // eta > 0
-        if (series.S > 0) return series.force(eta) / (2 * c * psi(eta));
         return law.alpha == 1 ? slope : slope * std::pow(eta, 0.5 * (law.alpha - 1));
     }
 };

@@ -54,9 +54,10 @@ private:
     QuadratisedFacts seen_;
 };
 
-template <Quadratisation variant>
+// in_the_middle: gamma of two-point steps at their middle, by which the rule is of second order, in place of the older level.
+template <Quadratisation variant, bool in_the_middle = false>
 struct QuadratisedRule : QuadratisedContacts {
-    static constexpr bool conserves = true, iterates = variant == Quadratisation::released, known_before = false;
+    static constexpr bool conserves = true, iterates = variant == Quadratisation::released, centred = in_the_middle;
     QuadratisedRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
         : QuadratisedContacts(laws, theta, levels, variant) {}
 };

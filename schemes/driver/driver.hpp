@@ -151,11 +151,12 @@ private:
 
     double stored() noexcept {
         double sum = string_->stored();
-        for (int level = 0; level < levels; ++level) {
+        const int told = obstacle_.levels_told();
+        for (int level = 0; level < told; ++level) {
             string_->reading(level, now_.data());
             if (const double F_e = plucked_in_series_ ? pluck_at(done_ + level) : 0; F_e != 0)
                 for (int p = 0; p < points().count(); ++p) now_[p] += points().series->pluck[p] * F_e;
-            sum += obstacle_.potential(now_.data(), level) / levels;
+            sum += obstacle_.potential(now_.data(), level) / told;
         }
         return sum;
     }

@@ -12,9 +12,9 @@ namespace jvari {
 namespace {
 struct Column {
     const char *name, *source;
-    bool conserves, known_before;
+    bool conserves;
 };
-#define JVARI_ROW(name, Rule, source) {#name, source, Rule::conserves, Rule::known_before},
+#define JVARI_ROW(name, Rule, source) {#name, source, Rule::conserves},
 constexpr Column columns[] = {JVARI_RULES(JVARI_ROW)};
 #undef JVARI_ROW
 
@@ -27,18 +27,13 @@ const std::vector<const StringRow*>& rows() {
     return all;
 }
 
-struct Cell {
-    const Descriptor* known = nullptr;
-    std::string why_not;
-};
-Cell cell(const StringRow& row, const Column& column) {
+const Descriptor* known_cell(const StringRow& row, const Column& column) {
     for (const StringRow::Known& k : row.known)
-        if (k.rule && std::string(k.rule) == column.name) return {k.scheme, k.why_not};
-    return {nullptr, column.known_before && row.levels == 1 ? "its force, known before the step, would act half a step late" : ""};
+        if (k.rule && std::string(k.rule) == column.name) return k.scheme;
+    return nullptr;
 }
 std::string name_of(const StringRow& row, const Column& column) {
-    const auto [known, why_not] = cell(row, column);
-    if (!why_not.empty()) return "";
+    const Descriptor* known = known_cell(row, column);
     return known ? known->name : std::string(row.scheme->name) + "_" + column.name;
 }
 }  // namespace
@@ -46,9 +41,8 @@ std::string name_of(const StringRow& row, const Column& column) {
 std::vector<Pairing> pairings() {
     std::vector<Pairing> all;
     for (const StringRow* row : rows()) {
-        all.push_back({row->scheme->name, "gradient", row->scheme->name, ""});
-        for (const Column& column : columns)
-            all.push_back({row->scheme->name, column.name, name_of(*row, column), cell(*row, column).why_not});
+        all.push_back({row->scheme->name, "gradient", row->scheme->name});
+        for (const Column& column : columns) all.push_back({row->scheme->name, column.name, name_of(*row, column)});
     }
     return all;
 }
@@ -59,7 +53,7 @@ const std::vector<Descriptor>& schemes_of_pairings() {
         std::vector<Descriptor> made;
         for (const StringRow* row : rows())
             for (std::size_t c = 0; c < std::size(columns); ++c) {
-                if (cell(*row, columns[c]).known || name_of(*row, columns[c]).empty()) continue;
+                if (known_cell(*row, columns[c])) continue;
                 Descriptor d = *row->scheme;
                 d.name = names.emplace_back(name_of(*row, columns[c])).c_str();
                 d.source = columns[c].source;

@@ -19,19 +19,17 @@ constexpr int rule_count = 0 JVARI_RULES(JVARI_ROW);
 
 struct StringRow {
     const Descriptor* scheme;       // by the discrete gradient
-    int levels;                     // that a step spans
     MakeScheme makers[rule_count];  // by each other rule: {JVARI_RULES(JVARI_MAKER)} of a template made<Rule>
     struct Known {
         const char* rule;
-        const Descriptor* scheme;  // nullptr: the string does not carry the rule
-        const char* why_not = "";
+        const Descriptor* scheme;
     };
-    Known known[rule_count] = {};  // cells that have a name already, or none
+    Known known[rule_count] = {};  // cells that have a name already
 };
 #define JVARI_MAKER(name, Rule, source) made<Rule>,
 
 struct Pairing {
-    std::string string, rule, scheme, why_not;  // scheme: "" where there is none
+    std::string string, rule, scheme;
 };
 std::vector<Pairing> pairings();                       // all cells, row by row, the discrete gradient first
 const std::vector<Descriptor>& schemes_of_pairings();  // those that are made here

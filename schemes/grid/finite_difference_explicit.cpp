@@ -60,6 +60,6 @@ extern const Descriptor finite_difference_explicit = {.name = "finite_difference
                                                       .limit = {"grid_limit", grid_margin}};
 
 extern const StringRow finite_difference_explicit_row;
-const StringRow finite_difference_explicit_row = {&finite_difference_explicit, 2, {JVARI_RULES(JVARI_MAKER)}};
+const StringRow finite_difference_explicit_row = {&finite_difference_explicit, {JVARI_RULES(JVARI_MAKER)}};
 
 }  // namespace jvari

@@ -21,6 +21,17 @@ constexpr Option intervals_option{"grid", "",
                                   "intervals of the grid, a whole number from 5 on; absent: those of the explicit scheme without loss"};
 constexpr Option options[] = {compliance_option, profile_points_option, intervals_option};
 
+// All of the midpoint rule is taken at the middle of the step, gamma of a quadratised contact too: at the older level, its lag adds to the
+// warp of the string, and a soft profile errs by 2.4 % at 176.4 kHz in place of 0.9 %.
+template <class Rule>
+struct AtTheMiddle {
+    using type = Rule;
+};
+template <Quadratisation variant>
+struct AtTheMiddle<QuadratisedRule<variant>> {
+    using type = QuadratisedRule<variant, true>;
+};
+
 template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const int rows = steps_per_row(settings);
@@ -29,7 +40,8 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
     const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
     const GridString g = on_grid(descriptor, scene, settings, grid, fit_losses(s));
-    return std::make_unique<Driver<MidpointString<GridSolve>, Rule>>(std::make_unique<MidpointString<GridSolve>>(g, dt), rows);
+    return std::make_unique<Driver<MidpointString<GridSolve>, typename AtTheMiddle<Rule>::type>>(
+        std::make_unique<MidpointString<GridSolve>>(g, dt), rows);
 }
 }  // namespace
 
@@ -42,10 +54,7 @@ extern const Descriptor finite_difference_hamiltonian = {.name = "finite_differe
                                                          .options = options,
                                                          .approximates = grid_approximates};
 
-static constexpr const char* hamiltonian_quadratised =
-    "gamma of the older level and the warp of the midpoint rule add up: 2.4 % at 176.4 kHz on a soft profile, more than a scheme may err";
 extern const StringRow finite_difference_hamiltonian_row;
-const StringRow finite_difference_hamiltonian_row = {
-    &finite_difference_hamiltonian, 1, {JVARI_RULES(JVARI_MAKER)}, {{"quadratised", nullptr, hamiltonian_quadratised}}};
+const StringRow finite_difference_hamiltonian_row = {&finite_difference_hamiltonian, {JVARI_RULES(JVARI_MAKER)}};
 
 }  // namespace jvari

@@ -76,6 +76,6 @@ extern const Descriptor finite_difference_theta = {.name = "finite_difference_th
                                                    .limit = {"grid_limit", grid_margin}};
 
 extern const StringRow finite_difference_theta_row;
-const StringRow finite_difference_theta_row = {&finite_difference_theta, 2, {JVARI_RULES(JVARI_MAKER)}};
+const StringRow finite_difference_theta_row = {&finite_difference_theta, {JVARI_RULES(JVARI_MAKER)}};
 
 }  // namespace jvari

@@ -15,13 +15,13 @@ using Made = std::unique_ptr<Scheme>;
 
 template <Quadratisation variant>
 Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels) {
-    if (declares(descriptor, compliance_option.name)) matched_without_loss(descriptor, scene, settings);
+    matched_without_loss(descriptor, scene, settings);
     const int rows = steps_per_row(settings);
     if (levels == 2)
         return std::make_unique<Driver<TwoPointModes, QuadratisedRule<variant>>>(
             std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), rows);
     return std::make_unique<Driver<ThreePointModes, QuadratisedRule<variant>>>(
-        std::make_unique<ThreePointModes>(descriptor, scene, settings, ThreePointModes::plain_gain, ThreePointModes::modal_mass), rows);
+        std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), rows);
 }
 
 constexpr Option levels_option{"levels", "2", "time levels of the recursion", {"2", "3"}};
@@ -30,8 +30,7 @@ constexpr Option variant_option{"variant",
                                 "psi out of contact: kept, driven to 0, or released in full where it would pull",
                                 {"raw", "constrained", "released"}};
 constexpr Option chosen_options[] = {levels_option, variant_option, compliance_option, profile_points_option};
-constexpr Option two_point_options[] = {compliance_option, profile_points_option};
-constexpr Option three_point_options[] = {profile_points_option};
+constexpr Option options[] = {compliance_option, profile_points_option};
 
 Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const std::string variant = choice_option(settings, variant_option);
@@ -67,14 +66,14 @@ constexpr Descriptor quadratised(const char* name, const char* source, Made (*ma
 
 extern const Descriptor modal_quadratised = quadratised("modal_quadratised", released_source, made_as_chosen, chosen_options);
 extern const Descriptor modal_quadratised_two_point_constrained =
-    quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>, two_point_options);
+    quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>, options);
 extern const Descriptor modal_quadratised_two_point_raw =
-    quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>, two_point_options);
+    quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>, options);
 extern const Descriptor modal_quadratised_three_point =
-    quadratised("modal_quadratised_three_point", released_source, made_as<3, Quadratisation::released>, three_point_options);
-extern const Descriptor modal_quadratised_three_point_constrained = quadratised(
-    "modal_quadratised_three_point_constrained", constrained_source, made_as<3, Quadratisation::constrained>, three_point_options);
+    quadratised("modal_quadratised_three_point", released_source, made_as<3, Quadratisation::released>, options);
+extern const Descriptor modal_quadratised_three_point_constrained =
+    quadratised("modal_quadratised_three_point_constrained", constrained_source, made_as<3, Quadratisation::constrained>, options);
 extern const Descriptor modal_quadratised_three_point_raw =
-    quadratised("modal_quadratised_three_point_raw", raw_source, made_as<3, Quadratisation::raw>, three_point_options);
+    quadratised("modal_quadratised_three_point_raw", raw_source, made_as<3, Quadratisation::raw>, options);
 
 }  // namespace jvari

@@ -12,9 +12,8 @@ namespace {
 template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
-    return std::make_unique<Driver<ThreePointModes, Rule>>(
-        std::make_unique<ThreePointModes>(descriptor, scene, settings, ThreePointModes::plain_gain, ThreePointModes::modal_mass),
-        steps_per_row(settings));
+    return std::make_unique<Driver<ThreePointModes, Rule>>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
+                                                           steps_per_row(settings));
 }
 constexpr Option options[] = {compliance_option, profile_points_option};
 constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
@@ -34,7 +33,6 @@ const Descriptor modal_three_point = {.name = "modal_three_point",
 
 extern const StringRow modal_three_point_row;
 const StringRow modal_three_point_row = {&modal_three_point,
-                                         2,
                                          {JVARI_RULES(JVARI_MAKER)},
                                          {{"quadratised", &modal_quadratised_three_point}, {"penalty", &modal_explicit_penalty}}};
 

@@ -283,6 +283,6 @@ extern const Descriptor modal_two_point_trapezoidal = {
 #define JVARI_MAKER_BY(name, Rule, source) made_by<Rule>,
 extern const Descriptor modal_quadratised;
 extern const StringRow modal_two_point_row;
-const StringRow modal_two_point_row = {&modal_two_point, 1, {JVARI_RULES(JVARI_MAKER_BY)}, {{"quadratised", &modal_quadratised}}};
+const StringRow modal_two_point_row = {&modal_two_point, {JVARI_RULES(JVARI_MAKER_BY)}, {{"quadratised", &modal_quadratised}}};
 
 }  // namespace jvari

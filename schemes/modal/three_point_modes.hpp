@@ -1,66 +1,287 @@
 // A string in its modes by three-point steps: Issanchou et al. 2016, eqs 14 and 20-21, in increments d^n = q^n - q^{n-1}:
 //
-//     d^{n+1} = C~ d^n - num q^n + sum_p e_p F_p,   q^{n+1} = q^n + d^{n+1},   e_p = gain g_p;   r_p = y_p^{n+1} - y_p^{n-1}
+//     d^{n+1} = C~ d^n - kappa q^n + sum_p e_p F_p,   q^{n+1} = q^n + d^{n+1},   e_p = gain g_p;   r_p = y_p^{n+1} - y_p^{n-1}
 //
-// which is q^{n+1} = C q^n - C~ q^{n-1} + ... without its cancellation at high rates. Theta_pq = g_p.e_q. gain = dt^2/m unless a scheme
-// says else; W, the inertia that its energy shows, is the modal mass then. The energy is eq 21 with the constants C1 = (1 + C~)/2, C2 =
-// num/dt^2, C3 = loss/dt in a form that shows its sign,
+// which is q^{n+1} = C q^n - C~ q^{n-1} + ... without its cancellation at high rates, kappa = 1 + C~ - C. Theta_pq = g_p.e_q. gain = dt^2/m
+// unless a scheme says else; W, the inertia that its energy shows, is the modal mass then. Points are places on the string, read and pushed
+// by weights on the modes, or nodes of a grid with as many interior nodes as modes, which are orthogonal to each other.
 //
-//     sum W (den d^2 + num s^2)/(8 dt^2), s = q^{n+1} + q^n;   lost in a step: sum W loss (d^{n+1} + d^n)^2/(4 dt^2)
+// Stored energy is that of eq 21 with C1 = (1 + C~)/2, C2 = kappa/dt^2, C3 = loss/dt: sum W [(1 + C~)/2 d^2 + kappa q (q + d)]/(2 dt^2), d
+// = d^{n+1}; lost in a step: sum W loss (d^{n+1} + d^n)^2/(4 dt^2). Order: free motion is exact. Forced motion is second order without
+// losses and first order with them: eq 14 puts dt^2/m F on a mode where a damped one wants e^{-sigma dt} of it (a factor per mode would
+// couple the nodes, so the paper's form is kept). Start: the free motion from rest, and every force on the first half step with half its
+// weight. Velocity is that of the free motion through levels n-1, n, n+1 corrected for F^n for the modes that tell it and a centred
+// difference for the rest (three_point.hpp).
 //
-// Start: the free motion that passes y0 at rest, and every force on the first half step with half its weight.
+// Form steps the modes: kernels/three_point_pass.hpp, or another of the same members.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
+#include "scenes/excitation.hpp"
+#include "schemes/body/body_modes.hpp"
 #include "schemes/driver/string_step.hpp"
-#include "schemes/modal/kernels/modal_pass.hpp"
+#include "schemes/modal/kernels/three_point_pass.hpp"
 #include "schemes/modal/modal_string.hpp"
+#include "schemes/modal/three_point.hpp"
 
 namespace jvari {
 
-class ThreePointModes {
+struct ModalGain {                                                           // of a mode [m/N]
+    double (*over_plain)(double omega0, double sigma, double dt) = nullptr;  // over dt^2/m; nullptr: 1
+    bool adapted = false;                                                    // W = dt^2/gain, by which any gain balances; else m
+};
+double impulse_gain(double omega0, double sigma, double dt);  // dt R sin(omega dt)/(m omega), over dt^2/m
+
+// What one scene and setting come to before a form is chosen.
+struct ThreePointProblem {
+    Scene scene;  // of one string
+    double dt = 0;
+    Modes modes;
+    std::vector<double> initial;  // modal displacement at t = 0 [m]
+    ThreePoint three_point;
+    std::vector<double> W;  // [kg]
+    LinearUpdate update;    // ports: contacts, thread, moving body, which all are read, and the pluck
+    StringPoints points;
+    std::vector<std::vector<double>> theta;  // of each port on every read [m/N]
+    std::vector<Fact> facts;                 // beside those of the string
+    bool on_body = false;
+    const String& string() const { return scene.strings.front(); }
+};
+// The modes as they are, their points by the weights of their footprints, a profile by points of its own. Refuses modes above half the
+// rate.
+ThreePointProblem problem_of_modes(const Descriptor&, const Scene&, const Settings&, const ModalGain& = {});
+// p with points and update.ports for its contacts: the rest of both, and what follows from them.
+void complete(ThreePointProblem& p, const Descriptor&, const Settings&, const ModalGain& = {});
+
+template <class Form>
+class ThreePointModesBy {
 public:
     static constexpr int levels = 2;
-    static constexpr long steps_between_looks = 64;
+    static constexpr long steps_between_looks = 64;  // a step of many coupled points takes tens of microseconds
 
-    // gain(string): of each mode [m/N]; inertia(string, gain): its W.
-    using Gain = ModalArray (*)(const ModalString&);
-    using Inertia = ModalArray (*)(const ModalString&, const ModalArray& gain);
-    ThreePointModes(const Descriptor&, const Scene&, const Settings&, Gain, Inertia);
-    static ModalArray plain_gain(const ModalString&);                     // dt^2/m
-    static ModalArray modal_mass(const ModalString&, const ModalArray&);  // m
+    explicit ThreePointModesBy(ThreePointProblem problem) : p_(std::move(problem)), form_(p_.update) {
+        for (const Tap& tap : p_.scene.taps) readings_.push_back(reading_of(tap));
+        const std::size_t reads = p_.update.reads;
+        for (auto* v : {&older_, &now_, &coming_, &read_, &free_}) v->assign(reads, 0.0);
+        for (auto* v : {&force_, &earlier_force_}) v->assign(p_.update.ports.size(), 0.0);
+        for (auto* v : {&modal_now_, &modal_last_, &modal_coming_}) v->assign(p_.modes.count(), 0.0);
+        pluck_port_ = p_.points.pluck ? static_cast<int>(reads) : -1;
+        for (std::size_t z = 0; z < reads; ++z)
+            for (std::size_t c = 0; c < reads; ++c) coupled_ = coupled_ || (z != c && p_.theta[c][z] != 0);
+        reset();
+    }
 
-    const StringPoints& points() const { return p_; }
-    ThreadStart thread_start() const { return ThreadStart::taut; }
-    void reset() noexcept;
-    void start(const double* force, double) noexcept;
-    void approach(bool) noexcept;
+    const StringPoints& points() const { return p_.points; }
+    ThreadStart thread_start() const { return p_.points.series ? ThreadStart::plain : ThreadStart::taut; }
     ReadingsBeforeStep readings() const { return {older_.data(), now_.data(), free_.data()}; }
-    Spent pass(const double* force, double, bool probed) noexcept;
-    void reading(int level, double* out) const noexcept;
-    double stored() noexcept;
-    bool failed() const { return !(std::abs(sum_) < modal_overflow); }
-    void write(const Block&, int row, double bridge, double thread) noexcept;
-    int dofs() const { return 2 * m_.count; }
-    std::vector<Fact> facts() const;
-    std::vector<FreeMode> free_modes() const { return three_point_modes(m_); }
+
+    void reset() noexcept {
+        modal_now_ = p_.initial;
+        for (int j = 0; j < p_.modes.count(); ++j) modal_coming_[j] = p_.three_point.start[j] * modal_now_[j];
+        form_.start(modal_now_.data(), modal_coming_.data());
+        form_.read(read_.data());
+        for (int z = 0; z < p_.update.reads; ++z) now_[z] = older_[z] = inner(p_.update.ports[z].weights, modal_now_);
+        step_ = 0;
+        std::fill(force_.begin(), force_.end(), 0.0);
+        if (pluck_port_ >= 0) push_by_pluck();
+        from(older_);
+        inertia_ = p_.on_body ? 2 * free_.back() / (p_.dt * p_.dt) : 0;
+    }
+    void start(const double* force, double a) noexcept { put(force, a); }
+    void approach(bool last_of_row) noexcept {
+        if (last_of_row) keep();
+        if (step_ == 0)
+            for (double& f : force_) f *= applied();
+        form_.advance(force_.data(), read_.data());
+        older_.swap(now_);
+        now_.swap(coming_);
+        ++step_;
+        if (pluck_port_ >= 0) push_by_pluck();
+        from(older_);
+        if (p_.on_body) inertia_ = (read_.back() - 2 * now_.back() + older_.back()) / (p_.dt * p_.dt);
+    }
+    Spent pass(const double* force, double a, bool probed) noexcept {
+        put(force, a);
+        return probed ? account() : Spent{};
+    }
+    bool failed() const { return failed_; }
+    void reading(int level, double* out) const noexcept { std::copy_n((level == 0 ? now_ : coming_).begin(), p_.points.count(), out); }
+
+    double stored() noexcept {  // H^{n+1/2}  (21)
+        form_.to_modal(form_.levels.displacement, modal_now_.data());
+        fill_coming();
+        double H = 0;
+        for (int j = 0; j < p_.modes.count(); ++j) {
+            const double y = modal_now_[j], d = modal_coming_[j];
+            H += p_.W[j] * (0.5 * (1 + p_.update.Ct[j]) * d * d + p_.update.kappa[j] * y * (y + d));
+        }
+        return 0.5 * H / (p_.dt * p_.dt);
+    }
+    void write(const Block& out, int row, double bridge, double thread) const noexcept {
+        for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(readings_[k], bridge, thread);
+    }
+
+    int dofs() const { return 2 * p_.update.modes(); }
+    std::vector<Fact> facts() const { return p_.facts; }
+    std::vector<FreeMode> free_modes() const {
+        std::vector<FreeMode> all;
+        for (int j = 0; j < p_.modes.count(); ++j) all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
+        return all;
+    }
+
+    // ---- On a body (schemes/body/instrument.hpp)
+
+    double inertia() const { return inertia_; }
+    double pluck() const { return pluck_port_ >= 0 ? force_[pluck_port_] : 0; }
+    double share() const {
+        const auto& mu = p_.update.ports[p_.points.count()].weights;
+        double sum = 0;
+        for (int j = 0; j < p_.modes.count(); ++j)  // of the mass that H shows (21)
+            sum += mu[j] * mu[j] / (p_.modes.mass * (1 - 0.5 * p_.three_point.loss[j] - 0.25 * p_.three_point.kappa[j]));
+        return sum;
+    }
+    double momentum() noexcept {  // sum mu_j v_j of the half step
+        fill_coming();
+        return inner(p_.update.ports[p_.points.count()].weights, modal_coming_) / p_.dt;
+    }
 
 private:
-    void free_motion() noexcept;
-    void fill_next(double F_e) noexcept;
-    void apply(const double* force, double share) noexcept;
-    void see_next() noexcept;
+    struct TapReading {
+        Quantity quantity;
+        AlignedVector displacement, increment, kept;  // weights on the form's levels
+        std::vector<double> force, earlier_force;     // velocity: weights of F^n and F^{n-1}
+    };
+    static double inner(const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0;
+        for (std::size_t j = 0; j < a.size(); ++j) sum += a[j] * b[j];
+        return sum;
+    }
+    double applied() const { return step_ == 0 ? 0.5 : 1; }  // of its force that a step applies: half in the first half step only
 
-    ModalString m_;
-    StringPoints p_;
-    std::vector<ModalArray> g_, e_;                    // of the points
-    ModalArray W_, e_e_, q_, d_, d0_, next_;           // next_: d^{n+1}
-    std::vector<double> now_, older_, coming_, free_;  // of the points [m]
-    double compliance_ = 0;  // of one contact under a steady force, relative to the true one of the same modes; else 0
+    void keep() noexcept {  // before the last step of a row
+        if (!differenced_) return;
+        form_.levels.keep();
+        std::copy(force_.begin(), force_.end(), earlier_force_.begin());
+        for (double& f : earlier_force_) f *= applied();
+    }
+    void push_by_pluck() noexcept {
+        const double F_e = jvari::force(*p_.points.pluck, static_cast<double>(step_) * p_.dt);
+        force_[pluck_port_] = F_e;
+        for (std::size_t z = 0; F_e != 0 && z < read_.size(); ++z) read_[z] += applied() * p_.theta[pluck_port_][z] * F_e;
+    }
+    void from(const std::vector<double>& older) noexcept {
+        double all = 0;
+        for (std::size_t z = 0; z < free_.size(); ++z) {
+            free_[z] = read_[z] - older[z];
+            all += read_[z];
+        }
+        failed_ = !(std::abs(all) < modal_overflow);
+    }
+    void put(const double* force, double a) noexcept {  // the forces of the step, and what they make of its newer level
+        const double share = applied();
+        const std::size_t points = p_.points.count(), reads = read_.size();
+        std::copy_n(force, points, force_.begin());
+        if (p_.on_body) force_[points] = -a;
+        for (std::size_t z = 0; z < reads; ++z) {
+            coming_[z] = read_[z] + share * p_.theta[z][z] * force_[z];
+            for (std::size_t c = 0; coupled_ && c < reads; ++c)
+                if (c != z) coming_[z] += share * p_.theta[c][z] * force_[c];
+        }
+    }
+
+    void fill_coming() noexcept {  // y^{n+1} - y^n with the force of step n
+        form_.to_modal(form_.levels.increment, modal_coming_.data());
+        for (std::size_t z = 0; z < p_.update.ports.size(); ++z)
+            if (force_[z] != 0)
+                for (int j = 0; j < p_.modes.count(); ++j)
+                    modal_coming_[j] += applied() * force_[z] * p_.update.gain_of(j) * p_.update.ports[z].weights[j];
+    }
+    Spent account() noexcept {  // what step n supplied and dissipated
+        modal_last_.swap(modal_coming_);
+        fill_coming();
+        Spent spent;
+        for (int j = 0; j < p_.modes.count(); ++j) {
+            const double r = modal_coming_[j] + modal_last_[j];
+            spent.dissipated += p_.W[j] * p_.three_point.loss[j] * r * r;
+        }
+        spent.dissipated /= 4 * p_.dt * p_.dt;  // (20)
+        if (const double F_e = pluck(); F_e != 0) {
+            const auto& g = p_.update.ports[pluck_port_].weights;
+            for (int j = 0; j < p_.modes.count(); ++j) spent.supplied += g[j] * (modal_coming_[j] + modal_last_[j]);
+            spent.supplied *= 0.5 * F_e;
+        }
+        const int last = p_.points.count() - 1;
+        if (last >= 0) spent.moved = coming_[last] - older_[last];
+        return spent;
+    }
+
+    TapReading reading_of(const Tap& tap) {
+        TapReading r{tap.quantity, {}, {}, {}, {}, {}};
+        if (tap.quantity == Quantity::nut_force) r.displacement = form_.reading(nut_force_weights(p_.modes, p_.string()));
+        if (tap.quantity == Quantity::displacement) r.displacement = form_.reading(displacement_weights(p_.modes, tap.position));
+        if (tap.quantity != Quantity::velocity) return r;
+        const auto w = displacement_weights(p_.modes, tap.position);
+        const int n = p_.modes.count();
+        std::vector<double> y(n), d(n), kept(n), now(n), earlier(n);
+        for (int j = 0; j < n; ++j) {
+            const double G = p_.three_point.velocity[j], half = 0.5 * w[j] / p_.dt;
+            y[j] = G > 0 ? w[j] * (G * (p_.three_point.kappa[j] + p_.three_point.loss[j]) - p_.modes.sigma[j]) : 0;
+            d[j] = G > 0 ? 2 * G * w[j] : half;
+            kept[j] = G > 0 ? 0 : half;
+            now[j] = p_.update.gain_of(j) * (G > 0 ? G * w[j] : half);
+            earlier[j] = p_.update.gain_of(j) * kept[j];
+            differenced_ = differenced_ || G == 0;
+        }
+        if (differenced_) form_.levels.listen();
+        r.displacement = form_.reading(y);
+        r.increment = form_.reading(d);
+        r.kept = form_.reading(kept);
+        for (const Port& port : p_.update.ports) {
+            r.force.push_back(inner(now, port.weights));
+            r.earlier_force.push_back(inner(earlier, port.weights));
+        }
+        return r;
+    }
+    double value(const TapReading& r, double bridge, double thread) const {
+        const auto read = [](const AlignedVector& w, const AlignedVector& x) {
+            return pass_dot(w.data(), x.data(), static_cast<int>(x.size()));
+        };
+        switch (r.quantity) {
+            case Quantity::bridge_force: return bridge;
+            case Quantity::thread_force: return thread;
+            case Quantity::driving_force: return -(bridge + thread);
+            case Quantity::displacement:
+            case Quantity::nut_force: return read(r.displacement, form_.levels.displacement);
+            case Quantity::velocity: break;
+        }
+        if (step_ == 0) return 0;
+        double v = read(r.displacement, form_.levels.displacement) + read(r.increment, form_.levels.increment);
+        if (differenced_) v += read(r.kept, form_.levels.kept);
+        for (std::size_t z = 0; z < r.force.size(); ++z) v += r.force[z] * force_[z] + r.earlier_force[z] * earlier_force_[z];
+        return v;
+    }
+
+protected:
+    ThreePointProblem p_;
+
+private:
+    Form form_;
+    std::vector<TapReading> readings_;
+    bool differenced_ = false;  // a velocity tap has modes near or above Nyquist
+    bool coupled_ = false;      // reads by each other's forces: nodes are not
+    bool failed_ = false;
+    int pluck_port_ = -1;
     long step_ = 0;
-    double F_e_ = 0, sum_ = 0;
-    ModalPass fused_;  // of one contact and a thread at most; with the forces of the step, which it makes at the next approach
-    ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
-    std::vector<double> theta_e_;  // of the pluck [m/N]
+    std::vector<double> older_, now_, coming_;                   // levels n-1, n, n+1 of the reads [m]
+    std::vector<double> read_, free_;                            // level n+1 without the points' forces, and from level n-1 to there
+    std::vector<double> force_, earlier_force_;                  // F^n and, for velocity taps, F^{n-1} of each port [N]
+    double inertia_ = 0;                                         // sum mu v'' without forces [N]
+    std::vector<double> modal_now_, modal_last_, modal_coming_;  // y^n, y^n - y^{n-1}, y^{n+1} - y^n
 };
+
+extern template class ThreePointModesBy<ThreePointPass>;
+using ThreePointModes = ThreePointModesBy<ThreePointPass>;
 
 }  // namespace jvari

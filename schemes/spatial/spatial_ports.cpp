@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scenes/barrier.hpp"
 #include "schemes/making.hpp"
@@ -12,11 +13,27 @@ namespace jvari {
 namespace {
 constexpr double most_weights = 1 << 27;  // of nodes on modes: a gigabyte
 
+double sine(long numerator, long intervals) {  // sin(pi numerator/intervals), its argument reduced in integers
+    long turn = numerator % (2 * intervals);
+    const double sign = turn >= intervals ? -1 : 1;
+    turn %= intervals;
+    return sign * std::sin(std::numbers::pi * double(std::min(turn, intervals - turn)) / double(intervals));
+}
+
 int node_at(double position, double length, int intervals) {  // 0: between nodes
     const double i = position / length * intervals, node = std::round(i);
     return std::abs(i - node) <= near_node * intervals && node >= 1 && node < intervals ? static_cast<int>(node) : 0;
 }
 
+}  // namespace
+
+std::vector<double> node_weights(int intervals, int node) {
+    std::vector<double> w;
+    for (int j = 1; j < intervals; ++j) w.push_back(sine(long(j) * node, intervals));
+    return w;
+}
+
+namespace {
 struct PointsOf {
     const String& s;
     const Modes& modes;
@@ -74,8 +91,7 @@ int intervals_for(const String& s, const Settings& settings) {
     return intervals;
 }
 
-SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, const std::string& scene, bool coupled_may_be,
-                           bool on_body) {
+SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, const std::string& scene, bool coupled_may_be) {
     SpatialPorts out;
     for (const Barrier& barrier : s.barriers) std::visit(PointsOf{s, modes, intervals, scene, out}, barrier);
     const bool all_nodes = std::all_of(out.ports.begin(), out.ports.end(), [](const Port& p) { return p.node != 0; });
@@ -85,9 +101,6 @@ SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, c
     if (out.points.size() > 1 && s.thread && !coupled_may_be)
         throw Refusal("modal_spatial_newton couples a thread to one contact point; scene " + scene + " has " +
                       std::to_string(out.points.size()) + " with " + std::to_string(intervals - 1) + " nodes");
-    if (s.thread) out.ports.push_back({footprint_weights(modes, s.thread->position, s.thread->width), 0});
-    if (on_body) out.ports.push_back({end_inertia(modes, s), 0});
-    if (s.pluck) out.ports.push_back({footprint_weights(modes, s.pluck->position, s.pluck->width), 0});
     return out;
 }
 

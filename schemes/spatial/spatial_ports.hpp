@@ -1,4 +1,4 @@
-// Where forces meet the string in modal_spatial_newton: the contact points of the barriers, the thread, the pluck.
+// Where obstacles meet the string in modal_spatial_newton.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 #include "scenes/modes.hpp"
 #include "schemes/contact/contact.hpp"
+#include "schemes/modal/three_point_modes.hpp"
 #include "schemes/scheme.hpp"
-#include "schemes/spatial/spatial_forms.hpp"
 
 namespace jvari {
 
@@ -18,10 +18,9 @@ struct ContactPoint {
     double position = 0;      // [m]
 };
 
-// Ports in order: one per contact point, the thread's, that of a moving body where there is one, the pluck's.
 struct SpatialPorts {
     std::vector<ContactPoint> points;
-    std::vector<Port> ports;
+    std::vector<Port> ports;  // of each
 };
 
 // N - 1 of the settings, or by default the modes below min(20 kHz, rate/2), raised until a point barrier lies on a node (to 4 times as
@@ -29,6 +28,11 @@ struct SpatialPorts {
 int intervals_for(const String&, const Settings&);
 
 // Throws Refusal where contact points are coupled and may not be: nodes are not (their weights are orthogonal), all else is.
-SpatialPorts spatial_ports(const String&, const Modes&, int intervals, const std::string& scene, bool coupled_may_be, bool on_body = false);
+SpatialPorts spatial_ports(const String&, const Modes&, int intervals, const std::string& scene, bool coupled_may_be);
+
+std::vector<double> node_weights(int intervals, int node);  // sin(j pi node/N), j = 1 .. N-1
+
+// The string of modal_spatial_newton.
+ThreePointProblem spatial_problem(const Descriptor&, const Scene&, const Settings&);
 
 }  // namespace jvari

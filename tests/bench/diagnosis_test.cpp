@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/notes.hpp"
 
 using namespace jvari::bench;
 
@@ -163,17 +162,3 @@ TEST(Diagnosis, StandsInTheTableOfTheCheapestWhereItSaysNone) {
     EXPECT_TRUE(says(compare::cheapest_text(t), "none. Closest: a, 10 modes at")) << compare::cheapest_text(t);
 }
 }  // namespace
-
-TEST(MatchingNote, NamesTheLoudestCellOfEachCauseAndWhatToDo) {
-    store::Table t{{"scheme", "options", "rate", "fact_impact_share", "fact_string.1.impact_share"},
-                   {{"a", "compliance=own", "44100", "", ""},
-                    {"a", "compliance=matched", "44100", "0.1", ""},
-                    {"a", "compliance=matched", "88200", "", "0.2"}}};
-    EXPECT_EQ(compare::matching_note(t), "");
-    t.rows[1][3] = "0.7";
-    t.rows[2][4] = "0.9";
-    const std::string note = compare::matching_note(t);
-    EXPECT_TRUE(says(note, "strikes its obstacle")) << note;
-    EXPECT_TRUE(says(note, "impact_share 0.9 with a compliance=matched at 88200 Hz")) << note;
-    EXPECT_TRUE(says(note, "Compare with compliance=own.")) << note;
-}

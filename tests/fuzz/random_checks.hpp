@@ -31,8 +31,8 @@ struct Tally {
     long estimates = 0;      // the same of a stand-in's estimate of its own error, which is no bound:
     long low_estimates = 0;  // how many were below the true error is told, and asserted of none
     double worst_estimate = 0;
-    long harmed = 0, warned = 0, false_alarms = 0;  // runs: matched errs by more than own; a fact says that it may; it says so in vain
-    double slowest = 0;                             // CPU seconds of one run
+    long harmed = 0;     // runs: matched errs by more than own
+    double slowest = 0;  // CPU seconds of one run
     std::string slowest_at;
     void add(const Tally&);
 };
@@ -45,9 +45,8 @@ void check_certificate(const RandomCase&, Tally&, const Finding&, const std::fun
 // modes and four times the points.
 void check_certificate_about_scene(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 
-// If matched modal_two_point errs by more than 1.2 times as much as own, in a tap whose error is above 1e-3, a fact of the run must be
-// above its limit (schemes/contact/matching_facts.hpp). The truth is matched exact_contact with 4 to 8 times the modes; half of these give
-// its uncertainty.
+// Matched modal_two_point must not err by more than 1.2 times as much as own, in a tap whose error is above 1e-3. The truth is matched
+// exact_contact with 4 to 8 times the modes; half of these give its uncertainty.
 constexpr double harm = 1.2, harm_matters = 1e-3, matching_seconds = 10;  // seconds: of CPU, all runs of one scene
 void check_matching(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 

@@ -60,8 +60,8 @@ enum class Asked { promises, about_scene, matching };
     if (asked == Asked::promises && seed % certified_every == 0 && !c.extreme) check_certificate(c, t, finding, at);
     std::ostringstream line;
     line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' ' << t.claims << ' ' << t.judged << ' '
-         << t.worst_claim << ' ' << t.harmed << ' ' << t.warned << ' ' << t.false_alarms << ' ' << t.estimates << ' ' << t.low_estimates
-         << ' ' << t.worst_estimate << ' ' << t.slowest << ' ' << t.slowest_at;
+         << t.worst_claim << ' ' << t.harmed << ' ' << t.estimates << ' ' << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest
+         << ' ' << t.slowest_at;
     send(pipe, line.str());
     _exit(0);
 }
@@ -94,8 +94,8 @@ long take(Asked asked, std::uint64_t seed, Tally& tally) {
         Tally t;
         t.scenes = 1;
         std::istringstream in(line.substr(1));
-        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.judged >> t.worst_claim >> t.harmed >> t.warned >>
-            t.false_alarms >> t.estimates >> t.low_estimates >> t.worst_estimate >> t.slowest >> std::ws;
+        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.judged >> t.worst_claim >> t.harmed >> t.estimates >>
+            t.low_estimates >> t.worst_estimate >> t.slowest >> std::ws;
         std::getline(in, t.slowest_at);
         tally.add(t);
     }
@@ -122,10 +122,8 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
         return findings > 0 || tally.judged == 0;
     }
     if (asked == Asked::matching) {
-        std::printf(
-            "%ld scenes at two rates each, %ld judged, %ld ended by a limit\nmatched does harm in %ld runs, a fact warns in %ld, "
-            "%ld of these in vain\n%ld findings\n",
-            tally.scenes, tally.judged, tally.ended, tally.harmed, tally.warned, tally.false_alarms, findings);
+        std::printf("%ld scenes at two rates each, %ld judged, %ld ended by a limit\nmatched does harm in %ld runs\n%ld findings\n",
+                    tally.scenes, tally.judged, tally.ended, tally.harmed, findings);
         return findings > 0 || tally.judged == 0;
     }
     std::printf("%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld ended by a limit, %ld refusals\n", tally.scenes,

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "scenes/modes.hpp"
-#include "schemes/modal/kernels/modal_energies.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -345,41 +344,6 @@ TEST(Quadratised, OptionsChooseTheVariantAndNonsenseIsRefused) {
 }
 
 // The sums behind the energy columns, with and without each force, against long double.
-TEST(ModalEnergies, AreTheSumsThatTheyStandFor) {
-    const int size = 24;
-    std::vector<ModalArray> a(10, ModalArray(size));
-    for (std::size_t k = 0; k < a.size(); ++k)
-        for (int i = 0; i < 21; ++i) a[k][i] = std::sin(1 + 0.7 * static_cast<double>(k) + i);
-    const auto& [x, v, p, r, e_b, e_c, e_e, W, den, g] = std::tie(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]);
-    for (int forces = 0; forces < 8; ++forces) {
-        ModalPass m;
-        m.size = size, m.x = a[0].data(), m.v = a[1].data(), m.p = p.data(), m.r = r.data();
-        m.F_b = 0.3, m.F_c = -0.2, m.F_e = 0.7;
-        if (forces & 1) m.e_b = e_b.data();
-        if (forces & 2) m.e_c = e_c.data();
-        if (forces & 4) m.e_e = e_e.data();
-        long double lost_two = 0, given_two = 0, stored = 0, lost = 0, given = 0, after = 0, before = 0;
-        for (int i = 0; i < size; ++i) {
-            const long double F = (forces & 1 ? e_b[i] * 0.3L : 0) - (forces & 2 ? e_c[i] * 0.2L : 0) + (forces & 4 ? e_e[i] * 0.7L : 0);
-            const long double s = v[i] + F, q = 0.5L * W[i] * v[i] + den[i] * x[i];
-            lost_two += p[i] * s * s, given_two += g[i] * s, stored += q * q + static_cast<long double>(den[i]) * x[i] * x[i];
-            const long double d = s - static_cast<long double>(p[i]) * v[i] - static_cast<long double>(r[i]) * x[i], sum = d + v[i];
-            lost += static_cast<long double>(W[i]) * p[i] * sum * sum, given += g[i] * sum;
-            const long double weight = W[i], of_step = den[i], of_mean = r[i];
-            const auto energy = [&](long double step, long double mean) {
-                return weight * (of_step * step * step + of_mean * mean * mean);
-            };
-            after += energy(d, 2.0L * x[i] + d), before += energy(v[i], 2.0L * x[i] - v[i]);
-        }
-        const auto near = [&](double got, long double want) { EXPECT_NEAR(got, static_cast<double>(want), 2e-15 * size) << forces; };
-        const ModalSpending two = two_point_spending(m, p.data(), g.data());
-        near(two.lost, lost_two), near(two.given, given_two), near(two_point_stored(m, W.data(), den.data()), stored);
-        const ThreePointEnergies three = three_point_energies(m, W.data(), den.data(), g.data());
-        near(three.spending.lost, lost), near(three.spending.given, given), near(three.after, after), near(three.before, before);
-        EXPECT_EQ(two_point_spending(m, p.data(), nullptr).given, 0);
-        EXPECT_EQ(three_point_energies(m, W.data(), den.data(), nullptr).spending.given, 0);
-    }
-}
 
 }  // namespace
 }  // namespace jvari

@@ -6,7 +6,11 @@
 #include <numbers>
 
 #include "scenes/modes.hpp"
+#include "schemes/contact/gradient_rule.hpp"
+#include "schemes/driver/driver.hpp"
+#include "schemes/making.hpp"
 #include "schemes/run.hpp"
+#include "tests/schemes/dense_form.hpp"
 
 namespace jvari {
 
@@ -70,8 +74,15 @@ Scene tanpura(double duration) {
     return scene;
 }
 
+Run in_form(const std::string& form, const Scene& scene, const Settings& settings, RunOptions options = {}) {
+    if (form == "restricted") return run(modal_spatial_newton, scene, settings, options);
+    using String = ThreePointModesBy<DenseForm>;
+    Driver<String, GradientRule> scheme(std::make_unique<String>(spatial_problem(modal_spatial_newton, scene, settings)),
+                                        steps_per_row(settings));
+    return run(scheme, scene, settings, options);
+}
 Run steps(const Scene& scene, double rate, double tap_rate, int modes, const char* form = "restricted", RunOptions options = {}) {
-    return run(modal_spatial_newton, scene, {rate, tap_rate, modes, {{"form", form}}}, options);
+    return in_form(form, scene, {rate, tap_rate, modes, {}}, options);
 }
 
 double fact(const Run& r, const std::string& name) {
@@ -178,12 +189,10 @@ TEST(ModalSpatialNewton, AModeAboveNyquistAliases) {
 
 // ---- Forms
 
-void forms_agree(const Scene& scene, double rate, int modes, std::vector<std::pair<std::string, std::string>> options = {}) {
-    options.emplace_back("form", "restricted");
-    const auto restricted = run(modal_spatial_newton, scene, {rate, rate, modes, options});
+void forms_agree(const Scene& scene, double rate, int modes, const OptionValues& options = {}) {
+    const auto restricted = in_form("restricted", scene, {rate, rate, modes, options});
     EXPECT_GT(fact(restricted, "deepest_penetration"), 1e-9);
-    options.back().second = "dense";
-    const auto dense = run(modal_spatial_newton, scene, {rate, rate, modes, options});
+    const auto dense = in_form("dense", scene, {rate, rate, modes, options});
     for (int k = 0; k < dense.trace.taps(); ++k) EXPECT_LT(difference(dense.trace, restricted.trace, k), 1e-10) << "tap " << k;
 }
 
@@ -396,10 +405,9 @@ TEST(ModalSpatialNewton, APointBarrierBetweenNodesActsThroughItsModes) {  // and
     for (int k = 0; k < 3; ++k) EXPECT_LT(difference(b.trace, a.trace, k), 1e-3);
 }
 
-void refuses(const Scene& scene, int modes, const std::string& why, double tap_rate = 44100, const char* option = "form",
-             const char* value = "restricted") {
+void refuses(const Scene& scene, int modes, const std::string& why, double tap_rate = 44100, const OptionValues& options = {}) {
     try {
-        make_scheme(modal_spatial_newton, scene, {44100, tap_rate, modes, {{option, value}}});
+        make_scheme(modal_spatial_newton, scene, {44100, tap_rate, modes, options});
         ADD_FAILURE() << "made in spite of: " << why;
     } catch (const Refusal& r) {
         EXPECT_NE(std::string(r.what()).find(why), std::string::npos) << r.what();
@@ -417,8 +425,7 @@ TEST(ModalSpatialNewton, WhatItCannotRepresentIsRefusedByName) {
     scene = two_point_bridge(0.01);
     scene.strings[0].barriers.push_back(scene.strings[0].barriers[0]);
     refuses(scene, 1001, "node 6");
-    refuses(tanpura(0.01), 133, "restricted, dense", 44100, "form", "sparse");
-    refuses(tanpura(0.01), 133, "unknown option", 44100, "gird", "restricted");
+    refuses(tanpura(0.01), 133, "unknown option", 44100, {{"gird", "5"}});
     refuses(tanpura(0.01), 133, "whole multiple", 48000);
 }
 

@@ -105,7 +105,7 @@ TEST(Obstacle, ATautThreadStartsByItsForceAtTheNewerLevel) {  // u- = u+: k (h -
 }
 
 TEST(Obstacle, OneContactInClosedFormIsOneOfSeveral) {  // beside one that is never touched
-    const double theta = 1e-6, apart[] = {theta, 0, 0, theta}, older[] = {-1e-5, 1}, free[] = {2e-5, 0};
+    const double theta = 1e-6, apart[] = {theta, 0, 0, theta}, older[] = {-1e-5, 1}, free[] = {1.5e-5, 0};
     Contacts one, two;
     one.add({1e8, 1.5}, 0, 0);
     two.add(one);

@@ -16,33 +16,7 @@ namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-struct TwoPointForm {
-    static constexpr bool reads_x = true;
-    static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
-        const V s = hn::Add(v, force);
-        v = next = hn::Sub(hn::Mul(p, s), hn::MulAdd(r, x, v));
-        x = hn::Add(x, s);
-    }
-};
-struct ThreePointForm {
-    static constexpr bool reads_x = true;
-    static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
-        v = hn::Add(hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)), force);
-        x = hn::Add(x, v);
-        next = hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, hn::Add(v, v)));
-    }
-};
-
-struct AheadForm {
-    static constexpr bool reads_x = false;
-    static HWY_INLINE void update(V& x, V& v, V p, V r, V force, V& next) {
-        v = hn::Add(hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)), force);
-        x = hn::Add(x, v);
-        next = hn::Add(x, hn::NegMulAdd(r, x, hn::NegMulAdd(p, v, v)));
-    }
-};
-
-template <class Form, bool barrier, bool thread, bool pluck>
+template <bool barrier, bool thread, bool pluck>
 HWY_INLINE void pass(ModalPass& m) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
@@ -56,17 +30,19 @@ HWY_INLINE void pass(ModalPass& m) {
         if constexpr (thread) force = hn::MulAdd(hn::Load(d, m.e_c + j), F_c, force);
         if constexpr (barrier) force = hn::MulAdd(hn::Load(d, m.e_b + j), F_b, force);
         V xj = hn::Load(d, x + j), vj = hn::Load(d, v + j);
-        Form::update(xj, vj, hn::Load(d, m.p + j), hn::Load(d, m.r + j), force, next);
+        const V s = hn::Add(vj, force);
+        vj = next = hn::Sub(hn::Mul(hn::Load(d, m.p + j), s), hn::MulAdd(hn::Load(d, m.r + j), xj, vj));
+        xj = hn::Add(xj, s);
         hn::Store(xj, d, x + j);
         hn::Store(vj, d, v + j);
         if constexpr (barrier) {
             const V g = hn::Load(d, m.g_b + j);
-            if constexpr (Form::reads_x) x_b[k] = hn::MulAdd(g, xj, x_b[k]);
+            x_b[k] = hn::MulAdd(g, xj, x_b[k]);
             v_b[k] = hn::MulAdd(g, next, v_b[k]);
         }
         if constexpr (thread) {
             const V g = hn::Load(d, m.g_c + j);
-            if constexpr (Form::reads_x) x_c[k] = hn::MulAdd(g, xj, x_c[k]);
+            x_c[k] = hn::MulAdd(g, xj, x_c[k]);
             v_c[k] = hn::MulAdd(g, next, v_c[k]);
         }
     };
@@ -78,11 +54,11 @@ HWY_INLINE void pass(ModalPass& m) {
     if (i < m.size) update(i, 0);
     const auto sum = [d](const V(&a)[2]) { return hn::GetLane(hn::SumOfLanes(d, hn::Add(a[0], a[1]))); };
     if constexpr (barrier) {
-        if constexpr (Form::reads_x) m.x_b = sum(x_b);
+        m.x_b = sum(x_b);
         m.v_b = sum(v_b);
     }
     if constexpr (thread) {
-        if constexpr (Form::reads_x) m.x_c = sum(x_c);
+        m.x_c = sum(x_c);
         m.v_c = sum(v_c);
     }
 }

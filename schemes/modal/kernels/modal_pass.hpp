@@ -19,12 +19,6 @@ using ModalPassFunction = void (*)(ModalPass&);
 // x' = x + s, v' = p s - (v + r x), s = v + e F; v_z = g_z.v'.   x = y, v = u, p = 2(1-A)/J, r = 4A/J of the two-point form
 ModalPassFunction two_point_pass(bool barrier, bool thread, bool pluck);
 
-// v' = v - p v - r x + e F, x' = x + v'; v_z = g_z.(2v' - p v' - r x').   x = q^n, v = d^n, p = loss, r = num of the three-point form
-ModalPassFunction three_point_pass(bool barrier, bool thread, bool pluck);
-
-// The same update; v_z = g_z.(x' + v' - p v' - r x'), what is read a step further without forces. No force waits for the pass then.
-ModalPassFunction three_point_pass_ahead(bool barrier, bool thread, bool pluck);
-
 // sum w x, x of whole vectors: what a tap reads.
 double pass_dot(const double* w, const double* x, int size);
 

@@ -1,4 +1,4 @@
-// The restricted form: modal recursion and synthesis at the reads alone, one pass over the modes per step   (Issanchou et al. 2016, eq 14).
+// Modal recursion and synthesis at the reads alone, one pass over the modes per step   (Issanchou et al. 2016, eq 14).
 //
 // Layout: modes j and N-j stand in pairs, level = [lo | hi] with lo = modes 1 .. H, hi = modes N-1 .. N-H, each padded with zeros. On a
 // node sin(i(N-j) pi/N) = -(-1)^i sin(ij pi/N), so a pair shares one weight and enters as lo + hi on odd nodes, lo - hi on even ones.
@@ -8,7 +8,7 @@
 //
 // Vector instructions are chosen at run time (Highway); the order of summation, so the last digits, depends on the machine.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "schemes/spatial/spatial_restricted.cpp"
+#define HWY_TARGET_INCLUDE "schemes/modal/kernels/three_point_pass.cpp"
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)  // vectors of unknown size make no arrays
 #endif
@@ -17,10 +17,10 @@
 
 #include <algorithm>
 
-#include "schemes/spatial/spatial_forms.hpp"
+#include "schemes/modal/kernels/three_point_pass.hpp"
 
-#ifndef JVARI_SPATIAL_PASS
-#define JVARI_SPATIAL_PASS
+#ifndef JVARI_THREE_POINT_PASS
+#define JVARI_THREE_POINT_PASS
 namespace jvari {
 
 struct Push {  // a port that is pushed in this step
@@ -90,15 +90,16 @@ HWY_INLINE void synthesise(const Pass& p, const double* s0, const double* s1, lo
     }
 }
 
-// What is pushed in this step: the first port's part stays in registers, further ports (a long contact, a pluck) are looped over.
-template <int pushes>  // 0, 1, or 2 for more
+// What is pushed in this step: the first two ports' parts stay in registers, further ports (a long contact, a pluck) are looped over.
+template <int pushes>  // 0, 1, 2, or 3 for more
 struct Pushed {
-    const double *lo = nullptr, *hi = nullptr;
-    V to_lo = hn::Zero(D()), to_hi = hn::Zero(D());
+    static constexpr int kept = pushes < 2 ? pushes : 2;
+    const double *lo[kept + 1], *hi[kept + 1];
+    V to_lo[kept + 1], to_hi[kept + 1];
     HWY_INLINE explicit Pushed(const Pass& p) {
-        if constexpr (pushes > 0) {
-            lo = p.push[0].lo, hi = p.push[0].hi;
-            to_lo = hn::Set(D(), p.push[0].to_lo), to_hi = hn::Set(D(), p.push[0].to_hi);
+        for (int k = 0; k < kept; ++k) {
+            lo[k] = p.push[k].lo, hi[k] = p.push[k].hi;
+            to_lo[k] = hn::Set(D(), p.push[k].to_lo), to_hi[k] = hn::Set(D(), p.push[k].to_hi);
         }
     }
 };
@@ -112,12 +113,12 @@ HWY_INLINE Pair update(const Pass& p, const Pushed<pushes>& pushed, long v) {
     const D tag;
     double *ylo = p.y + v, *yhi = ylo + p.half, *dlo = p.d + v, *dhi = dlo + p.half;
     V a = hn::Load(tag, dlo), b = hn::Load(tag, dhi);
-    if constexpr (pushes > 0) {
-        a = hn::MulAdd(hn::Load(tag, pushed.lo + v), pushed.to_lo, a);
-        b = hn::MulAdd(hn::Load(tag, pushed.hi + v), pushed.to_hi, b);
+    for (int k = 0; k < pushed.kept; ++k) {
+        a = hn::MulAdd(hn::Load(tag, pushed.lo[k] + v), pushed.to_lo[k], a);
+        b = hn::MulAdd(hn::Load(tag, pushed.hi[k] + v), pushed.to_hi[k], b);
     }
-    if constexpr (pushes > 1) {
-        for (int k = 1; k < p.pushes; ++k) {
+    if constexpr (pushes > 2) {
+        for (int k = 2; k < p.pushes; ++k) {
             const Push& push = p.push[k];
             a = hn::MulAdd(hn::Load(tag, push.lo + v), hn::Set(tag, push.to_lo), a);
             b = hn::MulAdd(hn::Load(tag, push.hi + v), hn::Set(tag, push.to_hi), b);
@@ -230,8 +231,12 @@ void advance_with(const Pass& p) {
 }
 
 void advance(const Pass& p) {
-    if (p.pushes == 0) return advance_with<0>(p);
-    p.pushes == 1 ? advance_with<1>(p) : advance_with<2>(p);
+    switch (p.pushes) {
+        case 0: return advance_with<0>(p);
+        case 1: return advance_with<1>(p);
+        case 2: return advance_with<2>(p);
+        default: return advance_with<3>(p);
+    }
 }
 
 }  // namespace
@@ -250,10 +255,11 @@ HWY_EXPORT(advance);
 constexpr int pad = 8;  // doubles of the widest vector
 }  // namespace
 
-struct RestrictedForm::Plan {
+struct ThreePointPass::Plan {
     LinearUpdate update;
     int half;                            // H
     std::vector<AlignedVector> weights;  // of each port, [lo | hi]
+    std::vector<AlignedVector> pushed;   // what it pushes, over gain; none where the weights are that too
     std::vector<int> port;               // of each read in the order that the pass reads them
     std::vector<const double*> line;     // its weights
     std::vector<NodeRun> runs;
@@ -265,7 +271,7 @@ struct RestrictedForm::Plan {
     long place(int mode) const { return mode <= half ? mode - 1 : padded + update.intervals - mode - 1; }
 };
 
-RestrictedForm::RestrictedForm(const LinearUpdate& update) : plan_(std::make_unique<Plan>()) {
+ThreePointPass::ThreePointPass(const LinearUpdate& update) : plan_(std::make_unique<Plan>()) {
     Plan& p = *plan_;
     p.update = update;
     const int N = update.intervals;
@@ -281,6 +287,12 @@ RestrictedForm::RestrictedForm(const LinearUpdate& update) : plan_(std::make_uni
     }
     for (int j = 1; j <= p.half; ++j) p.twocos.data()[j - 1] = 2 * std::cos(std::numbers::pi * j / N);
     for (const Port& port : update.ports) p.weights.push_back(reading(port.weights));
+    for (const Port& port : update.ports) {
+        if (update.over_plain.empty()) break;
+        std::vector<double> e = port.weights;
+        for (std::size_t j = 0; j < e.size(); ++j) e[j] *= update.over_plain[j];
+        p.pushed.push_back(reading(e));
+    }
     p.push.resize(update.ports.size());
 
     for (int z = 0; z < update.reads; ++z) p.port.push_back(z);
@@ -297,9 +309,9 @@ RestrictedForm::RestrictedForm(const LinearUpdate& update) : plan_(std::make_uni
     levels.displacement = AlignedVector(2 * p.padded);
     levels.increment = AlignedVector(2 * p.padded);
 }
-RestrictedForm::~RestrictedForm() = default;
+ThreePointPass::~ThreePointPass() = default;
 
-void RestrictedForm::start(const double* y, const double* free_increment) {
+void ThreePointPass::start(const double* y, const double* free_increment) {
     std::fill_n(levels.displacement.data(), levels.displacement.size(), 0.0);
     std::fill_n(levels.increment.data(), levels.increment.size(), 0.0);
     for (int j = 1; j < plan_->update.intervals; ++j) {
@@ -308,17 +320,20 @@ void RestrictedForm::start(const double* y, const double* free_increment) {
     }
 }
 
-void RestrictedForm::read(double* free) const {
-    for (int z = 0; z < plan_->update.reads; ++z)
-        free[z] = dot(plan_->weights[z], levels.displacement) + dot(plan_->weights[z], levels.increment);
+void ThreePointPass::read(double* free) const {
+    for (int z = 0; z < plan_->update.reads; ++z) {
+        free[z] = 0;
+        for (std::size_t v = 0; v < levels.displacement.size(); ++v)
+            free[z] += plan_->weights[z].data()[v] * (levels.displacement.data()[v] + levels.increment.data()[v]);
+    }
 }
 
-void RestrictedForm::advance(const double* force, double* free) {
+void ThreePointPass::advance(const double* force, double* free) {
     Plan& p = *plan_;
     int pushes = 0;
     for (std::size_t z = 0; z < p.weights.size(); ++z) {
         if (force[z] == 0) continue;
-        const double* w = p.weights[z].data();
+        const double* w = (p.pushed.empty() ? p.weights : p.pushed)[z].data();
         const int node = p.update.ports[z].node;
         const double push = p.update.gain * force[z];
         p.push[pushes++] = {w, node == 0 ? w + p.padded : w, push, node != 0 && node % 2 == 0 ? -push : push};
@@ -330,11 +345,11 @@ void RestrictedForm::advance(const double* force, double* free) {
     for (int k = 0; k < p.update.reads; ++k) free[p.port[k]] = p.free[k];
 }
 
-void RestrictedForm::to_modal(const AlignedVector& level, double* modal) const {
+void ThreePointPass::to_modal(const AlignedVector& level, double* modal) const {
     for (int j = 1; j < plan_->update.intervals; ++j) modal[j - 1] = level.data()[plan_->place(j)];
 }
 
-AlignedVector RestrictedForm::reading(const std::vector<double>& modal_weights) const {
+AlignedVector ThreePointPass::reading(const std::vector<double>& modal_weights) const {
     AlignedVector w(2 * plan_->padded);
     for (int j = 1; j < plan_->update.intervals; ++j) w.data()[plan_->place(j)] = modal_weights[j - 1];
     return w;
