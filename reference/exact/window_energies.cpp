@@ -64,7 +64,7 @@ WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolera
         speed_.assign(w.series()->states, 0.0);
         for (double q : w.series()->loss) series_loss_.push_back(q / seconds);
     }
-    lost_to_.assign(static_cast<std::size_t>(w.contacts + 1) * most_nodes, 0.0);
+    lost_to_.assign(static_cast<std::size_t>(2 * w.contacts + 1) * most_nodes, 0.0);  // with something in series two pairs each
     gained_by_ = lost_to_;
 }
 

@@ -78,6 +78,17 @@ TEST(InSeries, TheyAgreeOnSeveralBarriers) {
     for (int k = 0; k < 4; ++k) EXPECT_LT(difference(a.trace.column(k), b.trace.column(k)), 1e-9) << k;
 }
 
+// Each touching point has two decays then, and what each takes of the energy has its room: without it the heap was written over.
+TEST(InSeries, TwoStiffBarriersKeepTheirLedger) {
+    Scene scene = read_scene("two_point_bridge", {"string.0.barrier.0.exponent=1", "string.0.barrier.0.stiffness=1e9"});
+    scene.duration = 12e-3;
+    scene.strings.front().barriers.push_back(LumpedBarrier{12e-3, 0, -1e-5, {1e9}, 1, 0});
+    const auto a = run(exact_contact, scene, matched(40), {.energy = true});
+    ASSERT_EQ(a.status.outcome, Outcome::ok);
+    EXPECT_GT(fact(a, "events"), 3);
+    EXPECT_LT(ledger(a.trace).worst_step, 1e-11);
+}
+
 // Each closing of a stiff contact has a decay of R/k, 0.5 ns, in its force. A string that is released late in a row meets it elsewhere.
 TEST(InSeries, ShorterWindowsSayTheSame) {
     for (const double exponent : {1.0, 1.4}) {
