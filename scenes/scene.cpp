@@ -74,6 +74,7 @@ const char* name_of(Feature f) {
         case Feature::pluck: return "pluck";
         case Feature::polarisation: return "two polarisations";
         case Feature::moving_body: return "moving body";
+        case Feature::rigid_barrier: return "rigid barrier";
     }
     return "?";
 }
@@ -109,6 +110,7 @@ Features needed_by(const Barrier& barrier) {
             if (b.contact_loss != 0) f = f | Feature::contact_loss;
         },
         barrier);
+    if (const auto* b = std::get_if<LumpedBarrier>(&barrier); b && b->stiffness.k == rigid) f = f | Feature::rigid_barrier;
     return f;
 }
 }  // namespace

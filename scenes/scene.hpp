@@ -3,6 +3,7 @@
 // A plain value: every part is a struct, an absent part is an empty optional or vector. Reading from TOML: scene_file.hpp.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -44,8 +45,9 @@ using Damping = std::variant<NoDamping, PolynomialDamping, QualityFactorDamping,
 
 // ---- The obstacle. V(eta) = k [eta]^(exponent+1)/(exponent+1), eta = h - y the penetration, F = V'(eta) >= 0 on the string.
 
+inline constexpr double rigid = std::numeric_limits<double>::infinity();  // as a stiffness: the barrier does not give way at all
 struct LumpedStiffness {
-    double k = 0;  // [N/m^exponent]
+    double k = 0;  // [N/m^exponent], or rigid
     bool operator==(const LumpedStiffness&) const = default;
 };
 struct StiffnessDensity {
@@ -202,8 +204,9 @@ enum class Feature : unsigned {
     pluck = 1u << 11,
     polarisation = 1u << 12,
     moving_body = 1u << 13,  // the strings' end at x = 0 moves with it
+    rigid_barrier = 1u << 14,
 };
-constexpr int feature_count = 14;
+constexpr int feature_count = 15;
 const char* name_of(Feature);
 
 struct Features {

@@ -47,6 +47,7 @@ struct Names {
         if (std::find(names.begin(), names.end(), key) == names.end()) names.emplace_back(key);
     }
     void number(const char* key, auto&&...) { add(key); }
+    void stiffness(const char* key, auto&&...) { add(key); }
     void material() {
         add("material");
         add("diameter");
@@ -107,6 +108,14 @@ public:
         else if (const auto* d = std::get_if<double>(&v->content)) x = *d;
         else if (const auto* i = std::get_if<std::int64_t>(&v->content)) x = static_cast<double>(*i);
         else fail(*v, at(key), v->found(), expected);
+    }
+    void stiffness(const char* key, double& k, const char* unit) {
+        const Value* v = table_.find(key);
+        const auto* word = v ? std::get_if<std::string>(&v->content) : nullptr;
+        if (word && *word == "rigid") k = rigid;
+        else number(key, k, positive_or_rigid, unit);
+        const auto* d = v ? std::get_if<double>(&v->content) : nullptr;
+        if (d && *d == rigid) fail(*v, at(key), v->found(), std::string(positive_or_rigid.says) + " [" + unit + "]");
     }
     // A wire of a material, or its two numbers: where an override brings one of them, those of the file stay unread.
     void material() {

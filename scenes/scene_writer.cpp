@@ -22,6 +22,7 @@ struct Writer {
     void number(const char* key, double x, const Range&, const char*, std::optional<double> absent = {}) {
         if (x != absent) line(key, number_value(x));
     }
+    void stiffness(const char* key, double k, const char* unit) { k == rigid ? line(key, quote("rigid")) : number(key, k, positive, unit); }
     void material() {}  // what follows from it is written
     void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) { line(key, std::to_string(n)); }
@@ -71,6 +72,7 @@ struct Writer {
 struct Tables {
     std::string& out;
     void number(auto&&...) {}
+    void stiffness(auto&&...) {}
     void material() {}
     void tension(auto&&...) {}
     void count(auto&&...) {}

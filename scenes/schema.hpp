@@ -2,9 +2,9 @@
 // Four passes use it: naming the keys, reading, writing, and checking ranges. validate.cpp checks what depends on several values, such as a
 // bridge beyond the end of the string.
 //
-// A pass has number, count, optional_count (0 if absent), text, optional_text, file (beside the scene), choice, string_index, refused (a
-// key without meaning here), columns (a CSV file), one_of (a variant and the key that chooses it), material (with a diameter, in place of
-// two numbers), tension (or a pitch), part (a table) and parts (an array of tables).
+// A pass has number, stiffness (a number or "rigid"), count, optional_count (0 if absent), text, optional_text, file (beside the scene),
+// choice, string_index, refused (a key without meaning here), columns (a CSV file), one_of (a variant and the key that chooses it),
+// material (with a diameter, in place of two numbers), tension (or a pitch), part (a table) and parts (an array of tables).
 #pragma once
 
 #include <concepts>
@@ -27,6 +27,7 @@ struct Range {
 };
 inline constexpr Range any{"a finite number"};
 inline constexpr Range positive{"a positive number", 0, std::numeric_limits<double>::infinity(), true};
+inline constexpr Range positive_or_rigid{"\"rigid\" or a positive number", 0, std::numeric_limits<double>::infinity(), true};
 inline constexpr Range not_negative{"a number >= 0", 0};
 inline constexpr Range one_or_more{"a number >= 1", 1};
 inline constexpr Range fraction{"a number above 0 and at most 1", 0, 1, true};
@@ -85,7 +86,7 @@ void fields(auto& pass, Is<LumpedBarrier> auto& b) {
     pass.number("position", b.position, any, "m");
     pass.number("width", b.width, not_negative, "m", 0.0);
     pass.number("height", b.height, any, "m", 0.0);
-    pass.number("stiffness", b.stiffness.k, positive, "N/m^exponent");
+    pass.stiffness("stiffness", b.stiffness.k, "N/m^exponent");
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
 }

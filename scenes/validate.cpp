@@ -22,6 +22,9 @@ struct Ranges {
     void number(const char* key, double x, const Range& range, const char* unit, std::optional<double> = {}) {
         if (!range.holds(x)) throw BadScene(joined(path, key), number_text(x), range.says + (*unit ? " [" + std::string(unit) + "]" : ""));
     }
+    void stiffness(const char* key, double k, const char* unit) {
+        if (k != rigid) number(key, k, positive_or_rigid, unit);
+    }
     void material() {}
     void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) {
@@ -95,7 +98,13 @@ struct On {
             throw BadScene(path + part + ".file", "heights from " + number_text(c.x.front()) + " to " + number_text(c.x.back()) + " m",
                            "them from " + number_text(b.from) + " to " + number_text(b.to) + " m");
     }
-    void barrier(const std::string& part, const LumpedBarrier& b) const { footprint(part, b.position, b.width); }
+    void barrier(const std::string& part, const LumpedBarrier& b) const {
+        footprint(part, b.position, b.width);
+        if (b.stiffness.k != rigid) return;
+        if (b.exponent != 1) throw BadScene(path + part + ".exponent", number_text(b.exponent), "none, as the barrier is rigid");
+        if (b.contact_loss != 0)
+            throw BadScene(path + part + ".contact_loss", number_text(b.contact_loss), "none, as the barrier is rigid");
+    }
     void barrier(const std::string& part, const ProfileBarrier& b) const {
         if (b.from < 0 || b.from >= string.length) throw BadScene(path + part + ".from", number_text(b.from), between("<="));
         if (b.to < 0 || b.to > string.length + slack) throw BadScene(path + part + ".to", number_text(b.to), between("<="));

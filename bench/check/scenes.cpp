@@ -66,6 +66,7 @@ Scene with(Feature feature, Scene scene) {
         case Feature::polarisation: s.polarisation = Polarisation{0.1, 0.3}; break;
         case Feature::initial_shape: s.initial = ModeInitial{1, 1.9e-3 * s.length}; break;
         case Feature::pluck: s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5 * s.length, 0.1 * s.length}; break;
+        case Feature::rigid_barrier: s.barriers = {bridge_at(s, 1)}, std::get<LumpedBarrier>(s.barriers[0]).stiffness.k = rigid; break;
         case Feature::moving_body: scene.body = Body{"", "", 0, {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}}; break;
     }
     return scene;
@@ -128,6 +129,7 @@ std::vector<Scene> read_contract_scenes() {
     scenes.push_back(named(lossless(released()), "lossless_release"));
     scenes.push_back(named(lossless(string_at_rest()), "lossless_free"));
     scenes.back().strings.front().initial = ModeInitial{2, 1e-3};
+    scenes.push_back(named(with(Feature::rigid_barrier, released()), "rigid_release"));
     scenes.push_back(named(released(), "pluck_that_starts_and_ends_between_rows"));
     scenes.back().strings.front().initial.reset();
     scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
@@ -181,6 +183,7 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::initial_shape: add([](Change& c) { return c.initial_shape(); }); break;
         case Feature::pluck: add([](Change& c) { return c.pluck(); }); break;
         case Feature::polarisation: add([](Change& c) { return c.polarisation(); }); break;
+        case Feature::rigid_barrier: add([](Change& c) { return c.each_barrier([](auto& b) { b.stiffness = {1e5}; }); }); break;
         case Feature::moving_body:
             all.push_back(scene);
             for (BodyMode& m : all.back().body->modes) m.stiffness *= 2;

@@ -52,6 +52,21 @@ double exponent_of(const std::vector<BarrierLaw>& laws) {  // the one farthest f
     return exponent;
 }
 
+// A spring that gives way by 1e-8 of what the string lacks at the barrier stands for one that does not give way at all: the motion errs by
+// about as much. Where the modes alone meet it nothing but the barrier would give way.
+String with_springs(String s, const Descriptor& descriptor, const std::optional<InSeries>& series) {
+    constexpr double share = 1e-8;
+    for (std::size_t a = 0; a < s.barriers.size(); ++a) {
+        double& k = std::get<LumpedBarrier>(s.barriers[a]).stiffness.k;
+        if (k != rigid) continue;
+        if (!series)
+            throw Refusal(std::string(descriptor.name) +
+                          ": a rigid barrier needs compliance=matched, for where the modes alone meet it nothing gives way");
+        k = 1 / (share * series->C.C[a * series->points + a]);
+    }
+    return s;
+}
+
 class ExactContact final : public Scheme {
 public:
     ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance, const std::optional<InSeries>&);
@@ -96,7 +111,8 @@ private:
     WindowEnergies::Sums energies_;  // of the interval that ends here
     int idle_ = 0;
     ContactSteps steps_;
-    double leaves_ = HUGE_VAL;  // when the first of the points in collocation lets go, perhaps
+    double rigid_stiffness_ = 0;  // of the first spring that stands for a rigid barrier [N/m]
+    double leaves_ = HUGE_VAL;    // when the first of the points in collocation lets go, perhaps
     Extremes extremes_;
 
     // one window; rows of window_.stride
@@ -134,6 +150,9 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     touched_.reserve(contacts);
     for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
     amplitude_.assign(2 * contacts * contacts + 1, 0.0);
+    if (needed_by(scene).has(Feature::rigid_barrier))
+        for (std::size_t a = law_.size(); a-- > 0;)
+            if (std::get<LumpedBarrier>(scene.strings.front().barriers[a]).stiffness.k == rigid) rigid_stiffness_ = law_[a].law.k;
     const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
     if (springs && contacts <= most_sets_of) {
         sets_.resize(1u << contacts);
@@ -457,16 +476,18 @@ double ExactContact::stored(double F_e) const noexcept {
 }
 
 std::vector<Fact> ExactContact::facts() const {
-    return {{facts::events, extremes_.events},
-            {facts::contact_points, double(window_.contacts)},
-            {facts::coupled_contact_points, double(window_.contacts)},
-            {facts::windows, extremes_.windows},
-            {facts::window_terms, double(window_.terms)},
-            {facts::contact_steps, extremes_.steps},
-            {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
-            {facts::largest_contact_force, extremes_.largest_force},
-            {facts::deepest_penetration, extremes_.deepest},
-            {facts::detection_tolerance, extremes_.tolerance}};
+    std::vector<Fact> f = {{facts::events, extremes_.events},
+                           {facts::contact_points, double(window_.contacts)},
+                           {facts::coupled_contact_points, double(window_.contacts)},
+                           {facts::windows, extremes_.windows},
+                           {facts::window_terms, double(window_.terms)},
+                           {facts::contact_steps, extremes_.steps},
+                           {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
+                           {facts::largest_contact_force, extremes_.largest_force},
+                           {facts::deepest_penetration, extremes_.deepest},
+                           {facts::detection_tolerance, extremes_.tolerance}};
+    if (rigid_stiffness_ > 0) f.push_back({facts::rigid_stiffness, rigid_stiffness_});
+    return f;
 }
 
 constexpr Option tolerance_option{
@@ -483,9 +504,10 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     unsampled.sample_rate = 0;
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, settings);
-    const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
+    const String s = with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)), descriptor, series);
     return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, each, series);
 }
+constexpr Approximation approximates[] = {points_for_a_profile[0], {Feature::rigid_barrier, facts::rigid_stiffness}};
 }  // namespace
 
 const Descriptor exact_contact = {
@@ -494,12 +516,13 @@ const Descriptor exact_contact = {
     .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
                   Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
                   Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck),
+                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) |
+                  Features(Feature::rigid_barrier),
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = made,
     .options = options,
-    .approximates = points_for_a_profile,
+    .approximates = approximates,
     .confirmation = [](const Scene&) {
         return Confirmation{{{}, {{tolerance_option.name, "1e-12"}}}, {}};
     }};

@@ -57,7 +57,7 @@ const std::vector<Descriptor>& schemes_of_pairings() {
                 Descriptor d = *row->scheme;
                 d.name = names.emplace_back(name_of(*row, columns[c])).c_str();
                 d.source = columns[c].source;
-                d.represents = d.represents - Feature::moving_body;
+                d.represents = d.represents - (Feature::moving_body | Feature::rigid_barrier);
                 d.balance = columns[c].conserves ? Balance::exact : Balance::none;
                 d.make = row->makers[c];
                 d.stand_in_rank = 0;

@@ -19,6 +19,7 @@
 #include "schemes/body/body_modes.hpp"
 #include "schemes/body/instrument.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
+#include "schemes/contact/rigid_rule.hpp"
 #include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
@@ -239,8 +240,28 @@ private:
     std::vector<TwoPointTap> taps_;
 };
 
+// All barriers rigid, none of them moved by a body, and none above the string at its start.
+std::unique_ptr<Scheme> made_rigid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, Law law) {
+    const auto refuse = [&](const std::string& why) { throw Refusal(std::string(descriptor.name) + ": " + why); };
+    for (const Barrier& b : scene.strings.front().barriers)
+        if (const auto* lumped = std::get_if<LumpedBarrier>(&b); !lumped || lumped->stiffness.k != rigid)
+            refuse("a rigid barrier beside one that gives way; make all of them rigid, or give each a stiffness");
+    if (needed_by(scene).has(Feature::moving_body)) refuse("leaves out a rigid barrier of a string on a moving body");
+    matched_without_loss(descriptor, scene, settings);
+    auto string = std::make_unique<TwoPointModes>(descriptor, scene, settings, law);
+    string->reset();
+    const StringPoints& p = string->points();
+    std::vector<double> start(p.count());
+    string->reading(0, start.data());
+    for (int a = 0; a < p.contacts.count(); ++a)
+        if (const double inside = p.contacts.heights[a] - start[a]; inside > 1e-12 * p.length)
+            refuse("the string starts " + std::to_string(inside * 1e6) + " um inside a rigid barrier; lower the barrier or start above it");
+    return std::make_unique<Driver<TwoPointModes, RigidRule>>(std::move(string), steps_per_row(settings));
+}
+
 template <Law law>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    if (needed_by(scene).has(Feature::rigid_barrier)) return made_rigid(descriptor, scene, settings, law);
     if (!needed_by(scene).has(Feature::moving_body) && touches_once_without_loss(scene.strings.front()))
         return std::make_unique<ModalTwoPoint>(descriptor, scene, settings, law);
     matched_without_loss(descriptor, scene, settings);
@@ -257,7 +278,7 @@ std::unique_ptr<Scheme> made_by(const Descriptor& descriptor, const Scene& scene
 }
 
 constexpr Features two_point_features = modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                                        Features(Feature::contact_loss) | Feature::moving_body;
+                                        Features(Feature::contact_loss) | Feature::moving_body | Feature::rigid_barrier;
 constexpr Approximation two_point_approximates[] = {{Feature::profile_barrier, facts::contact_points}};
 }  // namespace
 

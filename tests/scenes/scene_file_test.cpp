@@ -318,6 +318,26 @@ TEST(Overrides, ChoosingAnotherLawOrShapeLeavesTheKeysOfTheFormerUnread) {
     EXPECT_TRUE(mode.strings[0].initial == Initial(ModeInitial{5, 1e-3}));
 }
 
+TEST(Barriers, ThatAreRigidAreReadWrittenAndNeededByName) {
+    const Scene scene = parse_scene(lumped, "scene.toml", {"string.0.barrier.0.stiffness=rigid"});
+    EXPECT_EQ(std::get<LumpedBarrier>(scene.strings[0].barriers[0]).stiffness.k, rigid);
+    EXPECT_TRUE(needed_by(scene).has(Feature::rigid_barrier));
+    EXPECT_FALSE(needed_by(parse_scene(lumped, "scene.toml")).has(Feature::rigid_barrier));
+    EXPECT_NE(write_scene(scene).find("stiffness = \"rigid\""), std::string::npos);
+    EXPECT_TRUE(parse_scene(write_scene(scene), "again.toml") == scene);
+    const std::vector<std::pair<std::vector<std::string>, std::string>> rows{
+        {{"string.0.barrier.0.stiffness=hard"},
+         "--set string.0.barrier.0.stiffness=hard: string.0.barrier.0.stiffness: found \"hard\", expected \"rigid\" or a positive number "
+         "[N/m^exponent]"},
+        {{"string.0.barrier.0.stiffness=rigid", "string.0.barrier.0.exponent=2"},
+         "--set string.0.barrier.0.exponent=2: string.0.barrier.0.exponent: found 2, expected none, as the barrier is rigid"},
+        {{"string.0.barrier.0.stiffness=rigid", "string.0.barrier.0.contact_loss=1"},
+         "--set string.0.barrier.0.contact_loss=1: string.0.barrier.0.contact_loss: found 1, expected none, as the barrier is rigid"},
+    };
+    for (const auto& [overrides, expected] : rows) EXPECT_EQ(message(lumped, overrides), expected);
+    EXPECT_NE(message(lumped, {"string.0.barrier.0.stiffness=inf"}), "(read without an error)");
+}
+
 TEST(Overrides, ErrorsNameTheOverride) {
     const std::vector<std::pair<std::string, std::string>> rows{
         {"string.0.tension=-1", "--set string.0.tension=-1: string.0.tension: found -1, expected a positive number [N]"},
