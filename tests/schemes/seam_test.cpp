@@ -38,6 +38,8 @@ const std::vector<Scene>& library() {  // and what it lacks
                 s.strings.front().bending_stiffness = 1e-6;
                 all.push_back(std::move(s));
             }
+        all.push_back(read_scene("two_point_bridge", {"string.0.barrier.0.exponent=1", "string.0.barrier.0.stiffness=rigid"}));
+        all.back().duration = 20 / tap_rate;
         return all;
     }();
     return scenes;
