@@ -30,7 +30,7 @@ constexpr Option variant_option{"variant",
                                 "psi out of contact: kept, driven to 0, or released in full where it would pull",
                                 {"raw", "constrained", "released"}};
 constexpr Option chosen_options[] = {levels_option, variant_option, compliance_option, profile_points_option};
-constexpr Option options[] = {compliance_option, profile_points_option};
+constexpr Option fixed_options[] = {compliance_option, profile_points_option};
 
 Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const std::string variant = choice_option(settings, variant_option);
@@ -66,14 +66,14 @@ constexpr Descriptor quadratised(const char* name, const char* source, Made (*ma
 
 extern const Descriptor modal_quadratised = quadratised("modal_quadratised", released_source, made_as_chosen, chosen_options);
 extern const Descriptor modal_quadratised_two_point_constrained =
-    quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>, options);
+    quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>, fixed_options);
 extern const Descriptor modal_quadratised_two_point_raw =
-    quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>, options);
+    quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>, fixed_options);
 extern const Descriptor modal_quadratised_three_point =
-    quadratised("modal_quadratised_three_point", released_source, made_as<3, Quadratisation::released>, options);
+    quadratised("modal_quadratised_three_point", released_source, made_as<3, Quadratisation::released>, fixed_options);
 extern const Descriptor modal_quadratised_three_point_constrained =
-    quadratised("modal_quadratised_three_point_constrained", constrained_source, made_as<3, Quadratisation::constrained>, options);
+    quadratised("modal_quadratised_three_point_constrained", constrained_source, made_as<3, Quadratisation::constrained>, fixed_options);
 extern const Descriptor modal_quadratised_three_point_raw =
-    quadratised("modal_quadratised_three_point_raw", raw_source, made_as<3, Quadratisation::raw>, options);
+    quadratised("modal_quadratised_three_point_raw", raw_source, made_as<3, Quadratisation::raw>, fixed_options);
 
 }  // namespace jvari
