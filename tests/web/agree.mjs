@@ -63,7 +63,8 @@ function compare(what, asked) {
 
 const {schemes, references} = jvari.list();
 for (const [name, duration] of Object.entries(scenes))
-    for (const {name: scheme} of [...schemes, ...references]) compare(`${name} by ${scheme}`, {scene: text(name), scheme, duration});
+    for (const {name: scheme} of [...schemes, ...references])  // below its limit modal_strang goes astray by roundings, and two programs apart
+        compare(`${name} by ${scheme}`, {scene: text(name), scheme, duration, ...(scheme === "modal_strang" ? {rate: 352800} : {})});
 
 const c3 = text("tanpura_c3_release"), with_c3 = change => ({scene: c3, scheme: "modal_two_point", ...change});
 const wrong = {
