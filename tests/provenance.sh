@@ -26,7 +26,7 @@ plant() {  # plant FILE NAME other|same: a line more in FILE makes hash NAME ano
     echo "a line in $1 leaves $2 $([ "$3" = same ] && echo changed || echo unchanged): expected $3" >&2
     status=1
 }
-for file in bench/trim/target.cpp bench/sound/radiation.cpp bench/diff/rules.cpp bench/check/claims.cpp bench/store/keys.hpp bench/compare/errors.cpp \
+for file in bench/trim/target.cpp bench/sound/radiation.cpp bench/diff/rules.cpp bench/check/claims.cpp bench/store/keys.hpp bench/study/errors.cpp \
     bench/map/trial.cpp bench/suite/figure_facets.cpp bench/trust/kept_run.cpp bench/new_room/new.cpp analysis/error.cpp reference/sundials.cpp \
     schemes/modal/modal_two_point.cpp schemes/modal/kernels/modal_pass-inl.hpp schemes/schemes.def scenes/damping.cpp; do
     plant $file JVARI_CELL_SOURCES other

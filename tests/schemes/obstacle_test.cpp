@@ -10,6 +10,7 @@
 #include "schemes/contact/explicit_rule.hpp"
 #include "schemes/contact/gradient_rule.hpp"
 #include "schemes/contact/quadratised_rule.hpp"
+#include "tests/schemes/contact_points.hpp"
 
 namespace jvari {
 namespace {
@@ -17,25 +18,12 @@ namespace {
 constexpr int many = 3;
 constexpr double span = 1e-5;
 
-struct Points {
-    Contacts contacts;
-    std::optional<Thread> thread;
-    std::vector<double> theta;
-    int count() const { return contacts.count() + (thread ? 1 : 0); }
-};
-
 Points points_of(std::mt19937& random, bool thread, double beta) {
     std::uniform_real_distribution<double> unit(-1, 1);
     Points p;
     for (int a = 0; a < many; ++a) p.contacts.add({std::pow(10, 7 + unit(random)), 1 + 0.5 * (a % 2)}, 1e-4 * unit(random), beta);
     if (thread) p.thread = Thread{0, 0, 1e5, 1.2, 1e-5};
-    const int n = p.count();
-    std::vector<double> g(n * 5);
-    for (double& x : g) x = 1e-4 * unit(random);
-    p.theta.assign(n * n, 0.0);
-    for (int a = 0; a < n; ++a)
-        for (int b = 0; b < n; ++b)
-            for (int i = 0; i < 5; ++i) p.theta[a * n + b] += g[a * 5 + i] * g[b * 5 + i];
+    couple(p, random, 1e-4);
     return p;
 }
 

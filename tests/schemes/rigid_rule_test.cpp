@@ -8,6 +8,7 @@
 
 #include "schemes/contact/gradient_rule.hpp"
 #include "schemes/contact/obstacle.hpp"
+#include "tests/schemes/contact_points.hpp"
 
 namespace jvari {
 namespace {
@@ -15,25 +16,12 @@ namespace {
 constexpr int many = 3, steps = 400;
 constexpr double span = 1e-5;
 
-struct Points {
-    Contacts contacts;
-    std::optional<Thread> thread;
-    std::vector<double> theta;
-    int count() const { return contacts.count() + (thread ? 1 : 0); }
-};
-
 Points points_of(std::mt19937& random, int contacts, double k, bool thread) {
     std::uniform_real_distribution<double> unit(-1, 1);
     Points p;
     for (int a = 0; a < contacts; ++a) p.contacts.add({k, 1}, -1e-5 * (1 + unit(random)), 0);
     if (thread) p.thread = Thread{0, 0, 1e5, 1.2, 1e-5};
-    const int n = p.count(), modes = 5;
-    std::vector<double> g(n * modes);
-    for (double& x : g) x = 1e-3 * unit(random);
-    p.theta.assign(n * n, 0.0);
-    for (int a = 0; a < n; ++a)
-        for (int b = 0; b < n; ++b)
-            for (int i = 0; i < modes; ++i) p.theta[a * n + b] += g[a * modes + i] * g[b * modes + i];
+    couple(p, random, 1e-3);
     return p;
 }
 
