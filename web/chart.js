@@ -30,13 +30,14 @@ function percent(x) {
 const two_digits = x => String(Number(x.toPrecision(2)));
 const time_text = s => s >= 1 ? `${two_digits(s)} s` : s >= 1e-3 ? `${two_digits(1e3 * s)} ms` : `${two_digits(1e6 * s)} µs`;
 
-// The cheapest within an accuracy, by the rules of `jvari compare`: a tie is another scheme whose quartiles of cost touch those of the cheapest,
-// and a control does not compete. Costs are of this browser, and its clock is coarse.
+// The cheapest within an accuracy, by the rules of `jvari compare`: of the runs whose quartiles of cost touch those of the cheapest the one of least
+// error is named, the other schemes among them are ties, and a control does not compete. Costs are of this browser, and its clock is coarse.
 function verdict(points, accuracy) {
     const all = points.filter(p => p.scheme !== "mine" && !descriptor(p.scheme)?.control && sound_point(p)).sort((a, b) => a.cost - b.cost);
-    const best = all.find(p => most_of(p) <= accuracy), undecided = p => most_of(p) > accuracy && least_of(p) <= accuracy;
+    const met = all.filter(p => most_of(p) <= accuracy), tied = met.filter(p => p.lower <= met[0].upper);
+    const best = [...tied].sort((a, b) => most_of(a) - most_of(b))[0], undecided = p => most_of(p) > accuracy && least_of(p) <= accuracy;
     const others = which => all.filter(p => p.scheme !== best?.scheme && which(p)).filter((p, k, list) => list.findIndex(q => q.scheme === p.scheme) === k);
-    return {best, ties: best ? others(p => most_of(p) <= accuracy && p.lower <= best.upper) : [], perhaps: others(p => undecided(p) && !(best && p.cost >= best.cost))};
+    return {best, ties: others(p => tied.includes(p)), perhaps: others(p => undecided(p) && !(best && p.cost >= best.cost))};
 }
 const run_name = p => `${label_of(p)} at ${p.rate / 1e3} kHz`, run_names = list => list.map(run_name).join("; ");
 

@@ -89,7 +89,7 @@ function judged(run, scene, state) {
 // ---- The chart: schemes at several rates, each with its error and its cost [s per second of sound].
 
 // The mean time of as many runs as fill a sample: a browser's clock is coarse.
-const sample_seconds = 4e-3, rounds = 5;
+const sample_seconds = 4e-3, rounds = 9;
 function sampled(asked, keep = () => ({})) {
     let spent = 0, runs = 0, kept;
     do {

@@ -98,7 +98,7 @@ void read_manifest(Results& r) {
     try {
         store::refuse_deep(r.manifest);
         const Json m = Json::parse(r.manifest);
-        r.about = m.value("date", "");
+        r.about = m.value("date", "").substr(0, 10);  // the day
         r.command = m.value("command", "");
         r.controls = m.value("controls", false) ? compare::Controls::compete : compare::Controls::stand_beside;
         if (!m.contains("scene")) {  // of a suite

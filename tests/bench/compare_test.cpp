@@ -123,9 +123,9 @@ TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
                                                                         {"d", "100", "", "inf", "0", "inf", 0.1, "diverged"},
                                                                         {"e", "100", "", "0.04", "0", "4", 2.1}}));  // touches b
     ASSERT_EQ(t.rows.size(), 5u);
-    EXPECT_EQ(t.at(0, "scheme"), "b");  // 10 %
-    EXPECT_EQ(t.at(0, "ties"), "e, 10 modes at 0.1 kHz");
-    EXPECT_EQ(t.at(0, "run"), "b, 10 modes at 0.1 kHz");
+    EXPECT_EQ(t.at(0, "scheme"), "e");  // 10 %: of the two whose costs cannot be told apart the more accurate
+    EXPECT_EQ(t.at(0, "ties"), "b, 10 modes at 0.1 kHz");
+    EXPECT_EQ(t.at(0, "run"), "e, 10 modes at 0.1 kHz");
     EXPECT_EQ(t.at(1, "scheme"), "a");  // 1 %
     EXPECT_EQ(t.at(1, "rate"), "200");
     EXPECT_EQ(t.at(1, "ties"), "");

@@ -86,9 +86,9 @@ const parts = {
         }
 
         const made = (scheme, cost, spread, error) => ({scheme, compliance: "own", rate: 44100, outcome: "ok", error, uncertainty: 0.01, cost, lower: cost - spread, upper: cost + spread});
-        const v = await see(`verdict(${JSON.stringify([made("modal_two_point", 2, 0.2, 0.05), made("modal_quadratised", 2.3, 0.2, 0.05), made("modal_strang", 3, 0.2, 0.05), made("sitar_fdm", 1, 0.2, 0.095), made("modal_explicit_penalty", 0.5, 0.2, 0.01)])}, 0.1)`);
-        expect(v.best.scheme === "modal_two_point" && String(v.ties.map(p => p.scheme)) === "modal_quadratised" && String(v.perhaps.map(p => p.scheme)) === "sitar_fdm",
-               `quartiles that touch are a tie, a control does not win, what may be within is named: ${JSON.stringify(v)}`);
+        const v = await see(`verdict(${JSON.stringify([made("modal_two_point", 2, 0.2, 0.05), made("modal_quadratised", 2.3, 0.2, 0.04), made("modal_strang", 3, 0.2, 0.05), made("sitar_fdm", 1, 0.2, 0.095), made("modal_explicit_penalty", 0.5, 0.2, 0.01)])}, 0.1)`);
+        expect(v.best.scheme === "modal_quadratised" && String(v.ties.map(p => p.scheme)) === "modal_two_point" && String(v.perhaps.map(p => p.scheme)) === "sitar_fdm",
+               `where quartiles touch the more accurate is named and the other a tie, a control does not win, what may be within is named: ${JSON.stringify(v)}`);
 
         // The verdict itself: the cells within each accuracy are the same; which of them is cheapest is of the clock, here and there.
         for (const target of [0.1, 0.01]) {
@@ -97,8 +97,7 @@ const parts = {
             expect(meets(page_cells) === meets(theirs) && meets(theirs) !== "", `within ${target}: here ${meets(page_cells)}\n    there ${meets(theirs)}`);
             const found = await see(`verdict(chart.points, ${target})`), c = told.cheapest.find(c => c.measure === "error_l2_50ms" && c.target === target);
             console.log(`  within ${100 * target} %: ${[found.best, ...found.ties].map(p => `${p.scheme} at ${p.rate / 1e3} kHz`).join(", a tie with ")} here; ${c.run}${c.ties && `, a tie with ${c.ties}`} in jvari compare`);
-            const cost_of = scheme => Math.min(...page_cells.filter(p => p.scheme === scheme && p.error + p.uncertainty <= target).map(p => p.cost));
-            if (timed) expect(cost_of(c.scheme) <= 1.5 * found.best.cost, `within ${target} the scheme that jvari compare names costs ${cost_of(c.scheme)} here, the cheapest ${found.best.cost}`);
+            if (timed) expect(found.best.scheme === c.scheme, `within ${target} the page names ${found.best.scheme}, jvari compare ${c.scheme}`);
         }
     },
     async "browsers that lack something"() {

@@ -52,11 +52,14 @@ std::string named(const store::Table& cells, const store::Rows& rows) {
     return text;
 }
 
-std::optional<std::size_t> least_cost(const store::Table& cells, const store::Rows& rows, const auto& which) {
+std::optional<std::size_t> least(const store::Rows& rows, const auto& which, const auto& value) {
     std::optional<std::size_t> best;
     for (const std::size_t i : rows)
-        if (which(i) && (!best || cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s"))) best = i;
+        if (which(i) && (!best || value(i) < value(*best))) best = i;
     return best;
+}
+std::optional<std::size_t> least_cost(const store::Table& cells, const store::Rows& rows, const auto& which) {
+    return least(rows, which, [&](std::size_t i) { return cells.number(i, "cost_s_per_s"); });
 }
 
 // Why it cannot be decided who is within `goal`.
@@ -90,7 +93,11 @@ std::string published_text(const store::Table& cells, std::optional<std::size_t>
 std::vector<std::string> fields_of(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
     const auto met = [&](std::size_t i) { return goal.met(cells, i); };
     const auto undecided = [&](std::size_t i) { return goal.undecided(cells, i); };
-    const auto best = least_cost(cells, rows, met);
+    const auto cheapest = least_cost(cells, rows, met);
+    const auto tied = [&](std::size_t i) {
+        return met(i) && cells.number(i, "cost_lower") <= cells.number(*cheapest, "cost_upper");
+    };
+    const auto best = least(rows, tied, [&](std::size_t i) { return bound_of(cells, i, goal.measure).most(); });
     if (!best) {
         const bool open = std::any_of(rows.begin(), rows.end(), undecided);
         const bool waveform = goal.measure != "third_octave_db";
@@ -104,8 +111,7 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
     }
     const std::string& scheme = cells.at(*best, "scheme");
     const Bound b = bound_of(cells, *best, goal.measure);
-    const store::Rows ties = other_schemes(
-        cells, rows, scheme, [&](std::size_t i) { return met(i) && cells.number(i, "cost_lower") <= cells.number(*best, "cost_upper"); });
+    const store::Rows ties = other_schemes(cells, rows, scheme, tied);
     const store::Rows perhaps = other_schemes(cells, rows, scheme, [&](std::size_t i) {
         return undecided(i) && cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s");
     });

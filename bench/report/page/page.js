@@ -82,6 +82,7 @@ function entries_of(value, name = "") {
 
 function fill_page() {
   const main = document.querySelector("main"), nav = document.querySelector("nav");
+  main.classList.toggle("run", Boolean(page.run));
   report.verdicts = verdicts();
   report.sections = sections_of();
   report.scenes = distinct([...report.verdicts.map(v => v.scene), ...report.sections.flatMap(s => s.charts).flatMap(c => c.scenes ?? [])]);

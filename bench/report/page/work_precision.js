@@ -128,7 +128,7 @@ function work_precision_spec(choice, print) {
     once({type: "text", x: {expr: "width"}, y: {expr: "height + 36"}, align: "right", fontSize: 12, fontWeight: "bold", text: {expr: `width < 400 ? '${cost === "cost_s_per_s" ? "computing time per second" : cost_title.split(",")[0]}' : '${cost_title}'`}})];
   const encoding = {x: quantity("x", decades("x", cost === "cost_s_per_s" ? time : plain_number), log(36)), y: quantity("y", error_axis(error), log(36))};
   const one = scenes_of_cells().length === 1, about = page.manifest?.reference ? page.about.split("; ").slice(0, -1).join("; ") : page.source;
-  const spec = framed({height: print ? Math.min(470, Math.max(220, 0.75 * print_width())) : choice.narrow ? 260 : 400, encoding, layer}, {title: `${one ? page.title : choice.scene}: error and cost`, subtitle: about, names}, print);
+  const spec = framed({height: print ? Math.min(470, Math.max(220, 0.75 * print_width())) : choice.narrow ? 220 : 400, encoding, layer}, {title: `${one ? page.title : choice.scene}: error and cost`, subtitle: about, names}, print);
   return {spec, legend: drawn, labels: sound, zooms: choice.narrow ? null : {x: "zoom_x", y: "zoom_y"}, few: in_order(every.map(p => p.series)).length <= 8};
 }
 
