@@ -94,9 +94,7 @@ std::vector<std::string> fields_of(const store::Table& cells, const store::Rows&
     const auto met = [&](std::size_t i) { return goal.met(cells, i); };
     const auto undecided = [&](std::size_t i) { return goal.undecided(cells, i); };
     const auto cheapest = least_cost(cells, rows, met);
-    const auto tied = [&](std::size_t i) {
-        return met(i) && cells.number(i, "cost_lower") <= cells.number(*cheapest, "cost_upper");
-    };
+    const auto tied = [&](std::size_t i) { return met(i) && cells.number(i, "cost_lower") <= cells.number(*cheapest, "cost_upper"); };
     const auto best = least(rows, tied, [&](std::size_t i) { return bound_of(cells, i, goal.measure).most(); });
     if (!best) {
         const bool open = std::any_of(rows.begin(), rows.end(), undecided);
