@@ -90,6 +90,24 @@ void add_jobs(CLI::App& verb, int& jobs) {
         ->check(counting);
 }
 
+void add_duration(CLI::App& verb, std::optional<double>& duration) {
+    verb.add_option("--duration", duration, "in place of the scene's")->type_name("S")->transform(seconds);
+}
+
+void add_schemes(CLI::App& verb, std::vector<std::string>& schemes, const char* what) {
+    verb.add_option("--schemes", schemes, what)->delimiter(',')->type_name("A,B,...");
+}
+
+void add_reference(CLI::App& verb, std::string& reference) {
+    verb.add_option("--reference", reference, "a reference or a scheme; absent: the highest reference that represents the scene")
+        ->type_name("NAME");
+}
+
+void add_comparison_folder(CLI::App& verb, std::string& out) {
+    verb.add_option("--out", out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
+        ->type_name("DIR");
+}
+
 void must_be_assignments(const std::vector<std::string>& set) {
     for (const std::string& s : set)
         if (s.find('=') == std::string::npos || s.front() == '=') throw store::UsageError("--set " + s + ": expected KEY.PATH=VALUE");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ void add_set(CLI::App& verb, std::vector<std::string>& set);
 void add_modes(CLI::App& verb, int& modes);
 void add_options(CLI::App& verb, std::vector<std::string>& options);
 void add_jobs(CLI::App& verb, int& jobs);
+void add_duration(CLI::App& verb, std::optional<double>& duration);
+void add_schemes(CLI::App& verb, std::vector<std::string>& schemes, const char* what);
+void add_reference(CLI::App& verb, std::string& reference);
+void add_comparison_folder(CLI::App& verb, std::string& out);
 
 // Both throw UsageError: what is no KEY.PATH=VALUE, what is no [SCHEME:]NAME=VALUE.
 void must_be_assignments(const std::vector<std::string>& set);

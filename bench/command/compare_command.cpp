@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/command/console.hpp"
@@ -14,16 +13,10 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/compare_record.hpp"
-#include "bench/compare/record/fits.hpp"
 #include "bench/compare/record/notes.hpp"
 #include "bench/compare/scene_notes.hpp"
-#include "bench/report/report.hpp"
-#include "bench/store/fresh_file.hpp"
-#include "bench/store/json.hpp"
 #include "bench/store/system/interruption.hpp"
-#include "bench/study/columns.hpp"
-#include "bench/study/run.hpp"
+#include "schemes/contact/compliance.hpp"
 
 namespace jvari::bench::command {
 
@@ -43,6 +36,10 @@ std::optional<int> modes_of_reference(const std::string& text) {
         throw store::UsageError(
             fmt::format("--reference-modes: found \"{}\", expected a whole number from 0 to {}, or cell", text, store::most_counted));
     return std::stoi(text);
+}
+
+bool names_compliance(const compare::SchemeOption& o) {
+    return o.name == compliance_option.name;
 }
 
 std::string kept_text(const study::Kept& keep) {
@@ -95,21 +92,13 @@ int compare_command(const CompareCall& r) {
     if (r.resume && r.out.empty()) throw store::UsageError("--resume: there is no --out DIR to resume from");
     study::Kept keep;
     keep.resume = r.resume;
-    if (!r.out.empty()) {
-        must_be_ours(r.out, "comparison of " + compare::load_scene(r.scene, r.set, r.duration).name, console);
-        make_folder(r.out);
-        keep.folder = fs::path(r.out) / "cells";
-    }
+    keep.folder = cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console);
     std::optional<store::WhenInterrupted> last_word(std::in_place, [&] { console.note(kept_text(keep)); });
     const compare::Comparison c = compare::compare(r, catalogue, console, keep);
     last_word.reset();
     if (r.resume) console.note(fmt::format("the errors of {} of {} cells were read back", c.outcome.read_back, keep.of.load()));
-    const store::Table cells = compare::cells_of(c);
-    const auto manifest = compare::manifest_of(c, r);
-
-    const store::Table cheapest = compare::cheapest_of(cells, r.controls ? compare::Controls::compete : compare::Controls::stand_beside);
-    ResultsFolder folder(r.out, console);
-    folder.add_all(c, cells, manifest);
+    const Results results = written(c, r, console);
+    const store::Table& cells = results.cells;
     const double rate = c.reference_summary.rate;
     for (const String& string : c.scene().strings) console.print("string: " + compare::tuning_text(string));
     std::string rows;
@@ -119,13 +108,12 @@ int compare_command(const CompareCall& r) {
                               c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene().duration, rows,
                               c.scene().taps.at(c.headline.nut).name, c.scene().taps.at(c.headline.bridge).name));
     console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
-    if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
+    if (!results.cheapest.rows.empty()) console.print(compare::cheapest_text(results.cheapest));
     if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = code_of(c.outcome.records);
     console.print_json(
-        store::indented(with_results({{"scene", c.scene().name}, {"reference", c.reference.name()}, {"status", exit_code::status(code)}},
-                                     manifest, cells, cheapest, folder.files)));
+        with_results({{"scene", c.scene().name}, {"reference", c.reference.name()}, {"status", exit_code::status(code)}}, results));
     return code;
 }
 }  // namespace
@@ -136,25 +124,23 @@ Act compare_verb(CLI::App& program) {
     add_scene(*verb, r->scene);
     add_set(*verb, r->set);
     verb->add_option("--modes", r->modes,
-                     "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many where they lie below rate/2")
+                     "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many where they lie below rate/2. "
+                     "Where schemes, rates and compliance are all named, those below 20 kHz alone")
         ->delimiter(',')
         ->type_name("N,...")
         ->check(counting);
     add_options(*verb, r->option_lists);
-    verb->add_option("--schemes", r->schemes, "absent: every scheme that represents the scene, but for controls")
-        ->delimiter(',')
-        ->type_name("A,B,...");
+    add_schemes(*verb, r->schemes, "absent: every scheme that represents the scene, but for controls");
     verb->add_flag("--controls", r->controls,
                    "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
     verb->add_option("--rates", r->rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")->delimiter(',')->type_name("HZ,...")->transform(hertz);
-    verb->add_option("--reference", r->reference, "a reference or a scheme; absent: the highest reference that represents the scene")
-        ->type_name("NAME");
+    add_reference(*verb, r->reference);
     verb->add_option(
             "--reference-modes", r->modes_of_reference,
             "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
             "of the schemes")
         ->type_name("N|cell");
-    verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);
+    add_duration(*verb, r->duration);
     verb->add_option("--tap-rate", r->tap_rate,
                      "rows per second that are compared; absent: 44100 for its multiples, the lowest rate for others. 44100 and 48000 have "
                      "each their own")
@@ -165,13 +151,13 @@ Act compare_verb(CLI::App& program) {
         ->check(counting);
     add_jobs(*verb, r->jobs);
     verb->add_flag("--resume", r->resume, "reads back the errors of the cells that DIR holds and runs the others; all are timed again");
-    verb->add_option("--out", r->out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
-        ->type_name("DIR");
+    add_comparison_folder(*verb, r->out);
     verb->footer("Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
     add_common(*verb, *r);
     return [r] {
         must_be_assignments(r->set);
         r->options = listed_options(r->option_lists);
+        r->search = r->schemes.empty() || r->rates.empty() || std::ranges::none_of(r->options, names_compliance);
         r->reference_modes = modes_of_reference(r->modes_of_reference);
         return compare_command(*r);
     };

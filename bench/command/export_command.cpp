@@ -50,7 +50,7 @@ Act export_verb(CLI::App& program) {
     verb->add_option("--tap-rate", r->tap_rate, "rows per second; 44100 where the rate is a multiple of it, else the rate")
         ->type_name("HZ")
         ->transform(hertz);
-    verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);
+    add_duration(*verb, r->duration);
     verb->add_option("--tap", r->tap, "of the scene's taps this one alone")->type_name("NAME");
     verb->add_flag("--without-reference", r->without_reference, "the problem alone: no reference is run");
     verb->add_option("--out", r->out, "the file, JSON")->required()->type_name("FILE");

@@ -1,21 +1,13 @@
 // jvari judge: how wrong is a trace that any program made?
 #include <fmt/core.h>
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
-#include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/compare_record.hpp"
 #include "bench/judge/candidate.hpp"
 #include "bench/judge/foreign_trace.hpp"
-#include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/json.hpp"
-#include "bench/study/columns.hpp"
 
 namespace jvari::bench::command {
 
@@ -48,7 +40,7 @@ judge::Candidate candidate_of(JudgeRequest& r) {
     if (!r.costs.empty() && r.costs.size() != files.size())
         throw store::UsageError(fmt::format("--cost: found {} costs for {} traces, expected one each", r.costs.size(), files.size()));
     const Scene scene = compare::load_scene(r);
-    if (scene.taps.empty()) throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to judge");
+    compare::tap_named(scene, "");
     const judge::Rows rows = judge::rows_for(r, scene);
     for (std::size_t k = 0; k < files.size(); ++k) {
         const NamedFile& f = files[k];
@@ -67,26 +59,17 @@ int judge_command(JudgeRequest r) {
     must_be_assignments(r.set);
     if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
     judge::Candidate candidate = candidate_of(r);
-    study::Kept keep;
-    if (!r.out.empty()) {
-        must_be_ours(r.out, "comparison of " + compare::load_scene(r).name, console);
-        make_folder(r.out);
-        keep.folder = std::filesystem::path(r.out) / "cells";
-        keep.resume = true;
-    }
+    study::Kept keep{cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console), true};
     const compare::Comparison c = judge::judge(std::move(candidate), r, r.plugins, console, keep);
-    const store::Table cells = compare::cells_of(c);
-    const auto manifest = compare::manifest_of(c, r);
-    ResultsFolder folder(r.out, console);
-    folder.add_all(c, cells, manifest);
+    const Results results = written(c, r, console);
     const std::string verdict = judge::verdict_of(c);
-    console.print(headline_text(cells, Console::width()) + "\n" + verdict);
+    console.print(headline_text(results.cells, Console::width()) + "\n" + verdict);
     if (!r.out.empty()) console.print("written: " + r.out);
-    console.print_json(store::indented(with_results({{"scene", c.scene().name},
-                                                     {"reference", c.reference.name()},
-                                                     {"status", exit_code::status(exit_code::done)},
-                                                     {"verdict", verdict}},
-                                                    manifest, cells, compare::cheapest_of(cells), folder.files)));
+    console.print_json(with_results({{"scene", c.scene().name},
+                                     {"reference", c.reference.name()},
+                                     {"status", exit_code::status(exit_code::done)},
+                                     {"verdict", verdict}},
+                                    results));
     return exit_code::done;
 }
 }  // namespace
@@ -107,20 +90,16 @@ Act judge_verb(CLI::App& program) {
         ->delimiter(',')
         ->type_name("S,...")
         ->check(positive);
-    verb->add_option("--schemes", r->schemes, "run and timed beside it, at its rates: it is said how far the traces differ; absent: none")
-        ->delimiter(',')
-        ->type_name("A,B,...");
+    add_schemes(*verb, r->schemes, "run and timed beside it, at its rates: it is said how far the traces differ; absent: none");
     verb->add_option("--tap", r->tap, "judged alone; absent: all taps of the scene")->type_name("NAME");
     add_modes(*verb, r->modes_of_each);
-    verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);
+    add_duration(*verb, r->duration);
     verb->add_option("--tap-rate", r->tap_rate, "rows per second of the traces; 44100 where all rates are multiples of it, else the lowest")
         ->type_name("HZ")
         ->transform(hertz);
-    verb->add_option("--reference", r->reference, "a reference or a scheme; absent: the highest reference that represents the scene")
-        ->type_name("NAME");
+    add_reference(*verb, r->reference);
     add_jobs(*verb, r->jobs);
-    verb->add_option("--out", r->out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
-        ->type_name("DIR");
+    add_comparison_folder(*verb, r->out);
     verb->footer(
         "Example: jvari judge tanpura_c3_release --duration 0.05 --trace 44100=trace.csv --cost 0.8 --schemes modal_two_point --out "
         "report\n"

@@ -7,6 +7,7 @@
 
 #include "bench/command/console.hpp"
 #include "bench/compare/bound.hpp"
+#include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/fits.hpp"
 #include "bench/report/report.hpp"
@@ -59,7 +60,9 @@ void must_be_ours(const fs::path& folder, const std::string& what, const store::
                               foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
 }
 
-void make_folder(const fs::path& folder) {
+fs::path cells_folder(const fs::path& folder, const std::string& what, const store::Listener& listener) {
+    if (folder.empty()) return folder;
+    must_be_ours(folder, what, listener);
     std::error_code error;
     fs::create_directories(folder / "cells", error);
     if (!fs::is_directory(folder / "cells"))
@@ -67,6 +70,7 @@ void make_folder(const fs::path& folder) {
     store::must_be_writable(folder / "cells.csv");
     store::must_be_writable(folder / "cells" / "any.json");
     for (const char* own : own_folders) store::sweep_parts(folder / own);
+    return folder / "cells";
 }
 
 void ResultsFolder::add(const std::string& name, const std::string& content) {
@@ -91,21 +95,24 @@ void ResultsFolder::add_report() {
     for (const std::string& name : report::write_report(folder_, listener_)) files.push_back((folder_ / name).string());
 }
 
-void ResultsFolder::add_all(const compare::Comparison& c, const store::Table& cells, const nlohmann::ordered_json& manifest) {
-    if (folder_.empty()) return;
-    add_tables(cells);
-    add_manifest(manifest);
-    compare::write_sounds(c, folder_);
-    add_report();
+Results written(const compare::Comparison& c, const compare::CompareRequest& request, const store::Listener& listener) {
+    Results r{compare::manifest_of(c, request), compare::cells_of(c), {}, {}};
+    r.cheapest = compare::cheapest_of(r.cells, request.controls ? compare::Controls::compete : compare::Controls::stand_beside);
+    ResultsFolder folder(request.out, listener);
+    folder.add_tables(r.cells);
+    folder.add_manifest(r.manifest);
+    if (folder) compare::write_sounds(c, request.out);
+    folder.add_report();
+    r.files = std::move(folder.files);
+    return r;
 }
 
-nlohmann::ordered_json with_results(nlohmann::ordered_json own, const nlohmann::ordered_json& manifest, const store::Table& cells,
-                                    const store::Table& cheapest, const nlohmann::ordered_json& files) {
-    own["manifest"] = manifest;
-    own["cells"] = store::rows_json(compare::with_bounds(cells));
-    own["cheapest"] = store::rows_json(cheapest);
-    own["files"] = files;
-    return own;
+std::string with_results(nlohmann::ordered_json own, const Results& r) {
+    own["manifest"] = r.manifest;
+    own["cells"] = store::rows_json(compare::with_bounds(r.cells));
+    own["cheapest"] = store::rows_json(r.cheapest);
+    own["files"] = r.files;
+    return store::indented(own);
 }
 
 int code_of(const std::vector<study::Record>& records) {

@@ -18,8 +18,9 @@ namespace jvari::bench::command {
 // empty.
 void must_be_ours(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
 
-// What they write into, once it is ours: made, found writable, and without the parts that a killed run left.
-void make_folder(const std::filesystem::path& folder);
+// Where the cells of such a folder are kept, once it is ours: made, found writable, and without the parts that a killed run left. "" of
+// nowhere.
+std::filesystem::path cells_folder(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
 
 // What is written into it, and the paths of that; nowhere ("") nothing is.
 class ResultsFolder {
@@ -30,8 +31,6 @@ public:
     void add_tables(const store::Table& cells);  // cells.csv, errors.csv, cost.csv and, where there are orders to tell, convergence.csv
     void add_manifest(const nlohmann::ordered_json&);
     void add_report();  // of what was written before
-    void add_all(const compare::Comparison&, const store::Table& cells, const nlohmann::ordered_json& manifest);
-    const std::filesystem::path& path() const { return folder_; }
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
 
 private:
@@ -42,8 +41,14 @@ private:
 // The exit code of a study: done where a run of it was, or where there was nothing to run.
 int code_of(const std::vector<study::Record>&);
 
-// What `compare` and `suite` say of their results as JSON, behind what is their own: manifest, cells, cheapest, files.
-nlohmann::ordered_json with_results(nlohmann::ordered_json own, const nlohmann::ordered_json& manifest, const store::Table& cells,
-                                    const store::Table& cheapest, const nlohmann::ordered_json& files);
+struct Results {
+    nlohmann::ordered_json manifest;
+    store::Table cells, cheapest;
+    nlohmann::ordered_json files;  // that were written
+};
+// Of a comparison, written into the folder that the request names.
+Results written(const compare::Comparison&, const compare::CompareRequest&, const store::Listener&);
+// What `compare`, `judge` and `suite` say of their results as JSON, behind what is their own.
+std::string with_results(nlohmann::ordered_json own, const Results&);
 
 }  // namespace jvari::bench::command

@@ -256,7 +256,7 @@ Act run_verb(CLI::App& program) {
     add_options(*verb, r->options);
     verb->add_option("--scheme", r->scheme, "a scheme or a reference")->required()->type_name("NAME");
     verb->add_option("--rate", r->rate, "sample rate; 44100 where absent")->type_name("HZ")->transform(hertz);
-    verb->add_option("--duration", r->duration, "in place of the scene's")->type_name("S")->transform(seconds);
+    add_duration(*verb, r->duration);
     verb->add_option("--tap-rate", r->tap_rate, "rows per second; 44100 where absent, or the rate where that is no multiple of it")
         ->type_name("HZ")
         ->transform(hertz);

@@ -123,16 +123,13 @@ int suite_command(const SuiteRequest& r) {
     if (!r.print.empty()) return print_script(r, suite, console);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
-    if (!r.out.empty()) {
-        must_be_ours(folder, "suite " + suite.name, console);
-        make_folder(folder);
-        if (r.resume) note_missing_locks(folder, console);
-    }
+    const fs::path kept_cells = cells_folder(folder, "suite " + suite.name, console);
+    if (r.resume) note_missing_locks(folder, console);
     const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
     if (r.resume) study::keep_references_in(plan, folder / "references");
     const map::RecordedMaps maps =
         map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs}, console);
-    const study::Study run = study::run(plan, r.out.empty() ? fs::path() : folder / "cells", r.resume, r.jobs, console);
+    const study::Study run = study::run(plan, kept_cells, r.resume, r.jobs, console);
     const store::Table cells = compare::with_front(study::table_of(plan, run.records));
     const Json manifest = manifest_of(suite, plan);
     const store::Table cheapest = compare::cheapest_of(cells);
@@ -166,9 +163,9 @@ int suite_command(const SuiteRequest& r) {
     if (!r.out.empty()) console.print("written: " + folder.string());
     if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);
     const int code = code_of(run.records);
-    console.print_json(store::indented(with_results(
+    console.print_json(with_results(
         {{"suite", suite.name}, {"status", exit_code::status(code)}, {"ran", run.ran}, {"timed", run.timed}, {"read_back", run.read_back}},
-        manifest, cells, cheapest, results.files)));
+        {manifest, cells, cheapest, results.files}));
     return code;
 }
 }  // namespace

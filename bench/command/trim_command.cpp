@@ -160,8 +160,7 @@ Act trim_verb(CLI::App& program) {
         ->type_name("HZ")
         ->transform(hertz)
         ->option_text("HZ");
-    verb->add_option("--reference", r->reference, "a reference or a scheme; absent: the highest reference that represents the scene")
-        ->type_name("NAME");
+    add_reference(*verb, r->reference);
     verb->add_option("--reference-modes", r->reference_modes,
                      "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach")
         ->type_name("N")

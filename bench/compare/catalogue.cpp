@@ -62,12 +62,19 @@ Scene load_scene(const std::string& name, const std::vector<std::string>& overri
 
 Scene load_scene(const CompareRequest& r) {
     Scene scene = load_scene(r.scene, r.set, r.duration);
-    if (r.tap.empty()) return scene;
-    std::vector<std::string> names;
-    for (const Tap& tap : scene.taps) names.push_back(tap.name);
-    std::erase_if(scene.taps, [&r](const Tap& tap) { return tap.name != r.tap; });
-    if (scene.taps.empty()) throw store::UsageError(store::unknown("tap", r.tap, names));
+    if (!r.tap.empty()) scene.taps = {scene.taps[static_cast<std::size_t>(tap_named(scene, r.tap))]};
     return scene;
+}
+
+int tap_named(const Scene& scene, const std::string& name) {
+    if (scene.taps.empty())
+        throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to judge. A [[tap]] says what to hear");
+    std::vector<std::string> names;
+    for (const Tap& tap : scene.taps) {
+        if (name.empty() || tap.name == name) return static_cast<int>(names.size());
+        names.push_back(tap.name);
+    }
+    throw store::UsageError(store::unknown("tap", name, names));
 }
 
 bool whole_multiple(double rate, double of) {

@@ -30,6 +30,9 @@ void note_slow_plugins(const store::Listener&);
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration);
 Scene load_scene(const CompareRequest&);  // with the tap that is asked for alone
 
+// The place of a tap by its name; of the first for "". Throws UsageError, also for a scene that has none.
+int tap_named(const Scene&, const std::string& name);
+
 // Of one run at this rate: rows at 44100 Hz unless asked otherwise, or at the rate where that is no multiple. Throws UsageError where the
 // rate is no multiple of the rows, or an option is another scheme's.
 Settings settings_of_run(const Descriptor&, double rate, std::optional<double> tap_rate, int modes, const std::vector<SchemeOption>&);

@@ -114,23 +114,16 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
 
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener, study::Kept& keep) {
     Comparison c;
-    const Scene scene = load_scene(request);
-    note_scene(scene, listener);
-    c.headline = study::headline_of(scene);
-    for (const Plan& plan : plans_of(request, catalogue, scene)) {
-        for (const std::string& note : plan.notes) listener.note(note);
-        study::Point& point = c.plan.points.emplace_back();
-        point.scene = scene;
-        point.taps = scene.taps.size();
-        point.references = plan.references;
-        point.truth_modes = request.reference_modes;
-        for (const study::Cell& cell : plan.cells) {
-            study::Job job{&point, cell};
-            job.sounds = true;
-            job.repeats = request.repeats;
-            c.plan.jobs.push_back(job);
-        }
-    }
+    study::Point common;
+    common.scene = load_scene(request);
+    common.taps = common.scene.taps.size();
+    note_scene(common.scene, listener);
+    c.headline = study::headline_of(common.scene);
+    study::Job like{};
+    like.sounds = true;
+    like.repeats = request.repeats;
+    add_jobs(c.plan, request, catalogue, common, like);
+    for (const std::string& note : c.plan.notes) listener.note(note);
     std::vector<std::string> plugins;
     for (const Guest* g : guests()) plugins.push_back(g->path);
     study::address(c.plan, store::program_identity(plugins));

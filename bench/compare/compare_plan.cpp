@@ -68,9 +68,13 @@ Made made(const Descriptor& d, const Scene& scene, const Settings& settings) {
     }
 }
 
+void note(study::Plan& plan, const std::string& text) {
+    if (std::ranges::find(plan.notes, text) == plan.notes.end()) plan.notes.push_back(text);
+}
+
 // The modes that all carry, or 0, its own default, where the scheme has to have others: its points of contact are nodes of its modes, and
 // with those of all there are fewer of them, or none.
-int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, Settings settings, std::vector<std::string>& notes) {
+int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, Settings settings, study::Plan& plan) {
     const int all = settings.modes;
     const bool contact = std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return !s.barriers.empty(); });
     if (!r.modes.empty() || all == 0 || !contact) return all;
@@ -79,10 +83,9 @@ int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, S
     settings.modes = 0;
     const Made own = made(d, scene, settings);
     if (own.refused || own.modes == 0 || own.modes == all || (!equal.refused && equal.contacts >= own.contacts)) return all;
-    notes.push_back(
-        fmt::format("{} carries {} modes on scene {}, reference and other schemes {}: its points of contact are nodes of its modes, "
-                    "and it needs as many; --modes sets one number for all",
-                    d.name, own.modes, scene.name, all));
+    note(plan, fmt::format("{} carries {} modes on scene {}, reference and other schemes {}: its points of contact are nodes of its modes, "
+                           "and it needs as many; --modes sets one number for all",
+                           d.name, own.modes, scene.name, all));
     return 0;
 }
 
@@ -147,8 +150,7 @@ std::vector<double> rates_of(const CompareRequest& r) {
 
 // At the highest rate, with the modes that all carry. Throws where the scene has nothing to be compared, or too much.
 Settings settings_of(const CompareRequest& r, const Scene& scene, const std::vector<double>& rates) {
-    if (scene.taps.empty())
-        throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to compare. A [[tap]] says what to hear");
+    tap_named(scene, "");
     Settings settings;
     settings.tap_rate = tap_rate_for(r, rates);
     settings.modes = modes_for(r, scene, rates.front());
@@ -160,25 +162,47 @@ Settings settings_of(const CompareRequest& r, const Scene& scene, const std::vec
 }
 
 // The cells of one form of a scheme: its numbers of modes, each at the rates that take it.
-void add_cells(Plan& plan, const CompareRequest& r, const Descriptor& d, const Scene& scene, Settings settings, const Form& form) {
+void add_cells(study::Plan& into, study::Job job, const CompareRequest& r, const Descriptor& d, Settings settings, const Form& form) {
+    const Scene& scene = job.point->scene;
     Settings at_lowest = settings;
     at_lowest.sample_rate = form.rates.front();
-    if (d.clock != Clock::continuous) settings.modes = modes_of(d, scene, r, at_lowest, plan.notes);
+    if (d.clock != Clock::continuous) settings.modes = modes_of(d, scene, r, at_lowest, into);
     for (const Rung& rung : rungs_of(r, d, scene, settings, form.rates))
         for (const double rate : rung.rates) {
-            study::Cell cell{&d, settings};
-            cell.settings.modes = rung.modes;
-            cell.settings.sample_rate = rate;
-            cell.added = rung.added;
-            cell.searched = r.search && rate > 0 && (rung.added || r.rates.empty());
-            plan.cells.push_back(cell);
+            job.cell = {&d, settings};
+            job.cell.settings.modes = rung.modes;
+            job.cell.settings.sample_rate = rate;
+            job.cell.added = rung.added;
+            job.cell.searched = r.search && rate > 0 && (rung.added || r.rates.empty());
+            into.jobs.push_back(job);
         }
 }
 
-std::string kinds_of(const std::vector<Plan>& plans) {  // "44100 and 48000 rows a second"
-    std::string text;
-    for (const Plan& p : plans) text += fmt::format("{}{}", text.empty() ? "" : " and ", p.cells.front().settings.tap_rate);
-    return text + " rows a second";
+// Of rates that have rows in common; false where all its schemes stand on the point before.
+bool add_point(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue, const study::Point& common, study::Job job,
+               bool first) {
+    const std::vector<double> rates = rates_of(r);
+    Settings settings = settings_of(r, common.scene, rates);
+    std::vector<bool> used(r.options.size(), false);
+    const auto schemes = schemes_for(r, catalogue, common.scene);
+    study::Point& point = into.points.emplace_back(common);
+    point.references = references_for(r, catalogue, common.scene, settings, *schemes.front(), used);
+    point.truth_modes = r.reference_modes;
+    job.point = &point;
+    Untried untried;
+    const std::size_t before = into.jobs.size();
+    for (const Descriptor* d : schemes) {
+        const bool stepped = d->clock != Clock::continuous;
+        for (const Form& form : forms_of(r, *d, common.scene, settings, stepped ? rates : std::vector<double>{0.0}, used, untried)) {
+            settings.options = form.options;
+            if (stepped || first) add_cells(into, job, r, *d, settings, form);
+        }
+    }
+    for (const std::string& text : untried.notes()) note(into, text);
+    must_be_used(r.options, used);
+    if (into.jobs.size() > before) return true;
+    into.points.pop_back();
+    return false;
 }
 }  // namespace
 
@@ -193,44 +217,15 @@ double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
     throw store::UsageError(fmt::format("--rates: neither 44100 nor {} divides all of them; say --tap-rate HZ", lowest));
 }
 
-Plan plan_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
-    const std::vector<double> rates = rates_of(r);
-    Settings settings = settings_of(r, scene, rates);
-    Plan plan;
-    std::vector<bool> used(r.options.size(), false);
-    const auto schemes = schemes_for(r, catalogue, scene);
-    plan.references = references_for(r, catalogue, scene, settings, *schemes.front(), used);
-    Untried untried;
-    for (const Descriptor* d : schemes) {
-        const bool stepped = d->clock != Clock::continuous;
-        for (const Form& form : forms_of(r, *d, scene, settings, stepped ? rates : std::vector<double>{0.0}, used, untried)) {
-            settings.options = form.options;
-            add_cells(plan, r, *d, scene, settings, form);
-        }
-    }
-    for (const std::string& note : untried.notes()) plan.notes.push_back(note);
-    must_be_used(r.options, used);
-    return plan;
-}
-
-std::vector<Plan> plans_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
-    std::vector<Plan> plans;
-    for (const CompareRequest& part : with_common_rows(r)) {
-        plans.push_back(plan_of(part, catalogue, scene));
-        if (plans.size() == 1) continue;
-        std::erase_if(plans.back().cells, [](const study::Cell& c) { return c.scheme->clock == Clock::continuous; });
-        if (plans.back().cells.empty()) {  // all of them in continuous time
-            plans.pop_back();
-            continue;
-        }
-        std::erase_if(plans.back().notes, [&](const std::string& note) { return std::ranges::count(plans.front().notes, note) > 0; });
-    }
-    if (plans.size() > 1)
-        plans.front().notes.push_back(
-            fmt::format("rates of {}: each kind has rows and a run of the reference of its own, for they have no "
-                        "rows in common. Nothing is resampled",
-                        kinds_of(plans)));
-    return plans;
+void add_jobs(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue, const study::Point& common, const study::Job& like) {
+    std::string kinds;  // of rows
+    for (const CompareRequest& part : with_common_rows(r))
+        if (add_point(into, part, catalogue, common, like, kinds.empty()))
+            kinds += fmt::format("{}{}", kinds.empty() ? "" : " and ", into.points.back().references.front().settings.tap_rate);
+    if (kinds.find(' ') != std::string::npos)
+        note(into, fmt::format("rates of {} rows a second: each kind has rows and a run of the reference of its own, for they have no rows "
+                               "in common. Nothing is resampled",
+                               kinds));
 }
 
 std::vector<study::ReferenceChoice> references_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {

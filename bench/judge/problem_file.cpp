@@ -71,8 +71,8 @@ study::Truth reference_of(const compare::CompareRequest& request, const Exported
     compare::CompareRequest plain = request;
     plain.modes.clear();
     plain.search = false;
-    return study::run_truth(compare::plan_of(plain, catalogue, e.scene).references, e.scene, request.reference_modes.value_or(0),
-                            request.jobs, listener);
+    return study::run_truth(compare::references_of(plain, catalogue, e.scene), e.scene, request.reference_modes.value_or(0), request.jobs,
+                            listener);
 }
 
 std::string problem_json(const Exported& e, const study::Truth* truth) {

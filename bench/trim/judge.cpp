@@ -27,18 +27,6 @@ constexpr double sample = 5e-3;  // least time of one sample of a cost [s]
 constexpr int samples = 3;
 constexpr double worth_keeping = 5e-3;  // of a model: below, a file takes longer than the run [s]
 
-int tap_named(const Scene& scene, const std::string& name) {
-    if (scene.taps.empty())
-        throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to judge. A [[tap]] says what to hear");
-    if (name.empty()) return study::headline_of(scene).nut;
-    std::vector<std::string> names;
-    for (std::size_t k = 0; k < scene.taps.size(); ++k) {
-        if (scene.taps[k].name == name) return static_cast<int>(k);
-        names.push_back(scene.taps[k].name);
-    }
-    throw store::UsageError("--tap " + store::unknown("tap", name, names));
-}
-
 int column_of(const Scene& scene, const std::string& tap) {
     for (std::size_t k = 0; k < scene.taps.size(); ++k)
         if (scene.taps[k].name == tap) return static_cast<int>(k);
@@ -102,7 +90,8 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const 
       program_(store::program_identity(request.plugins)),
       stamp_(store::stamp_now()) {
     scene_.duration = std::min(scene_.duration, request.duration);
-    tap_ = tap_named(scene_, request.tap);
+    tap_ = compare::tap_named(scene_, request.tap);
+    if (request.tap.empty()) tap_ = study::headline_of(scene_).nut;
     place_ = std::isfinite(target_.measure->window) && scene_.duration < target_.measure->window ? study::measure("error_l2_whole")
                                                                                                  : target_.measure->place;
     if (!request_.out.empty()) {

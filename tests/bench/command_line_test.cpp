@@ -382,6 +382,15 @@ TEST(CommandLine, CompareRunsEachValueOfAnOptionAndSaysInItsTableWhichItWas) {
               (std::vector<std::string>{"compliance=own 60", "compliance=own 80", "compliance=matched 60", "compliance=matched 80"}));
 }
 
+TEST(CommandLine, WhereSchemesRatesAndComplianceAreNamedNothingElseIsRun) {
+    const Scratch scratch;
+    const std::string common = "compare tanpura_c3_release --schemes modal_two_point --rates 88200 --duration 0.01 --repeats 1 --json";
+    const auto cells = [&](const std::string& more) { return nlohmann::json::parse(jvari(scratch, common + more).out).at("cells").size(); };
+    EXPECT_EQ(cells(" --option compliance=own,matched"), 2u);
+    EXPECT_EQ(cells(" --option compliance=own"), 1u);
+    EXPECT_GT(cells(""), 2u);  // more modes, and both forms
+}
+
 TEST(CommandLine, ComparedSchemesThatFailOrRefuseAreRowsAndDecideTheExitCodeOnlyTogether) {
     const Scratch scratch;
     const std::string common = "compare free_string --duration 0.06 --repeats 1 --rates 44100 --json" + plugin;

@@ -403,60 +403,70 @@ TEST(Facts, OfSeveralStringsTheLeastContactForceAndTheMostOfAnythingElseStand) {
 
 // ---- Equal modes
 
-bench::compare::Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes, int modes = 0) {
+bench::study::Plan planned(const bench::compare::CompareRequest& r, const Scene& scene) {
+    static const bench::compare::Catalogue catalogue;
+    bench::study::Plan plan;
+    bench::study::Point common;
+    common.scene = scene;
+    add_jobs(plan, r, catalogue, common, {});
+    return plan;
+}
+
+bench::study::Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes, int modes = 0) {
     bench::compare::CompareRequest r;
     r.scene = scene;
     r.schemes = schemes;
     r.rates = {88200, 176400};
     if (modes > 0) r.modes = {modes};
     r.search = false;
-    static const bench::compare::Catalogue catalogue;
-    return bench::compare::plan_of(r, catalogue, bench::compare::load_scene(scene, {}, {}));
+    return planned(r, bench::compare::load_scene(scene, {}, {}));
 }
 
 TEST(Plan, TheReferenceAndEveryCellCarryTheSameModes) {
     for (const char* scene : {"two_point_bridge", "tanpura_c3_release", "free_string"}) {
-        const bench::compare::Plan plan = plan_for(scene, {"modal_two_point", "modal_spatial_newton"});
-        const int modes = plan.references.front().settings.modes;
+        const bench::study::Plan plan = plan_for(scene, {"modal_two_point", "modal_spatial_newton"});
+        const int modes = plan.points.front().references.front().settings.modes;
         EXPECT_EQ(modes, scene == std::string("two_point_bridge") ? 94 : 133);
-        ASSERT_EQ(plan.cells.size(), 4u);
-        for (const bench::study::Cell& c : plan.cells) {
+        ASSERT_EQ(plan.jobs.size(), 4u);
+        for (const bench::study::Job& job : plan.jobs) {
+            const bench::study::Cell& c = job.cell;
             EXPECT_EQ(c.settings.modes, modes) << scene << " " << c.scheme->name;
-            EXPECT_EQ(make_scheme(*c.scheme, bench::compare::load_scene(scene, {}, {}), c.settings)->dofs() >= 2 * modes, true);
+            EXPECT_EQ(make_scheme(*c.scheme, job.point->scene, c.settings)->dofs() >= 2 * modes, true);
         }
         EXPECT_TRUE(plan.notes.empty());
     }
 }
 
 TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSaysSo) {
-    const bench::compare::Plan plan = plan_for("sitar_parabola", {"modal_spatial_newton", "finite_difference_explicit"});
-    EXPECT_EQ(plan.references.front().settings.modes, 94);
-    for (const bench::study::Cell& c : plan.cells)
-        EXPECT_EQ(c.settings.modes, std::string("modal_spatial_newton") == c.scheme->name ? 0 : 94);
+    const bench::study::Plan plan = plan_for("sitar_parabola", {"modal_spatial_newton", "finite_difference_explicit"});
+    EXPECT_EQ(plan.points.front().references.front().settings.modes, 94);
+    for (const bench::study::Job& job : plan.jobs)
+        EXPECT_EQ(job.cell.settings.modes, std::string("modal_spatial_newton") == job.cell.scheme->name ? 0 : 94);
     ASSERT_EQ(plan.notes.size(), 1u);
     EXPECT_NE(plan.notes[0].find("modal_spatial_newton carries 421 modes"), std::string::npos) << plan.notes[0];
-    const bench::compare::Plan asked = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
+    const bench::study::Plan asked = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
     EXPECT_TRUE(asked.notes.empty());
-    for (const bench::study::Cell& c : asked.cells) EXPECT_EQ(c.settings.modes, 300);
-    EXPECT_EQ(asked.references.front().settings.modes, 300);
+    for (const bench::study::Job& job : asked.jobs) EXPECT_EQ(job.cell.settings.modes, 300);
+    EXPECT_EQ(asked.points.front().references.front().settings.modes, 300);
 }
 
-TEST(Plan, RatesThatHaveRowsInCommonAreOfOnePlan) {
+TEST(Plan, RatesThatHaveRowsInCommonAreOnOnePoint) {
     bench::compare::CompareRequest r;
     r.scene = "tanpura_c3_release";
     r.schemes = {"modal_two_point", "exact_contact"};
     r.search = false;
-    static const bench::compare::Catalogue catalogue;
     const Scene scene = bench::compare::load_scene(r.scene, {}, 0.01);
     using Kinds = std::vector<std::pair<double, std::vector<double>>>;  // rows a second, rates; 0: continuous time
     const auto kinds = [&](const std::vector<double>& rates) {
         r.rates = rates;
         Kinds all;
-        for (const bench::compare::Plan& plan : bench::compare::plans_of(r, catalogue, scene)) {
-            all.emplace_back(plan.references.front().settings.tap_rate, std::vector<double>());
-            for (const bench::study::Cell& c : plan.cells) {
-                EXPECT_EQ(c.settings.tap_rate, all.back().first);
-                all.back().second.push_back(c.settings.sample_rate);
+        const bench::study::Plan plan = planned(r, scene);
+        for (const bench::study::Point& point : plan.points) {
+            all.emplace_back(point.references.front().settings.tap_rate, std::vector<double>());
+            for (const bench::study::Job& job : plan.jobs) {
+                if (job.point != &point) continue;
+                EXPECT_EQ(job.cell.settings.tap_rate, all.back().first);
+                all.back().second.push_back(job.cell.settings.sample_rate);
             }
         }
         return all;
@@ -472,14 +482,13 @@ TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
     r.schemes = {"modal_two_point", "modal_strang"};
     r.rates = {44100};
     r.options = {{"", "compliance", "matched"}};
-    static const bench::compare::Catalogue catalogue;
     const Scene scene = bench::compare::load_scene(r.scene, {}, {});
     const OptionValues matched{{"compliance", "matched"}};
-    const auto reference = [&] { return bench::compare::plan_of(r, catalogue, scene).references.front(); };
+    const auto reference = [&] { return planned(r, scene).points.front().references.front(); };
     EXPECT_TRUE(declares(*reference().scheme, "compliance"));
     EXPECT_EQ(reference().settings.options, OptionValues());
-    for (const bench::study::Cell& c : bench::compare::plan_of(r, catalogue, scene).cells)
-        EXPECT_EQ(c.settings.options, c.scheme->name == std::string("modal_two_point") ? matched : OptionValues());
+    for (const bench::study::Job& job : planned(r, scene).jobs)
+        EXPECT_EQ(job.cell.settings.options, job.cell.scheme->name == std::string("modal_two_point") ? matched : OptionValues());
     r.options.push_back({reference().scheme->name, "compliance", "matched"});
     EXPECT_EQ(reference().settings.options, matched);
 }
@@ -488,9 +497,9 @@ TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
 
 bench::study::Truth truth_of(int modes, double duration = 0.01) {
     Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, duration);
-    bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
-    for (auto& c : plan.references) c.kept = false;
-    return bench::study::run_truth(plan.references, scene, modes, 1, bench::store::Listener());
+    std::vector<bench::study::ReferenceChoice> references = plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
+    for (auto& c : references) c.kept = false;
+    return bench::study::run_truth(references, scene, modes, 1, bench::store::Listener());
 }
 
 TEST(Truth, ModesAreDoubledUntilWhatIsLeftOutMovesTheHeadlineByLittleEnough) {
@@ -518,8 +527,8 @@ TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
         b.position = 1e-3 * (1 + k), b.width = 0, b.height = -4e-3 * b.position * b.position;
         scene.strings[0].barriers.emplace_back(b);
     }
-    const bench::compare::Plan plan = plan_for("two_point_bridge", {"modal_two_point"});
-    const auto truth = bench::study::run_truth(plan.references, scene, 0, 1, bench::store::Listener());
+    const bench::study::Plan plan = plan_for("two_point_bridge", {"modal_two_point"});
+    const auto truth = bench::study::run_truth(plan.points.front().references, scene, 0, 1, bench::store::Listener());
     EXPECT_LE(truth.reference.choice.settings.modes, 376) << truth.said;
     EXPECT_NE(truth.said.find("too long"), std::string::npos) << truth.said;
 }
@@ -543,8 +552,9 @@ TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
 
 TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
     const Scene scene = bench::compare::load_scene("tanpura_c3_release", {"string.0.tension=40"}, 1e-3);  // no certificate is of it
-    const bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
-    const auto truth = bench::study::run_truth(plan.references, scene, 1, 1, bench::store::Listener());  // nothing is below one mode
+    const bench::study::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
+    const auto truth =
+        bench::study::run_truth(plan.points.front().references, scene, 1, 1, bench::store::Listener());  // nothing is below one mode
     EXPECT_TRUE(truth.coarser.empty());
     EXPECT_FALSE(truth.reference.trust.any());
     EXPECT_TRUE(std::isnan(truth.reference.trust.of_scene(0, 2)));
@@ -554,10 +564,11 @@ TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
 
 std::vector<bench::study::Cell> sought(bench::compare::CompareRequest r, const std::vector<std::string>& set = {},
                                        std::vector<std::string>* notes = nullptr) {
-    static const bench::compare::Catalogue catalogue;
-    const bench::compare::Plan plan = bench::compare::plan_of(r, catalogue, bench::compare::load_scene(r.scene, set, 0.01));
+    const bench::study::Plan plan = planned(r, bench::compare::load_scene(r.scene, set, 0.01));
     if (notes) *notes = plan.notes;
-    return plan.cells;
+    std::vector<bench::study::Cell> cells;
+    for (const bench::study::Job& job : plan.jobs) cells.push_back(job.cell);
+    return cells;
 }
 bench::compare::CompareRequest request_for(std::vector<std::string> schemes, std::vector<double> rates) {
     bench::compare::CompareRequest r;
@@ -676,9 +687,9 @@ TEST(Truth, SaysTheModesThatItHasWhereNoMoreWereMeasured) {
         table.decay_rate.push_back(modes.sigma[i]);
     }
     s.damping = table;
-    bench::compare::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
-    for (auto& c : plan.references) c.kept = false;
-    const auto truth = bench::study::run_truth(plan.references, scene, 0, 1, bench::store::Listener());
+    std::vector<bench::study::ReferenceChoice> references = plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
+    for (auto& c : references) c.kept = false;
+    const auto truth = bench::study::run_truth(references, scene, 0, 1, bench::store::Listener());
     EXPECT_EQ(truth.reference.choice.settings.modes, 133);
     EXPECT_EQ(truth.said.rfind("133 modes", 0), 0u) << truth.said;
 }
