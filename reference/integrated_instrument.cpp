@@ -13,6 +13,14 @@
 namespace jvari {
 
 namespace {
+void add_taps(const Block& out, int row, const std::vector<BodyTap>& taps, const double* of_v, double w, double speed) noexcept {
+    for (std::size_t t = 0; t < taps.size(); ++t) {
+        double& cell = out.tap[taps[t].column * out.stride + row];
+        const double heard = of_v[t] + (taps[t].on_w * w + taps[t].on_speed * speed);
+        cell = taps[t].first ? heard : cell + heard;
+    }
+}
+
 struct Heard {  // of one string
     Readout readout;
     std::vector<BodyTap> taps;

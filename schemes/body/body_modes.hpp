@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "schemes/body/body_step.hpp"
@@ -41,7 +40,6 @@ public:
 
     void begin() noexcept {
         for (auto& m : modes_) m.z = m.zeta = 0;
-        lost_ = 0;
     }
     BodyMotion coming() const noexcept {
         BodyMotion b;
@@ -50,19 +48,20 @@ public:
             b.r += m.free();
             b.a -= 2 * (m.A * m.z + (m.A + m.B) * m.zeta) / m.J;  // free - 2 zeta
         }
+        b.now = b.w;
         b.a /= kappa();
         return b;
     }
-    double pass(double f) noexcept {  // r
-        double r = 0;
+    BodyMoved pass(double f) noexcept {
+        BodyMoved moved;
         for (auto& m : modes_) {
             const double s = m.free() + m.xi / m.J * f;
-            lost_ += m.B * s * s / m.xi;
             m.z += s;
             m.zeta = s - m.zeta;
-            r += s;
+            moved.r += s;
+            moved.lost += m.B * s * s / m.xi;
         }
-        return r;
+        return moved;
     }
     double displacement(int) const noexcept {
         double sum = 0;
@@ -80,10 +79,9 @@ public:
         for (const auto& m : modes_) sum += (m.zeta * m.zeta + m.A * m.z * m.z) / m.xi;
         return sum;
     }
-    double take_lost() noexcept { return std::exchange(lost_, 0.0); }
 
 private:
-    double dt_, lost_ = 0;
+    double dt_;
     std::vector<BodyMode2> modes_;
 };
 
@@ -118,7 +116,6 @@ public:
 
     void begin() noexcept {
         for (auto& m : modes_) m.z = m.d = m.last = 0;
-        lost_ = 0;
     }
     void start(double f) noexcept {  // level 1 from rest: z^{-1} = z^1
         for (auto& m : modes_) {
@@ -130,24 +127,25 @@ public:
         BodyMotion b;
         for (const auto& m : modes_) {
             b.w += m.z;
+            b.now += m.z + m.d;
             b.r += m.free() + m.d;
             b.a -= m.loss * m.d + m.kappa * (m.z + m.d);
         }
         b.a /= kappa();
         return b;
     }
-    double pass(double f) noexcept {
-        double r = 0;
+    BodyMoved pass(double f) noexcept {
+        BodyMoved moved;
         for (auto& m : modes_) {
             const double next = m.free() + dt_ * dt_ / m.mass * f;
             m.z += m.d;
             m.last = m.d;
             m.d = next;
-            const double moved = m.d + m.last;
-            lost_ += 0.25 * m.mass * m.loss * moved * moved / (dt_ * dt_);
-            r += moved;
+            const double r = m.d + m.last;
+            moved.r += r;
+            moved.lost += 0.25 * m.mass * m.loss * r * r / (dt_ * dt_);
         }
-        return r;
+        return moved;
     }
     double displacement(int level) const noexcept {  // 0: of the row; 1: after it
         double sum = 0;
@@ -169,10 +167,9 @@ public:
         for (const auto& m : modes_) sum += 0.5 * m.mass * (0.5 * (2 - m.loss) * m.d * m.d + m.kappa * m.z * (m.z + m.d));
         return sum / (dt_ * dt_);
     }
-    double take_lost() noexcept { return std::exchange(lost_, 0.0); }
 
 private:
-    double dt_, lost_ = 0;
+    double dt_;
     std::vector<BodyMode3> modes_;
 };
 

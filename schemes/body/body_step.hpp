@@ -28,63 +28,51 @@
 //     f = f_0 + sum_p c_p F_p/D,   c_p = e_p - theta_mp/kappa,   Theta_pq = theta_pq + beta c_p c_q/D,
 //     D = 1 + beta [ sum T/2L + sum (mu L/3 - theta_mm/kappa)/kappa ].
 //
-// Threads are linear and eliminated, all together; what is left are the contacts of all strings, coupled by the body, solved by the rule of
-// discrete gradients (contact/gradient_rule.hpp).
+// So the strings are one string to the driver (driver/driver.hpp), whose points are those of all strings, its contacts first.
 #pragma once
 
 #include <vector>
 
-#include "schemes/contact/gradient_rule.hpp"
 #include "schemes/driver/string_step.hpp"
 
 namespace jvari {
 
-struct BodyMotion {
-    double w = 0;  // at the older level [m]
-    double r = 0;  // from there to the newer one without f [m]
-    double a = 0;  // w'' without f [m/s^2]
+struct BodyMotion {  // without f
+    double w = 0;    // at the older level [m]
+    double now = 0;  // at the level that the step is centred on; of two-point steps the older one [m]
+    double r = 0;    // from the older to the newer one [m]
+    double a = 0;    // w'' [m/s^2]
+};
+struct BodyMoved {           // in a step
+    double r = 0, lost = 0;  // from the older to the newer level [m]; by the body's losses [J]
 };
 
 class BodyStep {
 public:
     BodyStep() = default;
-    BodyStep(const std::vector<StringPoints>&, double beta, double kappa, double span);  // beta [m/N], kappa [s^2], span [s]
-    BodyStep halved() const;                                                             // the first of a three-point scheme, from rest
+    // place: of each point of each string among all. beta [m/N], kappa [s^2].
+    BodyStep(const std::vector<StringPoints>&, const std::vector<std::vector<int>>& place, double beta, double kappa);
 
-    // Readings of v at the older level and at that of the step's centre, and increments without forces, of every point of every string in
-    // turn [m]; sum mu_i v_i'' over all strings without forces of points and body; sum psi(x_e) F_e. Out: the forces on the strings [N].
-    // Allocates nothing.
-    bool solve(const double* older, const double* now, const double* free, double inertia, double pluck, const BodyMotion&,
-               double* force) noexcept;
+    const std::vector<double>& theta() const { return theta_; }  // of all points, with the body [m/N]
+    double rides(int p) const { return e_[p]; }
+
+    // Readings of v and increments without forces become those of the points [m]. inertia: sum mu_i v_i'' over all strings without forces
+    // of points and body; pluck: sum psi(x_e) F_e.
+    void approach(double inertia, double pluck, const BodyMotion&, double* older, double* now, double* free) noexcept;
+    void pass(const double* force) noexcept;
     double f() const { return f_; }  // of that step [N]
     double a() const { return a_; }  // w'' [m/s^2]
 
-    double potential(const double* reading, double w) noexcept;  // of points and tension at one level [J]
-    double lost() const;                                         // per span by contacts and threads in that step [J/s]
-    double kinetic(double velocity, double momentum) const {     // of the ends' share, momentum = sum mu_i v_i' [J]
+    double potential(double w) const { return 0.5 * stiffness_ * w * w; }  // of the tension [J]
+    double kinetic(double velocity, double momentum) const {               // of the ends' share, momentum = sum mu_i v_i' [J]
         return (0.5 * inertia_ * velocity + momentum) * velocity;
     }
-    int points() const { return static_cast<int>(e_.size()); }
-    const Obstacle<GradientRule>& contacts() const { return contacts_; }
-    void clear() { contacts_.clear(); }
 
 private:
-    struct Spring {  // a thread
-        int point;
-        double stiffness, damping, rest, s;  // s = k/2 + damping/span [N/m]
-    };
-
-    std::vector<StringPoints> strings_;
-    double beta_ = 0, kappa_ = 1, span_ = 1, D_ = 1;
+    double beta_ = 0, kappa_ = 1, D_ = 1;
     double inertia_ = 0, rest_mass_ = 0, stiffness_ = 0;  // sum mu L/3, the same less theta_mm/kappa [kg]; sum T/L [N/m]
     std::vector<double> e_, to_body_, c_;                 // of each point: e_p, theta_pm, c_p
-    std::vector<double> theta_;                           // points x points, with the body [m/N]
-    std::vector<int> contact_;                            // the points that are contacts
-    std::vector<Spring> thread_;                          //
-    std::vector<double> yield_, follow_;                  // (1 + s Theta_tt)^-1, threads x threads; that s Theta_tb, threads x contacts
-    Obstacle<GradientRule> contacts_;                     // the threads eliminated
-    std::vector<double> older_, free_, pull_, at_, now_, b_, push_;  // workspaces
-    std::vector<double> moved_;                                      // of each thread in the last step [m]
+    std::vector<double> theta_;
     double f_ = 0, a_ = 0;
 };
 

@@ -1,7 +1,6 @@
-// All strings of a scene on a body that moves, as one scheme: what body_step.hpp derives, stepped. Rows, instants and ledger are those of
-// driver.hpp.
+// All strings of a scene on a body that moves, as one string for the driver (driver/string_step.hpp): what body_step.hpp derives, stepped.
 //
-// Beside what a StringStep has, the string has here: inertia(), sum mu_i v_i'' of the motion without forces; pluck() [N]; momentum() = sum
+// Beside what a StringStep has, a string has here: inertia(), sum mu_i v_i'' of the motion without forces; pluck() [N]; momentum() = sum
 // mu_i v_i' at the instant of the energy. Of three points it also has share(), the inertia that its coordinates take of the body's: sum
 // mu_i^2/m_i, m_i the least mass that the energy of the scheme shows.
 #pragma once
@@ -23,173 +22,182 @@ struct BodyTap : HeardTap {
     double on_w = 0, on_speed = 0;  // per m and m/s
 };
 std::vector<BodyTap> body_taps(const Scene&, int string, std::vector<bool>& heard_already);
-void add_taps(const Block& out, int row, const std::vector<BodyTap>&, const double* of_v, double w, double speed) noexcept;
 
 template <StringStep String, class Body>
-class Instrument final : public Scheme {
+class Instrument {
 public:
-    Instrument(const Scene& scene, std::vector<std::unique_ptr<String>> strings, Body body, int steps_per_row)
-        : body_(std::move(body)), steps_(steps_per_row) {
-        std::vector<StringPoints> at;
+    static constexpr int levels = Body::levels;
+    static constexpr long steps_between_looks = String::steps_between_looks;
+
+    Instrument(const Scene& scene, std::vector<std::unique_ptr<String>> strings, Body body) : body_(std::move(body)) {
+        std::vector<StringPoints> of_strings;
+        std::vector<std::vector<int>> place;
         std::vector<bool> heard(scene.taps.size(), false);
-        std::size_t taps = 0;
+        heard_.resize(scene.taps.size());
         for (int k = 0; k < static_cast<int>(strings.size()); ++k) {
-            at.push_back(strings[k]->points());
-            Part part{std::move(strings[k]), body_taps(scene, k, heard), RowForces(at.back(), Body::levels, steps_per_row),
-                      at.back().count(), 0};
-            if (const auto& pluck = scene.strings[k].pluck) part.finger = 1 - pluck->position / scene.strings[k].length;
-            taps = std::max(taps, part.taps.size());
-            parts_.push_back(std::move(part));
+            of_strings.push_back(strings[k]->points());
+            const auto& pluck = scene.strings[k].pluck;
+            const std::vector<BodyTap> taps = body_taps(scene, k, heard);
+            for (int t = 0; t < static_cast<int>(taps.size()); ++t) heard_[taps[t].column].push_back({k, t, taps[t]});
+            parts_.push_back({std::move(strings[k]),
+                              {},
+                              std::vector<double>(of_strings.back().count()),
+                              pluck ? 1 - pluck->position / scene.strings[k].length : 0});
         }
-        step_ = BodyStep(at, body_.beta(), body_.kappa(), body_.span());
-        if constexpr (Body::levels == 2) {
-            start_ = step_.halved();
-            double taken = 0, ends = 0;
-            for (const Part& p : parts_) taken += p.string->share();
-            for (const StringPoints& s : at) ends += s.mass / 3;
-            if (!(body_.least_mass() + ends > taken))
-                throw Refusal("the body is too light at this rate: the strings take " + std::to_string(taken) + " kg of its " +
-                              std::to_string(body_.least_mass() + ends) + " kg, and the energy would have no least value");
+        gather_points(of_strings);
+        for (const Part& p : parts_) place.push_back(p.place);
+        step_ = BodyStep(of_strings, place, body_.beta(), body_.kappa());
+        points_.theta = step_.theta();
+        if constexpr (levels == 2) {
+            refuse_light(of_strings);
+            for (StringPoints& s : of_strings)
+                for (double& theta : s.theta) theta *= 0.5;
+            start_ = BodyStep(of_strings, place, 0.5 * body_.beta(), 0.5 * body_.kappa());
+            points_.start_theta = start_.theta();
         }
-        for (auto* v : {&older_, &now_, &free_, &force_}) v->assign(step_.points(), 0.0);
-        tap_.assign(taps, 0.0);
-        Instrument::reset();
+        for (auto* v : {&older_, &now_, &free_}) v->assign(points_.count(), 0.0);
     }
 
-    void reset() noexcept override {
-        step_.clear();
+    const StringPoints& points() const { return points_; }
+    ThreadStart thread_start() const { return ThreadStart::plain; }
+    ReadingsBeforeStep readings() const { return {older_.data(), now_.data(), free_.data()}; }
+
+    void reset() noexcept {
+        for (Part& p : parts_) p.string->reset();
         body_.begin();
-        status_ = {};
-        done_ = 0;
-        supplied_ = dissipated_ = 0;
+        if constexpr (levels == 2) gather(start_, {});
+    }
+    void start(const double* force, double) noexcept {
+        start_.pass(force);
+        for (Part& p : parts_) p.string->start(own(p, force), start_.a());
+        body_.start(start_.f());
+    }
+    void approach(bool last_of_row) noexcept {
+        for (Part& p : parts_) p.string->approach(last_of_row);
+        gather(step_, body_.coming());
+    }
+    Spent pass(const double* force, double, bool probed) noexcept {
+        Spent all;
+        step_.pass(force);
         for (Part& p : parts_) {
-            p.string->reset();
-            p.means.clear();
+            const Spent spent = p.string->pass(own(p, force), step_.a(), probed);
+            all.supplied += spent.supplied;
+            all.dissipated += spent.dissipated;
         }
-        std::fill(force_.begin(), force_.end(), 0.0);
-        if constexpr (Body::levels == 2) {
-            BodyMotion rest;
-            if (!solve(start_, rest)) status_ = {Outcome::not_converged, 0};
-            const double* force = force_.data();
-            for (Part& p : parts_) {
-                p.string->start(force, start_.a());
-                force += p.points;
-            }
-            body_.start(start_.f());
-        }
+        const BodyMoved moved = body_.pass(step_.f());
+        all.supplied += pluck_ * moved.r / levels;
+        all.dissipated += moved.lost;
+        return all;
+    }
+    bool failed() const {
+        return std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.string->failed(); });
     }
 
-    Status advance(const Block& out) noexcept override {
-        for (int row = 0; row < out.rows && status_.outcome == Outcome::ok; ++row) {
-            write(out, row);
-            for (int i = 0; i < steps_ && status_.outcome == Outcome::ok; ++i) {
-                step(out.energy != nullptr, i + 1 == steps_);
-                if (out.stopped(i, steps_between_looks)) return {};
-            }
+    void reading(int level, double* out) noexcept {
+        const double w = body_.displacement(level);
+        for (Part& p : parts_) {
+            p.string->reading(level, p.own.data());
+            for (std::size_t k = 0; k < p.own.size(); ++k) out[p.place[k]] = p.own[k] + step_.rides(p.place[k]) * w;
         }
-        return status_;
+    }
+    double stored() noexcept {
+        double sum = body_.stored(), momentum = 0;
+        for (Part& p : parts_) {
+            sum += p.string->stored();
+            momentum += p.string->momentum();
+        }
+        for (int level = 0; level < levels; ++level) sum += step_.potential(body_.displacement(level)) / levels;
+        return sum + step_.kinetic(body_.velocity_stored(), momentum);
+    }
+    double tap(int k, const double* mean) noexcept {
+        double sum = 0;
+        for (const Heard& h : heard_[k]) {
+            Part& p = parts_[h.part];
+            sum += p.string->tap(h.tap, own(p, mean)) + (h.by.on_w * body_.displacement(0) + h.by.on_speed * body_.velocity());
+        }
+        return sum;
     }
 
-    int dofs() const override {
+    int dofs() const {
         int sum = 2 * body_.modes();
         for (const Part& p : parts_) sum += p.string->dofs();
         return sum;
     }
-    std::vector<Fact> facts() const override {
+    std::vector<Fact> facts() const {
         std::vector<Fact> all;
-        if (step_.contacts().contacts() > 0) all = step_.contacts().facts();
-        for (std::size_t k = 0; k < parts_.size(); ++k)
-            for (Fact& f : of_string(k)) all.push_back(std::move(f));
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            auto facts = parts_[k].string->facts();
+            if (parts_.size() > 1) facts = facts_of_string(static_cast<int>(k), std::move(facts));
+            all.insert(all.end(), facts.begin(), facts.end());
+        }
         return all;
     }
+    std::vector<FreeMode> free_modes() const { return {}; }
 
 private:
-    static constexpr long steps_between_looks = 64;
     struct Part {
         std::unique_ptr<String> string;
-        std::vector<BodyTap> taps;
-        RowForces means;
-        int points;
-        double finger;  // psi where the pluck acts
+        std::vector<int> place;   // of its points among all
+        std::vector<double> own;  // workspace: what is of its points alone
+        double finger;            // psi where the pluck acts
+    };
+    struct Heard {  // of a tap of the scene, by a string
+        int part, tap;
+        BodyTap by;
     };
 
-    std::vector<Fact> of_string(std::size_t k) const {
-        auto facts = parts_[k].string->facts();
-        return parts_.size() > 1 ? facts_of_string(static_cast<int>(k), std::move(facts)) : facts;
+    void gather_points(const std::vector<StringPoints>& of_strings) {
+        points_.dt = of_strings.front().dt;
+        const auto place = [&](std::size_t k, std::size_t p) {
+            parts_[k].place.push_back(points_.count());
+            points_.positions.push_back(of_strings[k].positions[p]);
+        };
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            points_.contacts.add(of_strings[k].contacts);
+            for (int a = 0; a < of_strings[k].contacts.count(); ++a) place(k, a);
+        }
+        for (std::size_t k = 0; k < parts_.size(); ++k)
+            for (const Thread& thread : of_strings[k].threads) {
+                points_.threads.push_back(thread);
+                place(k, of_strings[k].contacts.count());
+            }
+    }
+    void refuse_light(const std::vector<StringPoints>& of_strings) const {
+        double taken = 0, ends = 0;
+        for (const Part& p : parts_) taken += p.string->share();
+        for (const StringPoints& s : of_strings) ends += s.mass / 3;
+        if (!(body_.least_mass() + ends > taken))
+            throw Refusal("the body is too light at this rate: the strings take " + std::to_string(taken) + " kg of its " +
+                          std::to_string(body_.least_mass() + ends) + " kg, and the energy would have no least value");
     }
 
-    bool solve(BodyStep& by, const BodyMotion& motion) noexcept {  // after approach() of every string
-        double inertia = 0, *older = older_.data(), *now = now_.data(), *free = free_.data();
+    const double* own(Part& p, const double* all) noexcept {
+        for (std::size_t k = 0; k < p.own.size(); ++k) p.own[k] = all[p.place[k]];
+        return p.own.data();
+    }
+    void gather(BodyStep& by, const BodyMotion& motion) noexcept {  // after the free motion of every string
+        double inertia = 0;
         pluck_ = 0;
         for (Part& p : parts_) {
             const ReadingsBeforeStep at = p.string->readings();
-            std::copy_n(at.older, p.points, older);
-            std::copy_n(at.now, p.points, now);
-            std::copy_n(at.free, p.points, free);
-            older += p.points;
-            now += p.points;
-            free += p.points;
+            for (std::size_t k = 0; k < p.place.size(); ++k) {
+                older_[p.place[k]] = at.older[k];
+                now_[p.place[k]] = at.now[k];
+                free_[p.place[k]] = at.free[k];
+            }
             inertia += p.string->inertia();
             pluck_ += p.finger * p.string->pluck();
         }
-        return by.solve(older_.data(), now_.data(), free_.data(), inertia, pluck_, motion, force_.data());
-    }
-
-    void step(bool probed, bool last_of_row) noexcept {
-        for (Part& p : parts_) p.string->approach(last_of_row);
-        if (!solve(step_, body_.coming())) status_ = {Outcome::not_converged, done_};
-        const double* force = force_.data();
-        for (Part& p : parts_) {
-            p.means.count(force);
-            const Spent spent = p.string->pass(force, step_.a(), probed);
-            supplied_ += spent.supplied;
-            dissipated_ += spent.dissipated;
-            force += p.points;
-            if (p.string->failed() && status_.outcome == Outcome::ok) status_ = {Outcome::diverged, done_};
-        }
-        const double r = body_.pass(step_.f());
-        supplied_ += pluck_ * r / Body::levels;
-        dissipated_ += body_.span() / Body::levels * step_.lost();
-        ++done_;
-    }
-
-    void write(const Block& out, int row) noexcept {
-        const double w = body_.displacement(0), speed = body_.velocity();
-        double stored = 0, momentum = 0;
-        const double* force = force_.data();
-        for (Part& p : parts_) {
-            const auto [bridge, thread] = p.means.take(force, done_ == 0);
-            force += p.points;
-            p.string->write({1, static_cast<int>(p.taps.size()), 1, tap_.data(), nullptr, nullptr, nullptr}, 0, bridge, thread);
-            add_taps(out, row, p.taps, tap_.data(), w, speed);
-            if (!out.energy) continue;
-            momentum += p.string->momentum();
-            stored += p.string->stored();
-        }
-        const double lost = body_.take_lost();
-        if (out.energy) {
-            stored += body_.stored() + step_.kinetic(body_.velocity_stored(), momentum);
-            for (int level = 0; level < Body::levels; ++level) {
-                double* reading = older_.data();
-                for (Part& p : parts_) {
-                    p.string->reading(level, reading);
-                    reading += p.points;
-                }
-                stored += step_.potential(older_.data(), body_.displacement(level)) / Body::levels;
-            }
-            write_energy(out, row, stored, supplied_, dissipated_ + lost);
-        }
-        supplied_ = dissipated_ = 0;
+        by.approach(inertia, pluck_, motion, older_.data(), now_.data(), free_.data());
     }
 
     Body body_;
-    int steps_;
     std::vector<Part> parts_;
+    std::vector<std::vector<Heard>> heard_;  // for each tap of the scene
+    StringPoints points_;
     BodyStep step_, start_;
-    std::vector<double> older_, now_, free_, force_, tap_;
-    double pluck_ = 0, supplied_ = 0, dissipated_ = 0;  // since the last row
-    long done_ = 0;                                     // steps
-    Status status_;
+    std::vector<double> older_, now_, free_;
+    double pluck_ = 0;  // of the step: sum psi(x_e) F_e [N]
 };
 
 // One scheme of one string for each string of the scene; what it refuses names its string.
@@ -200,13 +208,12 @@ std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) 
     return all;
 }
 
-// The scheme of one string by a rule, or of all strings on a moving body, by the rule of discrete gradients. make as above, body() -> the
-// body in the form of that scheme.
+// The scheme of one string by a rule, or of all strings on a moving body. make as above, body() -> the body in the form of that scheme.
 template <class String, class Rule, class Make, class MakeBody>
 std::unique_ptr<Scheme> on_its_support(const Scene& scene, int steps_per_row, Make make, MakeBody body) {
     if (!needed_by(scene).has(Feature::moving_body)) return std::make_unique<Driver<String, Rule>>(make(scene), steps_per_row);
-    auto strings = each_string<String>(scene, make);
-    return std::make_unique<Instrument<String, decltype(body())>>(scene, std::move(strings), body(), steps_per_row);
+    using All = Instrument<String, decltype(body())>;
+    return std::make_unique<Driver<All, Rule>>(std::make_unique<All>(scene, each_string<String>(scene, make), body()), steps_per_row);
 }
 
 }  // namespace jvari

@@ -1,13 +1,13 @@
-// The thread is linear in the step and leaves the contact equation: van Walstijn, Bridges & Mehes 2016, eqs 44-48. With r the motion of its
-// point over the step, span the time between the outer levels and k_c, r_c its stiffness and damping,
+// Threads are linear in the step and leave the contact equation: van Walstijn, Bridges & Mehes 2016, eqs 44-48. With r the motion of a
+// thread's point over the step, span the time between the outer levels and k_c, r_c its stiffness and damping,
 //
 //     F_c = k (h_c - y_c) - phi r,   phi = k_c/2 + r_c/span,   r = free + theta_cc F_c + theta_bc F_b
-//     F_c = v - beta F_b,            v = [k (h_c - y_c) - phi free]/(1 + phi theta_cc)                   (46), (47)
+//     F_c = v - beta F_b,            v = (1 + phi theta_cc)^-1 [k (h_c - y_c) - phi free]                (46), (47)
 //
-// and a contact sees theta_bb - beta theta_bc for its own compliance (48).
+// and a contact sees theta_bb - theta_bc beta for its own compliance (48). A string has one thread at most; on a body that moves those of
+// all strings are eliminated together, and phi, beta and (1 + phi theta_cc)^-1 are matrices.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,55 +15,50 @@
 
 namespace jvari {
 
-struct EliminatedThread {  // beside one contact
-    double k = 0, phi = 0, inverse = 1, beta = 0;
-    double theta = 0;  // of the contact, the thread yielding [m/N]
-
-    EliminatedThread() = default;
-    EliminatedThread(double stiffness, double phi_c, double theta_bb, double theta_bc, double theta_cc)
-        : k(stiffness), phi(phi_c), inverse(1 / (1 + phi * theta_cc)), beta(phi * theta_bc * inverse), theta(theta_bb - beta * theta_bc) {}
-    double alone(double to_rest, double free) const { return (k * to_rest - phi * free) * inverse; }  // v
-};
-
-// Beside any number of them. The points' compliances are theta, row-major over the contacts and then the thread where there is one.
-class ThreadAmongContacts {
+class EliminatedThreads {
 public:
-    ThreadAmongContacts() = default;
-    ThreadAmongContacts(const std::optional<Thread>& thread, int contacts, std::span<const double> theta, double span)
-        : thread_(thread), coupling_(contacts, 0.0), span_(span) {
-        if (!thread) return;
-        const int n = contacts, stride = n + 1;
-        phi_ = 0.5 * thread->stiffness + thread->damping / span;
-        theta_cc_ = theta[n * stride + n];
-        inverse_ = 1 / (1 + phi_ * theta_cc_);
-        for (int a = 0; a < n; ++a) coupling_[a] = theta[a * stride + n];
-    }
-    const std::optional<Thread>& law() const { return thread_; }
-    double coupling(int a) const { return coupling_[a]; }  // theta_bc of contact a
-    double phi() const { return phi_; }
+    struct One {  // of one thread, beside one contact at most
+        double k = 0, rest = 0, phi = 0, inverse = 1, coupling = 0, answer = 0;
+        double alone(double older, double free) const { return -(phi * free + k * (older - rest)) * inverse; }  // v
+    };
 
-    // Of the contacts alone, the thread yielding: contacts x contacts.
-    std::vector<double> between_contacts(std::span<const double> theta) const {
-        const int n = static_cast<int>(coupling_.size()), stride = n + (thread_ ? 1 : 0);
-        std::vector<double> of_contacts;
-        for (int a = 0; a < n; ++a)
-            for (int c = 0; c < n; ++c) of_contacts.push_back(theta[a * stride + c] - coupling_[a] * phi_ * inverse_ * coupling_[c]);
-        return of_contacts;
+    EliminatedThreads() = default;
+    // theta [m/N]: row-major over the points, the contacts first and then the threads.
+    EliminatedThreads(std::vector<Thread> threads, int contacts, std::span<const double> theta, double span);
+
+    int count() const { return static_cast<int>(laws_.size()); }
+    const std::vector<Thread>& laws() const { return laws_; }
+    const One& one() const { return one_; }
+    double phi(int t) const { return phi_[t]; }                                      // [N/m]
+    double coupling(int a, int t) const { return coupling_[a * count() + t]; }       // theta_bc of contact a [m/N]
+    double answer(int t, int a) const { return answer_[t * contacts_ + a]; }         // beta
+    std::vector<double> between_contacts(std::span<const double> theta) const;       // the threads yielding: contacts x contacts
+    void alone(const double* older, const double* free, double* v) const noexcept {  // of the points' readings: v of each thread
+        const int m = count();
+        for (int t = 0; t < m; ++t) {
+            v[t] = 0;
+            for (int u = 0; u < m; ++u) {
+                const int p = contacts_ + u;
+                v[t] -= inverse_[t * m + u] * (phi_[u] * free[p] + laws_[u].stiffness * (older[p] - laws_[u].height));
+            }
+        }
     }
-    double alone(const double* older, const double* free) const {  // v, of the points' readings; 0 without a thread
-        const std::size_t n = coupling_.size();
-        return thread_ ? -(phi_ * free[n] + thread_->stiffness * (older[n] - thread_->height)) * inverse_ : 0;
+    // r of a thread that started from a reading and pulled by F [m].
+    double moved(int t, double older, double F) const {
+        return phi_[t] > 0 ? (laws_[t].stiffness * (laws_[t].height - older) - F) / phi_[t] : 0;
     }
-    double answer(int a, double force) const { return phi_ * inverse_ * coupling_[a] * force; }  // beta F of contact a
-    double stored(double reading) const {
-        return thread_ ? 0.5 * thread_->stiffness * (reading - thread_->height) * (reading - thread_->height) : 0;
+    double stored(int t, double reading) const {
+        const double stretch = reading - laws_[t].height;
+        return 0.5 * laws_[t].stiffness * stretch * stretch;
     }
-    double lost(double r) const { return thread_ ? thread_->damping * (r / span_) * (r / span_) : 0; }  // [W]
+    double lost(int t, double r) const { return laws_[t].damping * (r / span_) * (r / span_); }  // [W]
 
 private:
-    std::optional<Thread> thread_;
-    std::vector<double> coupling_;
-    double phi_ = 0, inverse_ = 1, theta_cc_ = 0, span_ = 1;
+    std::vector<Thread> laws_;
+    std::vector<double> phi_, inverse_, coupling_, answer_;
+    One one_;
+    int contacts_ = 0;
+    double span_ = 1;
 };
 
 }  // namespace jvari

@@ -52,29 +52,29 @@ template <ObstacleRule Rule>
 class Obstacle {
 public:
     Obstacle() = default;
-    // theta [m/N]: row-major over the points, the contacts first and then the thread where there is one. levels: that a step spans.
-    Obstacle(const Contacts& contacts, const std::optional<Thread>& thread, std::span<const double> theta, double span, int levels)
+    // theta [m/N]: row-major over the points, the contacts first and then the threads. levels: that a step spans.
+    Obstacle(const Contacts& contacts, std::vector<Thread> threads, std::span<const double> theta, double span, int levels)
         : contacts_(contacts),
-          thread_(thread, contacts.count(), theta, span),
-          rule_(contacts.laws, thread_.between_contacts(theta), levels),
-          loss_(contacts, thread_.between_contacts(theta), span),
+          threads_(std::move(threads), contacts.count(), theta, span),
+          rule_(contacts.laws, threads_.between_contacts(theta), levels),
+          loss_(contacts, threads_.between_contacts(theta), span),
           theta_(theta.begin(), theta.end()),
           span_(span),
           levels_(levels) {
         for (auto* v : {&eta_, &now_, &b_, &r_}) v->assign(contacts.count(), 0.0);
-        one_ = contacts.count() == 0 || (contacts.count() == 1 && contacts.loss[0] == 0);
-        threaded_ = thread.has_value();
+        for (auto* v : {&pull_, &from_}) v->assign(threads_.count(), 0.0);
+        one_ = threads_.count() <= 1 && (contacts.count() == 0 || (contacts.count() == 1 && contacts.loss[0] == 0));
+        threaded_ = threads_.count() > 0;
     }
 
-    // The first half step of a three-point scheme, from rest: half the compliances, half the span, no contact loss.
-    Obstacle halved(ThreadStart how) const {
-        std::vector<double> half = theta_;
-        for (double& x : half) x *= 0.5;
+    // The first half step of a three-point scheme, from rest: its own compliances, half the span, no contact loss.
+    Obstacle halved(ThreadStart how, std::span<const double> theta) const {
         Contacts elastic = contacts_;
         std::fill(elastic.loss.begin(), elastic.loss.end(), 0.0);
-        std::optional<Thread> thread = thread_.law();
-        if (thread && how == ThreadStart::taut) thread->damping = 0.25 * thread->stiffness * span_;  // so that phi = k
-        return {elastic, thread, half, 0.5 * span_, levels_};
+        std::vector<Thread> threads = threads_.laws();
+        for (Thread& thread : threads)
+            if (how == ThreadStart::taut) thread.damping = 0.25 * thread.stiffness * span_;  // so that phi = k
+        return {elastic, threads, theta, 0.5 * span_, levels_};
     }
     void put_in_series(const MissingMatrix& missing, int levels) {  // levels: how many of them a step spans
         const double dt = span_ / levels;
@@ -84,14 +84,14 @@ public:
             if (known_before) z.K[i] *= 0.5, z.W[i] *= 0.5;
             theta[i] += z.K[i];
         }
-        if (known_before && thread_.law()) {  // to which D is r of another share: k + 3/2 r_c/dt for phi
+        if (known_before && threaded_) {  // to which D is r of another share: k + 3/2 r_c/dt for phi
             const std::size_t n = z.points - 1;
-            z.on_thread = (thread_.law()->stiffness + 1.5 * thread_.law()->damping / dt) / thread_.phi();
+            z.on_thread = (law().stiffness + 1.5 * law().damping / dt) / threads_.phi(0);
             for (std::size_t a = 0; a <= n; ++a)
                 for (std::size_t c = 0; c <= n; ++c)
                     if (a == n || c == n) theta[a * z.points + c] += (z.on_thread - 1) * z.K[a * z.points + c];
         }
-        *this = Obstacle(Contacts(contacts_), std::optional(thread_.law()), theta, span_, levels_);
+        *this = Obstacle(Contacts(contacts_), std::vector(threads_.laws()), theta, span_, levels_);
         if constexpr (known_before) rule_.put_in_series(yield_alone(z));
         z.span = known_before ? dt : span_;
         series_levels_ = levels;
@@ -102,7 +102,7 @@ public:
     // Of how many levels the potential is known when a row is written.
     int levels_told() const { return series_ && known_before ? 1 : levels_; }
     int contacts() const { return contacts_.count(); }
-    int points() const { return contacts() + (thread_.law() ? 1 : 0); }
+    int points() const { return contacts() + threads_.count(); }
     int dofs() const { return rule_.dofs(); }
     const Rule& rule() const { return rule_; }
 
@@ -135,11 +135,14 @@ public:
         double sum = series_ ? series_->stored(P) : 0;
         const auto at = [&](int a) { return reading[a] + (series_ ? series_->yield(a, P) : 0); };
         for (int a = 0; a < contacts(); ++a) sum += rule_.potential(a, contacts_.heights[a] - at(a));
-        return thread_.law() ? sum + thread_.stored(at(contacts())) : sum;
+        for (int t = 0; t < threads_.count(); ++t) sum += threads_.stored(t, at(contacts() + t));
+        return sum;
     }
-    // Of the last step [W]: of the thread, whose reading moved by r_c, of lossy contacts, of what is in series.
-    double loss(double r_c) const {
-        return thread_.lost(series_ ? series_->thread_moved : r_c) + ((series_ ? series_->lost : 0) + loss_.lost()) / span_;
+    double loss() const {  // of the last step [W]: of threads, of lossy contacts, of what is in series
+        double power = ((series_ ? series_->lost : 0) + loss_.lost()) / span_;
+        for (int t = 0; t < threads_.count(); ++t)
+            power += threads_.lost(t, series_ && known_before ? series_->thread_moved : threads_.moved(t, from_[t], pull_[t]));
+        return power;
     }
     void forces(int level, double* force) const {  // of each point at that level, of what is in series
         if (series_) std::copy(series_->P[level].begin(), series_->P[level].end(), force);
@@ -163,13 +166,15 @@ public:
 
 private:
     static constexpr bool known_before = requires(Rule rule, std::vector<double> S) { rule.put_in_series(S); };
-    // eta of a contact at the level that the step is centred on, as its rule has it (obstacle_rule.hpp).
+    const Thread& law() const { return threads_.laws().front(); }  // what is in series knows of one thread
+    // eta of a contact at the level that the step is centred on, as its rule has it (obstacle_rule.hpp). thread: what the first pulls.
     double centre(int a, const ReadingsBeforeStep& at, double b, double thread) const {
         const double now = contacts_.heights[a] - at.now[a];
         if constexpr (!Rule::centred) return now;
         if (!series_) return levels_ == 1 ? now + 0.5 * b : now;
-        const double S = thread_.law() ? series_->K[a * series_->points + contacts()] : 0;
-        return now - (S + (levels_ == 1 ? 0.5 * (thread_.coupling(a) - series_->on_thread * S) : 0)) * thread;
+        if (!threaded_) return now;
+        const double S = series_->K[a * series_->points + contacts()];
+        return now - (S + (levels_ == 1 ? 0.5 * (threads_.coupling(a, 0) - series_->on_thread * S) : 0)) * thread;
     }
     // S between the contacts, the thread yielding too [m/N].
     std::vector<double> yield_alone(const Residual& z) const {
@@ -178,45 +183,51 @@ private:
         for (int a = 0; a < n; ++a)
             for (int c = 0; c < n; ++c) {
                 S.push_back(z.K[a * z.points + c]);
-                if (thread_.law())
-                    S.back() -= 0.5 * (z.K[a * z.points + n] * thread_.answer(c, 1) + z.K[c * z.points + n] * thread_.answer(a, 1));
+                if (threaded_)
+                    S.back() -= 0.5 * (z.K[a * z.points + n] * threads_.answer(0, c) + z.K[c * z.points + n] * threads_.answer(0, a));
             }
         return S;
     }
 
     // One contact at most, which loses nothing, and a thread at most: the rule's closed form, without a detour by way of memory.
     bool solve_one(const ReadingsBeforeStep& at, double* force) noexcept {
-        const double thread = threaded_ ? thread_.alone(at.older, at.free) : 0;
-        if (contacts_.count() == 0) {
-            if (threaded_) force[0] = thread;
-            return true;
-        }
-        const double eta = contacts_.heights[0] - at.older[0], b = -at.free[0] - thread_.coupling(0) * thread,
-                     now = centre(0, at, b, thread);
-        const BeforeStep before{&eta, &now, &b};
+        const EliminatedThreads::One& t = threads_.one();
+        const int n = contacts_.count();
+        double thread = threaded_ ? t.alone(at.older[n], at.free[n]) : 0;
         bool converged = true;
-        force[0] = 0;
-        if (rule_.acts(before)) {
-            double r = 0;
-            const GramSolution s = rule_.solve(before, &r, force);
-            tally_.force.note(force[0]);
-            tally_.deepest = std::max({tally_.deepest, known_before && series_ ? 0 : contacts_.heights[0] - at.now[0], eta - r});
-            note(s);
-            converged = s.converged;
+        if (n == 1) {
+            const double eta = contacts_.heights[0] - at.older[0], b = -at.free[0] - t.coupling * thread, now = centre(0, at, b, thread);
+            const BeforeStep before{&eta, &now, &b};
+            force[0] = 0;
+            if (rule_.acts(before)) {
+                double r = 0;
+                const GramSolution s = rule_.solve(before, &r, force);
+                tally_.force.note(force[0]);
+                tally_.deepest = std::max({tally_.deepest, known_before && series_ ? 0 : contacts_.heights[0] - at.now[0], eta - r});
+                note(s);
+                converged = s.converged;
+            }
+            thread -= t.answer * force[0];
         }
-        if (threaded_) force[1] = thread - thread_.answer(0, force[0]);
+        if (threaded_) pull(0, at, thread, force);
         return converged;
+    }
+    void pull(int t, const ReadingsBeforeStep& at, double F, double* force) noexcept {
+        const int p = contacts() + t;
+        force[p] = F;
+        from_[t] = at.older[p], pull_[t] = F;
     }
 
     template <bool at_start>
     bool solve_points(const ReadingsBeforeStep& at, double* force) noexcept {
         if (!at_start && one_) return solve_one(at, force);
-        const int n = contacts();
-        double thread = thread_.alone(at.older, at.free);
+        const int n = contacts(), m = threads_.count();
+        threads_.alone(at.older, at.free, pull_.data());
         for (int a = 0; a < n; ++a) {
             eta_[a] = contacts_.heights[a] - at.older[a];
-            b_[a] = -at.free[a] - thread_.coupling(a) * thread;
-            now_[a] = centre(a, at, b_[a], thread);
+            b_[a] = -at.free[a];
+            for (int t = 0; t < m; ++t) b_[a] -= threads_.coupling(a, t) * pull_[t];
+            now_[a] = centre(a, at, b_[a], m > 0 ? pull_[0] : 0);
         }
         const BeforeStep before{eta_.data(), now_.data(), b_.data()};
         bool converged = true;
@@ -232,7 +243,7 @@ private:
                 rule_.set(loss_.undamped());
             }
             for (int a = 0; a < n; ++a) {
-                thread -= thread_.answer(a, force[a]);
+                for (int t = 0; t < m; ++t) pull_[t] -= threads_.answer(t, a) * force[a];
                 tally_.force.note(force[a]);
                 tally_.deepest =
                     std::max({tally_.deepest, known_before && series_ ? 0 : contacts_.heights[a] - at.now[a], eta_[a] - r_[a]});
@@ -241,7 +252,7 @@ private:
         } else {
             for (int a = 0; a < n; ++a) force[a] = 0;
         }
-        if (thread_.law()) force[n] = thread;
+        for (int t = 0; t < m; ++t) pull(t, at, pull_[t], force);
         return converged;
     }
 
@@ -263,7 +274,6 @@ private:
             z.free[a] = at.free[a] - Residual::times(z.K, a, P.data(), n);
         }
         const bool converged = solve_points<false>({z.older.data(), z.now.data(), z.free.data()}, force);
-        if (thread_.law()) z.thread_moved = z.free[n - 1] + Residual::times(theta_, n - 1, force, n);
         for (std::size_t a = 0; a < n; ++a) z.free[a] = force[a] - P[a];
         z.lost = z.lost_in(z.free.data());
         for (std::size_t a = 0; a < n; ++a) P[a] += Residual::times(z.W, a, z.free.data(), n);
@@ -282,7 +292,7 @@ private:
             const double D = Residual::times(z.K, a, z.q.data(), n);
             z.now[a] = at.now[a] + D + (levels_ == 1 ? 0.5 * at.free[a] : 0);
             z.older[a] = at.older[a] + D;
-            z.free[a] = at.free[a] + (thread_.law() && a + 1 == n ? thread_.law()->damping / thread_.phi() * speed(D, a) : 0);
+            z.free[a] = at.free[a] + (threaded_ && a + 1 == n ? law().damping / threads_.phi(0) * speed(D, a) : 0);
         }
         const bool converged = solve_points<false>({z.older.data(), z.now.data(), z.free.data()}, force);
         for (std::size_t a = 0; a < n; ++a) z.q[a] += force[a];
@@ -290,7 +300,7 @@ private:
         for (std::size_t a = 0; a < n; ++a) {
             const double v = speed(Residual::times(z.K, a, z.q.data(), n), a);
             z.lost += span_ * z.R[a] * v * v;
-            if (thread_.law() && a + 1 == n) {
+            if (threaded_ && a + 1 == n) {
                 z.thread_moved = at.free[a] + span_ * v;
                 for (std::size_t c = 0; c < n; ++c) z.thread_moved += (theta_[a * n + c] - z.on_thread * z.K[a * n + c]) * force[c];
             }
@@ -312,10 +322,10 @@ private:
         std::vector<double> q;                 // [N]
         double on_thread = 1;
         double lost = 0;          // in the last step [J]
-        double thread_moved = 0;  // in it [m]
+        double thread_moved = 0;  // in it, of what is known before [m]
     };
     Contacts contacts_;
-    ThreadAmongContacts thread_;
+    EliminatedThreads threads_;
     Rule rule_ = Rule({}, {}, 1);
     ContactLoss loss_;
     std::vector<double> theta_;  // of all points [m/N]
@@ -324,6 +334,7 @@ private:
     bool one_ = false, threaded_ = false;
     std::optional<Series> series_;
     std::vector<double> eta_, now_, b_, r_;
+    std::vector<double> pull_, from_;  // of each thread in the last step: its force [N], the reading it started from [m]
     Tally tally_;
 };
 

@@ -15,36 +15,26 @@
 
 namespace jvari {
 
-// Means of the forces of a string's contacts and of its thread, from row to row.
+// Means of the forces of a string's points, from row to row.
 class RowForces {
 public:
-    RowForces(const StringPoints& p, int levels, int steps)
-        : contacts_(p.contacts.count()), points_(p.count()), levels_(levels), steps_(steps) {}
-    void clear() noexcept { bridge_ = thread_ = 0; }
+    RowForces(int points, int levels, int steps) : sum_(points), mean_(points), levels_(levels), steps_(steps) {}
+    void clear() noexcept { std::fill(sum_.begin(), sum_.end(), 0.0); }
     void count(const double* force) noexcept {
-        bridge_ += bridge(force);
-        thread_ += thread(force);
+        for (std::size_t p = 0; p < sum_.size(); ++p) sum_[p] += force[p];
     }
-    struct Means {
-        double bridge, thread;
-    };
-    Means take(const double* last, bool at_start) noexcept {  // last: the forces of the step in hand
-        const double half_b = levels_ == 2 ? 0.5 * bridge(last) : 0, half_c = levels_ == 2 ? 0.5 * thread(last) : 0;
-        const Means m = at_start ? Means{} : Means{(bridge_ - half_b) / steps_, (thread_ - half_c) / steps_};
-        bridge_ = half_b;
-        thread_ = half_c;
-        return m;
+    const double* take(const double* last, bool at_start) noexcept {  // last: the forces of the step in hand
+        for (std::size_t p = 0; p < sum_.size(); ++p) {
+            const double half = levels_ == 2 ? 0.5 * last[p] : 0;
+            mean_[p] = at_start ? 0 : (sum_[p] - half) / steps_;
+            sum_[p] = half;
+        }
+        return mean_.data();
     }
 
 private:
-    double bridge(const double* force) const noexcept {
-        double sum = 0;
-        for (int a = 0; a < contacts_; ++a) sum += force[a];
-        return sum;
-    }
-    double thread(const double* force) const noexcept { return points_ > contacts_ ? force[contacts_] : 0; }
-    int contacts_, points_, levels_, steps_;
-    double bridge_ = 0, thread_ = 0;  // since the last row [N]
+    std::vector<double> sum_, mean_;  // since the last row [N]
+    int levels_, steps_;
 };
 
 template <StringStep String, ObstacleRule Rule>
@@ -53,9 +43,14 @@ public:
     static constexpr int levels = String::levels;
 
     Driver(std::unique_ptr<String> string, int steps_per_row)
-        : string_(std::move(string)), steps_(steps_per_row), means_(points(), levels, steps_per_row) {
-        obstacle_ = {points().contacts, points().thread, points().theta, levels * points().dt, levels};
-        if constexpr (levels == 2) start_ = obstacle_.halved(string_->thread_start());
+        : string_(std::move(string)), steps_(steps_per_row), means_(points().count(), levels, steps_per_row) {
+        obstacle_ = {points().contacts, points().threads, points().theta, levels * points().dt, levels};
+        if constexpr (levels == 2) {
+            std::vector<double> theta = points().start_theta;
+            for (double x : points().theta)
+                if (points().start_theta.empty()) theta.push_back(0.5 * x);
+            start_ = obstacle_.halved(string_->thread_start(), theta);
+        }
         if (points().series) {
             obstacle_.put_in_series(*points().series, levels);
             if constexpr (levels == 2) start_.put_in_series(*points().series, 1);
@@ -122,7 +117,7 @@ private:
         const Spent spent = string_->pass(force_.data(), 0, probed);
         if (probed) {
             supplied_ += spent.supplied - by_way_of_series(before, n + 1);
-            dissipated_ += spent.dissipated + dt_ * obstacle_.loss(spent.moved);
+            dissipated_ += spent.dissipated + dt_ * obstacle_.loss();
         }
         if (string_->failed() && status_.outcome == Outcome::ok) status_ = {Outcome::diverged, done_};
         ++done_;
@@ -162,8 +157,8 @@ private:
     }
 
     void write(const Block& out, int row) noexcept {
-        const auto [bridge, thread] = means_.take(force_.data(), done_ == 0);
-        string_->write(out, row, bridge, thread);
+        const double* means = means_.take(force_.data(), done_ == 0);
+        for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = string_->tap(k, means);
         if (points().series) {
             obstacle_.forces(0, now_.data());
             for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += points().series->on_tap(k, now_.data(), pluck_at(done_));

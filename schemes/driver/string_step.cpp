@@ -4,7 +4,7 @@ namespace jvari {
 
 StringPoints points_of(const String& s, double dt) {
     StringPoints p;
-    p.thread = s.thread;
+    if (s.thread) p.threads.push_back(*s.thread);
     p.pluck = s.pluck;
     p.mass = s.linear_density * s.length;
     p.length = s.length;

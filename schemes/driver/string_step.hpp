@@ -28,10 +28,11 @@ namespace jvari {
 
 struct StringPoints {  // what a string is to whatever solves for its points
     Contacts contacts;
-    std::optional<Thread> thread;
-    std::vector<double> positions;        // x_p of each point [m]
+    std::vector<Thread> threads;          // one at most, but of strings on a moving body (schemes/body/instrument.hpp)
+    std::vector<double> positions;        // x_p of each point [m], contacts first
     std::vector<double> theta;            // row-major over the points, and then the moving body where there is one: [m/N], with the body
                                           // [s^2], of the body alone [kg s^2]
+    std::vector<double> start_theta;      // of the first half step of a three-point scheme; empty: half of theta
     std::optional<MissingMatrix> series;  // in series with the points, compliance=matched
     std::optional<Pluck> pluck;           //
     double mass = 0, length = 0, tension = 0;  // mu L [kg], L [m], T [N]
@@ -41,13 +42,25 @@ struct StringPoints {  // what a string is to whatever solves for its points
 StringPoints points_of(const String&, double dt);  // without positions, contacts and theta
 void add_lumped(StringPoints&, const String&);     // its barriers, which all are lumped, and its thread
 
+// What a tap of contact forces hears of their means since the last row [N]; 0 of any other quantity.
+inline double heard_force(Quantity quantity, const StringPoints& p, const double* mean) {
+    double bridge = 0, thread = 0;
+    for (int a = 0; a < p.contacts.count(); ++a) bridge += mean[a];
+    for (int k = p.contacts.count(); k < p.count(); ++k) thread += mean[k];
+    switch (quantity) {
+        case Quantity::bridge_force: return bridge;
+        case Quantity::thread_force: return thread;
+        case Quantity::driving_force: return -(bridge + thread);
+        default: return 0;
+    }
+}
+
 struct Spent {                            // of one step
     double supplied = 0, dissipated = 0;  // by the pluck, and by the string's own losses [J]
-    double moved = 0;                     // r of the last point [m]
 };
 
 template <class S>
-concept StringStep = requires(S string, const S known, const double* force, double* out, const Block& block) {
+concept StringStep = requires(S string, const S known, const double* force, double* out) {
     { S::levels } -> std::convertible_to<int>;                 // 1 or 2
     { S::steps_between_looks } -> std::convertible_to<long>;   // (Block::stopped)
     { known.points() } -> std::same_as<const StringPoints&>;   //
@@ -58,7 +71,7 @@ concept StringStep = requires(S string, const S known, const double* force, doub
     string.reading(0, out);                                    // of the points at the instant of the row; 1: one step later
     { string.stored() } -> std::same_as<double>;               // [J], without the points' potential
     { string.failed() } -> std::same_as<bool>;                 // has diverged
-    string.write(block, 0, 0.0, 0.0);                          // a row of taps; the means of the forces of contacts and thread
+    { string.tap(0, force) } -> std::same_as<double>;          // tap k of the row; the means of the points' forces since the last one
     { known.dofs() } -> std::same_as<int>;                     //
     { known.facts() } -> std::same_as<std::vector<Fact>>;      //
     { known.free_modes() } -> std::same_as<std::vector<FreeMode>>;  //

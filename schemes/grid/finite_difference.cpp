@@ -338,10 +338,9 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
         g.narrowest = g.narrowest == 0 ? s.thread->width / grid.dx : std::min(g.narrowest, s.thread->width / grid.dx);
     }
     if (s.pluck) g.pluck_stencil = footprint_stencil(grid, s.pluck->position, s.pluck->width);
-    for (std::size_t k = 0; k < scene.taps.size(); ++k) {
-        const Tap& tap = scene.taps[k];
+    for (const Tap& tap : scene.taps) {
         const bool of_a_point = tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
-        GridTap t{static_cast<int>(k), tap.quantity, {}};
+        GridTap t{tap.quantity, {}};
         if (of_a_point) t.stencil = displacement_stencil(grid, tap.position);
         if (tap.quantity == Quantity::nut_force) t.stencil = nut_force_stencil(grid, s);
         g.taps.push_back(t);

@@ -83,9 +83,8 @@ Grid grid_of(const Descriptor&, const String&, double intervals);             //
 // ---- A string of the scene on its grid.
 
 struct GridTap {
-    int column = 0;
-    Quantity quantity = Quantity::displacement;
-    Stencil stencil;  // displacement, velocity and nut_force
+    Quantity quantity;
+    Stencil stencil;  // none of a contact force; else not empty
 };
 struct GridString {
     Grid grid;

@@ -1,4 +1,4 @@
-// What strings on a grid write and sum, each by its own steps: three_point_string.hpp, midpoint_string.hpp.
+// What strings on a grid sum and tell, each by its own steps: three_point_string.hpp, midpoint_string.hpp.
 #pragma once
 
 #include <algorithm>
@@ -33,23 +33,6 @@ Squares squares(const Grid& g, At at) noexcept {
 // What a unit of force at each place moves every place: places x places, symmetric to the last bit. responses: what the scheme's solve
 // makes of each place, gain: times that.
 std::vector<double> compliances(const std::vector<Stencil>& places, const std::vector<Stencil>& responses, double gain, const Grid&);
-
-// A row of taps: u its nodes, velocity(stencil) what a stencil reads of theirs, the means of its contact forces.
-template <class Velocity>
-void write_taps(const Block& out, int row, const std::vector<GridTap>& taps, const double* u, Velocity velocity, double bridge,
-                double thread) noexcept {
-    for (const GridTap& tap : taps) {
-        double& cell = out.tap[tap.column * out.stride + row];
-        switch (tap.quantity) {
-            case Quantity::displacement:
-            case Quantity::nut_force: cell = tap.stencil.read(u); break;
-            case Quantity::velocity: cell = velocity(tap.stencil); break;
-            case Quantity::bridge_force: cell = bridge; break;
-            case Quantity::thread_force: cell = thread; break;
-            case Quantity::driving_force: cell = -(bridge + thread); break;
-        }
-    }
-}
 
 // Facts that every string on a grid reports.
 std::vector<Fact> grid_facts(const GridString&);

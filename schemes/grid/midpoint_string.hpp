@@ -73,10 +73,7 @@ public:
             spent.supplied = F_e_ * g_.pluck_stencil.read(s_);
             budget_ += std::max(spent.supplied, 0.0);
         }
-        if (probed) {
-            spent.dissipated = dt_ * loss();
-            if (!g_.stencils.empty()) spent.moved = g_.stencils.back().read(s_);
-        }
+        if (probed) spent.dissipated = dt_ * loss();
         move_(g_.grid.intervals, y_, q_, s_);
         ++step_;
         if (step_ % divergence_check == 0 && !(kinetic() <= divergence_factor * budget_ + 1e-30)) diverged_ = true;
@@ -91,9 +88,10 @@ public:
         const Squares d = squares(g_.grid, [y = y_](int l) { return y[l]; });
         return kinetic() + 0.5 * g_.mass * (g_.c2 * d.slope + g_.kappa2 * d.curve);
     }
-    void write(const Block& out, int row, double bridge, double thread) const noexcept {
-        const auto velocity = [&](const Stencil& at) { return at.read(q_) * 2 / dt_; };
-        write_taps(out, row, g_.taps, y_, velocity, bridge, thread);
+    double tap(int k, const double* mean) const noexcept {
+        const GridTap& t = g_.taps[k];
+        if (t.stencil.weight.empty()) return heard_force(t.quantity, g_.points, mean);
+        return t.quantity == Quantity::velocity ? t.stencil.read(q_) * 2 / dt_ : t.stencil.read(y_);
     }
     int dofs() const { return 2 * (g_.grid.intervals - 1); }
     std::vector<Fact> facts() const { return grid_facts(g_); }

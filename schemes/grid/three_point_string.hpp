@@ -121,10 +121,7 @@ public:
             spent.supplied = 0.5 * F_e_ * (g_.pluck_stencil.read(next) - g_.pluck_stencil.read(before));
             budget_ += std::max(spent.supplied, 0.0);
         }
-        if (probed) {
-            spent.dissipated = dt_ * loss();
-            if (!g_.stencils.empty()) spent.moved = g_.stencils.back().read(next) - older_.back();
-        }
+        if (probed) spent.dissipated = dt_ * loss();
         if (step_ % divergence_check == 0 && !(kinetic(0, 0) <= divergence_factor * budget_ + 1e-30)) diverged_ = true;
         return spent;
     }
@@ -145,10 +142,11 @@ public:
         const double h2 = g_.grid.dx * g_.grid.dx;
         return kinetic(m_, m4_) + 0.5 * g_.mass * (g_.c2 * slope + g_.kappa2 / h2 * curve) / h2;
     }
-    void write(const Block& out, int row, double bridge, double thread) const noexcept {
-        const double *before = level_[0], *next = level_[2];
-        const auto velocity = [&](const Stencil& at) { return (at.read(next) - at.read(before)) / (2 * dt_); };
-        write_taps(out, row, g_.taps, level_[1], velocity, bridge, thread);
+    double tap(int k, const double* mean) const noexcept {
+        const GridTap& t = g_.taps[k];
+        if (t.stencil.weight.empty()) return heard_force(t.quantity, g_.points, mean);
+        if (t.quantity == Quantity::velocity) return (t.stencil.read(level_[2]) - t.stencil.read(level_[0])) / (2 * dt_);
+        return t.stencil.read(level_[1]);
     }
     int dofs() const { return 2 * (g_.grid.intervals - 1); }
     std::vector<Fact> facts() const {

@@ -143,11 +143,12 @@ public:
         m_.taps = taps_;
         if (matched) put_in_series(descriptor, scene, modes, A);
         if (s.thread) {
-            const EliminatedThread thread(m_.k_c, m_.k_c / 2 + m_.r_c / m_.dt, m_.theta, m_.theta_bc, m_.theta_cc);
-            m_.phi_c = thread.phi;
-            m_.inverse_c = thread.inverse;
-            m_.beta_c = thread.beta;
-            m_.theta = thread.theta;
+            const double theta[] = {m_.theta, m_.theta_bc, m_.theta_bc, m_.theta_cc};
+            const EliminatedThreads thread({*s.thread}, 1, theta, m_.dt);
+            m_.phi_c = thread.one().phi;
+            m_.inverse_c = thread.one().inverse;
+            m_.beta_c = thread.one().answer;
+            m_.theta = thread.between_contacts(theta).front();
         }
         const ContactKind kind = !g_b_ ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
         advance_ = two_point_kernel(kind, g_c_ != nullptr, matched ? Compliance::matched : Compliance::own);

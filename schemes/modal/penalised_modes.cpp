@@ -20,8 +20,9 @@ PenalisedModes::Sides PenalisedModes::sides() const {
         points().series ? Residual(*points().series, 0.5 * points().dt) : Residual();  // whose K is 2 C (1 + 4 R C/dt)^-1
     const auto C = [&yields, n](int a, int b) { return yields.K.empty() ? 0 : 0.5 * yields.K[a * n + b]; };
     Sides of{1 / points().contacts.laws[0].k + C(0, 0), G[0]};
-    if (const auto& thread = points().thread) {
-        const double k = thread->stiffness, kappa = k + (points().series ? 4 * thread->damping / points().dt : 0);
+    if (!points().threads.empty()) {
+        const Thread& thread = points().threads.front();
+        const double k = thread.stiffness, kappa = k + (points().series ? 4 * thread.damping / points().dt : 0);
         const double all = 1 + k * G[3] + kappa * C(1, 1);
         of.contact -= (kappa * C(0, 1) + (k - kappa) * G[1]) * C(0, 1) / all;
         of.string -= k * G[1] * G[1] / all;

@@ -119,8 +119,18 @@ public:
         }
         return 0.5 * H / (p_.dt * p_.dt);
     }
-    void write(const Block& out, int row, double bridge, double thread) const noexcept {
-        for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = value(readings_[k], bridge, thread);
+    double tap(int k, const double* mean) const noexcept {
+        const TapReading& r = readings_[k];
+        const auto read = [](const AlignedVector& w, const AlignedVector& x) {
+            return pass_dot(w.data(), x.data(), static_cast<int>(x.size()));
+        };
+        if (r.displacement.size() == 0) return heard_force(r.quantity, p_.points, mean);
+        if (r.quantity != Quantity::velocity) return read(r.displacement, form_.levels.displacement);
+        if (step_ == 0) return 0;
+        double v = read(r.displacement, form_.levels.displacement) + read(r.increment, form_.levels.increment);
+        if (differenced_) v += read(r.kept, form_.levels.kept);
+        for (std::size_t z = 0; z < r.force.size(); ++z) v += r.force[z] * force_[z] + r.earlier_force[z] * earlier_force_[z];
+        return v;
     }
 
     int dofs() const { return 2 * p_.update.modes(); }
@@ -212,8 +222,6 @@ private:
             for (int j = 0; j < p_.modes.count(); ++j) spent.supplied += g[j] * (modal_coming_[j] + modal_last_[j]);
             spent.supplied *= 0.5 * F_e;
         }
-        const int last = p_.points.count() - 1;
-        if (last >= 0) spent.moved = coming_[last] - older_[last];
         return spent;
     }
 
@@ -243,24 +251,6 @@ private:
             r.earlier_force.push_back(inner(earlier, port.weights));
         }
         return r;
-    }
-    double value(const TapReading& r, double bridge, double thread) const {
-        const auto read = [](const AlignedVector& w, const AlignedVector& x) {
-            return pass_dot(w.data(), x.data(), static_cast<int>(x.size()));
-        };
-        switch (r.quantity) {
-            case Quantity::bridge_force: return bridge;
-            case Quantity::thread_force: return thread;
-            case Quantity::driving_force: return -(bridge + thread);
-            case Quantity::displacement:
-            case Quantity::nut_force: return read(r.displacement, form_.levels.displacement);
-            case Quantity::velocity: break;
-        }
-        if (step_ == 0) return 0;
-        double v = read(r.displacement, form_.levels.displacement) + read(r.increment, form_.levels.increment);
-        if (differenced_) v += read(r.kept, form_.levels.kept);
-        for (std::size_t z = 0; z < r.force.size(); ++z) v += r.force[z] * force_[z] + r.earlier_force[z] * earlier_force_[z];
-        return v;
     }
 
 protected:

@@ -94,7 +94,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
     if (p_.contacts.count() <= 1 && !on_body) {
         a_ = loss_;
         for (std::size_t i = 0; i < a_.size(); ++i) a_[i] = 2 - loss_[i] - c_[i];
-        const bool barrier = p_.contacts.count() == 1, thread = p_.thread.has_value();
+        const bool barrier = p_.contacts.count() == 1, thread = !p_.threads.empty();
         const double *g_b = barrier ? g_.front().data() : nullptr, *g_c = thread ? g_.back().data() : nullptr;
         fused_ = {static_cast<int>(size), y_.data(), u_.data(), a_.data(), c_.data(), g_b, g_c, g_b, g_c, g_e_.data()};
         unplucked_ = two_point_pass(barrier, thread, false);
@@ -146,17 +146,16 @@ Spent TwoPointModes::pass(const double* force, double a, bool probed) noexcept {
         const double s = u_[i] + push_[i];
         spent.dissipated += 0.5 * loss_[i] * s * s;
         if (F_e_ != 0) spent.supplied += F_e_ * g_e_[i] * s;
-        if (p_.thread) spent.moved += g_.back()[i] * s;
     }
     ++step_;
     if (unplucked_) {
         const std::size_t c = p_.contacts.count();
         fused_.F_b = c == 1 ? force[0] : 0;
-        fused_.F_c = p_.thread ? force[c] : 0;
+        fused_.F_c = p_.threads.empty() ? 0 : force[c];
         fused_.F_e = F_e_;
         (F_e_ != 0 ? plucked_ : unplucked_)(fused_);
         if (c == 1) older_[0] = fused_.x_b, free_[0] = fused_.v_b;
-        if (p_.thread) older_[c] = fused_.x_c, free_[c] = fused_.v_c;
+        if (!p_.threads.empty()) older_[c] = fused_.x_c, free_[c] = fused_.v_c;
         return spent;
     }
     for (std::size_t i = 0; i < y_.size(); ++i) {
@@ -191,20 +190,11 @@ double TwoPointModes::momentum() const {  // v = 2q/dt
     return 2 / dt_ * sum;
 }
 
-void TwoPointModes::write(const Block& out, int row, double bridge, double thread) const noexcept {
+double TwoPointModes::tap(int k, const double* mean) const noexcept {
     const auto read = [](const ModalArray& w, const ModalArray& x) { return pass_dot(w.data(), x.data(), static_cast<int>(x.size())); };
-    for (int k = 0; k < out.taps; ++k) {
-        double& cell = out.tap[k * out.stride + row];
-        const TapOfModes& t = taps_[k];
-        switch (t.quantity) {
-            case Quantity::displacement:
-            case Quantity::nut_force: cell = read(t.on_y, y_); break;
-            case Quantity::velocity: cell = read(t.on_y, y_) + read(t.on_u, u_); break;
-            case Quantity::bridge_force: cell = bridge; break;
-            case Quantity::thread_force: cell = thread; break;
-            case Quantity::driving_force: cell = -(bridge + thread); break;
-        }
-    }
+    const TapOfModes& t = taps_[k];
+    if (t.on_y.empty()) return heard_force(t.quantity, p_, mean);
+    return t.on_u.empty() ? read(t.on_y, y_) : read(t.on_y, y_) + read(t.on_u, u_);
 }
 
 std::vector<Fact> TwoPointModes::facts() const {

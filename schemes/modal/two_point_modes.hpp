@@ -35,7 +35,7 @@ public:
     void reading(int, double* out) const noexcept;
     double stored() const noexcept;  // (49)
     bool failed() const { return !(std::abs(sum_) < modal_overflow); }
-    void write(const Block&, int row, double bridge, double thread) const noexcept;
+    double tap(int k, const double* mean) const noexcept;
     int dofs() const { return 2 * count_; }
     std::vector<Fact> facts() const;
     std::vector<FreeMode> free_modes() const { return free_modes_; }

@@ -5,7 +5,7 @@
 // outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ - u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al.
 // 2016, eqs 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two polarisations.
 // On a body that moves (schemes/body) the points of all strings are solved for together, coupled as they may be, and its acceleration is
-// one more force; a lossy contact then loses by the force at the older level, and the first half step takes the mean of its two levels.
+// one more force.
 //
 // Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from the string's compliance stands in series
 // with contacts and thread (contact/compliance.hpp, contact/obstacle.hpp), which may then be coupled; profiles are touched at points of

@@ -14,6 +14,7 @@ struct Points {
     std::optional<Thread> thread;
     std::vector<double> theta;  // [m/N], a row for each point
     int count() const { return contacts.count() + (thread ? 1 : 0); }
+    std::vector<Thread> threads() const { return thread ? std::vector{*thread} : std::vector<Thread>{}; }
 };
 
 // Theta of five modes whose weights lie within `most` of 0.

@@ -35,7 +35,7 @@ void balances(int levels, bool threaded, double beta) {
     for (int draw = 0; draw < 200; ++draw) {
         const Points p = points_of(random, threaded, beta);
         const int n = p.count();
-        Obstacle<Rule> obstacle(p.contacts, p.thread, p.theta, span, levels);
+        Obstacle<Rule> obstacle(p.contacts, p.threads(), p.theta, span, levels);
         std::vector<double> older(n), now(n), free(n), force(n), newer(n);
         for (int k = 0; k < n; ++k) {
             older[k] = 1e-4 * unit(random);
@@ -53,7 +53,7 @@ void balances(int levels, bool threaded, double beta) {
             // of three-point steps psi has half the weight of the thread's two levels
             work += force[k] * moved * (levels == 2 && k < many && obstacle.dofs() > 0 ? 0.5 : 1);
         }
-        double lost = span * obstacle.loss(threaded ? newer.back() - older.back() : 0);
+        double lost = span * obstacle.loss();
         if (levels == 2 && obstacle.dofs() > 0) {  // psi's share of the losses likewise
             const double of_thread = threaded ? p.thread->damping * std::pow(newer.back() - older.back(), 2) / span : 0;
             lost = of_thread + 0.5 * (lost - of_thread);
@@ -81,7 +81,9 @@ TEST(Obstacle, ATautThreadStartsByItsForceAtTheNewerLevel) {  // u- = u+: k (h -
     std::mt19937 random(4);
     const Points p = points_of(random, true, 0);
     const int n = p.count();
-    Obstacle<GradientRule> start = Obstacle<GradientRule>(p.contacts, p.thread, p.theta, span, 2).halved(ThreadStart::taut);
+    std::vector<double> half = p.theta;
+    for (double& theta : half) theta *= 0.5;
+    Obstacle<GradientRule> start = Obstacle<GradientRule>(p.contacts, p.threads(), p.theta, span, 2).halved(ThreadStart::taut, half);
     const std::vector<double> older(n, 2e-4), free(n, -3e-4);
     std::vector<double> force(n);
     start.begin(older.data());

@@ -51,7 +51,7 @@ TEST(RigidRule, ItGivesBackAllThatItTakesNeverPullsAndLetsNothingThrough) {
         for (const int contacts : {1, many}) {
             std::mt19937 random(3);
             const Points p = points_of(random, contacts, rigid, threaded);
-            Obstacle<RigidRule> obstacle(p.contacts, p.thread, p.theta, span, 1);
+            Obstacle<RigidRule> obstacle(p.contacts, p.threads(), p.theta, span, 1);
             int strikes = 0, throws_back = 0;
             double before = threaded ? 0.5 * p.thread->stiffness * p.thread->height * p.thread->height : 0;  // no wall is touched yet
             walk(obstacle, p, [&](int step, const auto& y, const auto& r, const auto& force) {
@@ -62,7 +62,7 @@ TEST(RigidRule, ItGivesBackAllThatItTakesNeverPullsAndLetsNothingThrough) {
                     after_y[k] = y[k] + r[k];
                 }
                 const double after = obstacle.potential(after_y);
-                const double lost = span * obstacle.loss(threaded ? r.back() : 0);
+                const double lost = span * obstacle.loss();
                 EXPECT_NEAR(work, before - after - lost, 1e-12 * (size + before + after)) << step;
                 before = after;
                 for (int a = 0; a < contacts; ++a) {
@@ -83,7 +83,7 @@ TEST(RigidRule, IsWhatTheDiscreteGradientTendsToAsTheBarrierStiffens) {
         const auto motion = [&](auto* rule, double k) {
             std::mt19937 random(3);
             const Points p = points_of(random, contacts, k, true);
-            Obstacle<std::remove_pointer_t<decltype(rule)>> obstacle(p.contacts, p.thread, p.theta, span, 1);
+            Obstacle<std::remove_pointer_t<decltype(rule)>> obstacle(p.contacts, p.threads(), p.theta, span, 1);
             std::vector<double> all;
             walk(obstacle, p, [&](int step, const auto& y, const auto&, const auto&) {
                 if (step < 60) all.insert(all.end(), y.begin(), y.end());

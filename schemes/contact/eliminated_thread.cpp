@@ -1,0 +1,39 @@
+#include "schemes/contact/eliminated_thread.hpp"
+
+#include <Eigen/LU>
+
+namespace jvari {
+
+EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts, std::span<const double> theta, double span)
+    : laws_(std::move(threads)), contacts_(contacts), span_(span) {
+    const int n = contacts, m = count(), all = n + m;
+    if (m == 0) return;
+    for (const Thread& t : laws_) phi_.push_back(0.5 * t.stiffness + t.damping / span);
+    Eigen::MatrixXd give = Eigen::MatrixXd::Identity(m, m), across(m, n);
+    for (int t = 0; t < m; ++t) {
+        for (int u = 0; u < m; ++u) give(t, u) += phi_[t] * theta[(n + t) * all + n + u];
+        for (int a = 0; a < n; ++a) across(t, a) = phi_[t] * theta[(n + t) * all + a];
+    }
+    const Eigen::MatrixXd inverse = give.inverse(), answer = inverse * across;
+    for (int t = 0; t < m; ++t) {
+        for (int u = 0; u < m; ++u) inverse_.push_back(inverse(t, u));
+        for (int a = 0; a < n; ++a) answer_.push_back(answer(t, a));
+    }
+    for (int a = 0; a < n; ++a)
+        for (int t = 0; t < m; ++t) coupling_.push_back(theta[a * all + n + t]);
+    one_ = {laws_[0].stiffness, laws_[0].height, phi_[0], inverse_[0], n > 0 ? coupling_[0] : 0, n > 0 ? answer_[0] : 0};
+}
+
+std::vector<double> EliminatedThreads::between_contacts(std::span<const double> theta) const {
+    const int n = contacts_, all = n + count();
+    std::vector<double> between(static_cast<std::size_t>(n) * n);
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b <= a; ++b) {  // symmetric to the last bit
+            double sum = theta[static_cast<std::size_t>(a) * all + b];
+            for (int t = 0; t < count(); ++t) sum -= coupling(a, t) * answer(t, b);
+            between[static_cast<std::size_t>(a) * n + b] = between[static_cast<std::size_t>(b) * n + a] = sum;
+        }
+    return between;
+}
+
+}  // namespace jvari
