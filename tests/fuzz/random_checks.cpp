@@ -12,6 +12,7 @@
 #include "reference/oversampled.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
+#include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -135,7 +136,7 @@ void Tally::add(const Tally& t) {
 }
 
 void check_schemes(const RandomCase& c, Tally& tally, const Finding& finding, const std::function<void(const std::string&)>& at) {
-    for (const auto& table : {schemes(), references()})
+    for (const auto& table : {schemes(), std::span(schemes_of_pairings()), references()})
         for (const Descriptor& d : table) try {
                 at(d.name);
                 check_run(d, c, tally, finding);
