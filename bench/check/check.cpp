@@ -37,18 +37,6 @@ std::string scenes_text(const Count& n) {
     const int bad = n.broken + n.excused;  // of one scheme either
     return bad > 0 ? fmt::format("{} of {} scenes", bad, bad + n.kept) : fmt::format("{} scenes", n.kept);
 }
-
-std::string escaped(const std::string& text) {
-    std::string xml;
-    for (const char c : text) switch (c) {
-            case '&': xml += "&amp;"; break;
-            case '<': xml += "&lt;"; break;
-            case '>': xml += "&gt;"; break;
-            case '"': xml += "&quot;"; break;
-            default: xml += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    return xml;
-}
 }  // namespace
 
 bool Checked::broken() const {
@@ -125,12 +113,13 @@ std::string junit_of(const std::vector<Checked>& all) {
         };
         double seconds = 0;
         for (const Answered& a : c.answers) seconds += a.seconds;
-        text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n", escaped(c.scheme),
-                            c.answers.size(), number(Answer::broken), number(Answer::excused) + number(Answer::not_asked), seconds);
+        text +=
+            fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n", store::escaped(c.scheme),
+                        c.answers.size(), number(Answer::broken), number(Answer::excused) + number(Answer::not_asked), seconds);
         for (const Answered& a : c.answers) {
-            text += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\"", escaped(c.scheme), a.promise->name,
-                                escaped(a.scene.empty() ? a.promise->sentence : a.scene), a.seconds);
-            const std::string why = escaped(a.verdict.why);
+            text += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\"", store::escaped(c.scheme), a.promise->name,
+                                store::escaped(a.scene.empty() ? a.promise->sentence : a.scene), a.seconds);
+            const std::string why = store::escaped(a.verdict.why);
             if (a.verdict.answer == Answer::broken) text += fmt::format("><failure message=\"{}\"/></testcase>\n", why);
             else if (a.verdict.answer != Answer::kept) text += fmt::format("><skipped message=\"{}\"/></testcase>\n", why);
             else text += "/>\n";

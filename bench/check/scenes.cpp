@@ -72,43 +72,24 @@ Scene with(Feature feature, Scene scene) {
     return scene;
 }
 
-struct Change {  // of a string: false where there is nothing to change
-    String& s;
-    bool bending_stiffness() { return s.bending_stiffness *= 2, true; }
-    bool damping() { return s.damping = NoDamping{}, true; }
-    bool frequency_dependent_damping() {  // what all modes have in common stays
-        if (auto* p = std::get_if<PolynomialDamping>(&s.damping)) return p->sigma1 = p->sigma3 = 0, true;
-        if (auto* q = std::get_if<QualityFactorDamping>(&s.damping)) return q->viscoelastic_angle *= 2, true;
-        if (auto* t = std::get_if<TableDamping>(&s.damping)) return t->decay_rate.back() *= 2, true;
-        return false;
-    }
-    bool measured_modes() {
-        auto* t = std::get_if<TableDamping>(&s.damping);
-        if (!t) return false;
-        for (double& f : t->frequency_hz) f *= 1.01;
-        return true;
-    }
-    template <class Kind>
-    bool without() {
-        return std::erase_if(s.barriers, [](const Barrier& b) { return std::holds_alternative<Kind>(b); }) > 0;
-    }
-    bool several_barriers(bool first) {
-        if (s.barriers.size() < 2) return false;
-        s.barriers.erase(first ? s.barriers.begin() : s.barriers.end() - 1);
-        return true;
-    }
-    template <class Do>
-    bool each_barrier(Do change) {
-        for (Barrier& b : s.barriers) std::visit(change, b);
-        return !s.barriers.empty();
-    }
-    bool thread(double factor) { return s.thread && (s.thread->stiffness *= factor, true); }
-    bool initial_shape() {
-        return s.initial && (std::visit([](auto& i) { i.amplitude *= 1.1; }, *s.initial), true);
-    }
-    bool pluck() { return s.pluck && (s.pluck->amplitude *= 1.1, true); }
-    bool polarisation() { return s.polarisation && (s.polarisation->rotation += 0.2, s.polarisation->pluck_angle += 0.2, true); }
-};
+bool with_other_losses_of_high_modes(String& s) {  // what all modes have in common stays; false where there is nothing to change
+    if (auto* p = std::get_if<PolynomialDamping>(&s.damping)) return p->sigma1 = p->sigma3 = 0, true;
+    if (auto* q = std::get_if<QualityFactorDamping>(&s.damping)) return q->viscoelastic_angle *= 2, true;
+    if (auto* t = std::get_if<TableDamping>(&s.damping)) return t->decay_rate.back() *= 2, true;
+    return false;
+}
+
+bool with_other_frequencies(String& s) {
+    auto* t = std::get_if<TableDamping>(&s.damping);
+    if (!t) return false;
+    for (double& f : t->frequency_hz) f *= 1.01;
+    return true;
+}
+
+template <class Kind>
+bool rid_of(String& s) {
+    return std::erase_if(s.barriers, [](const Barrier& b) { return std::holds_alternative<Kind>(b); }) > 0;
+}
 }  // namespace
 
 Scene string_at_rest() {
@@ -161,29 +142,40 @@ std::vector<Scene> scenes_with(Feature feature) {
 
 std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
     std::vector<Scene> all;
-    const auto add = [&](auto change) {
+    const auto add = [&](auto change) {  // of a string, where there are several of one of them: false where there is nothing to change
         Scene other = scene;
-        Change last{other.strings.back()};  // where there are several strings, one of them
-        if (change(last)) all.push_back(std::move(other));
+        if (change(other.strings.back())) all.push_back(std::move(other));
+    };
+    const auto each_barrier = [&add](auto change) {
+        add([change](String& s) {
+            for (Barrier& b : s.barriers) std::visit(change, b);
+            return !s.barriers.empty();
+        });
     };
     switch (feature) {
-        case Feature::bending_stiffness: add([](Change& c) { return c.bending_stiffness(); }); break;
-        case Feature::damping: add([](Change& c) { return c.damping(); }); break;
-        case Feature::frequency_dependent_damping: add([](Change& c) { return c.frequency_dependent_damping(); }); break;
-        case Feature::measured_modes: add([](Change& c) { return c.measured_modes(); }); break;
-        case Feature::lumped_barrier: add([](Change& c) { return c.without<LumpedBarrier>(); }); break;
-        case Feature::profile_barrier: add([](Change& c) { return c.without<ProfileBarrier>(); }); break;
+        case Feature::bending_stiffness: add([](String& s) { return s.bending_stiffness *= 2, true; }); break;
+        case Feature::damping: add([](String& s) { return s.damping = NoDamping{}, true; }); break;
+        case Feature::frequency_dependent_damping: add(with_other_losses_of_high_modes); break;
+        case Feature::measured_modes: add(with_other_frequencies); break;
+        case Feature::lumped_barrier: add(rid_of<LumpedBarrier>); break;
+        case Feature::profile_barrier: add(rid_of<ProfileBarrier>); break;
         case Feature::several_barriers:
-            add([](Change& c) { return c.several_barriers(false); });
-            add([](Change& c) { return c.several_barriers(true); });
+            for (const bool first : {false, true})
+                add([first](String& s) {
+                    return s.barriers.size() > 1 && (s.barriers.erase(first ? s.barriers.begin() : s.barriers.end() - 1), true);
+                });
             break;
-        case Feature::power_law_contact: add([](Change& c) { return c.each_barrier([](auto& b) { b.exponent += 0.25; }); }); break;
-        case Feature::contact_loss: add([](Change& c) { return c.each_barrier([](auto& b) { b.contact_loss *= 2; }); }); break;
-        case Feature::thread: add([](Change& c) { return c.thread(0.5); }); break;
-        case Feature::initial_shape: add([](Change& c) { return c.initial_shape(); }); break;
-        case Feature::pluck: add([](Change& c) { return c.pluck(); }); break;
-        case Feature::polarisation: add([](Change& c) { return c.polarisation(); }); break;
-        case Feature::rigid_barrier: add([](Change& c) { return c.each_barrier([](auto& b) { b.stiffness = {1e5}; }); }); break;
+        case Feature::power_law_contact: each_barrier([](auto& b) { b.exponent += 0.25; }); break;
+        case Feature::contact_loss: each_barrier([](auto& b) { b.contact_loss *= 2; }); break;
+        case Feature::thread: add([](String& s) { return s.thread && (s.thread->stiffness *= 0.5, true); }); break;
+        case Feature::initial_shape:
+            add([](String& s) { return s.initial && (std::visit([](auto& i) { i.amplitude *= 1.1; }, *s.initial), true); });
+            break;
+        case Feature::pluck: add([](String& s) { return s.pluck && (s.pluck->amplitude *= 1.1, true); }); break;
+        case Feature::polarisation:
+            add([](String& s) { return s.polarisation && (s.polarisation->rotation += 0.2, s.polarisation->pluck_angle += 0.2, true); });
+            break;
+        case Feature::rigid_barrier: each_barrier([](auto& b) { b.stiffness = {1e5}; }); break;
         case Feature::moving_body:
             all.push_back(scene);
             for (BodyMode& m : all.back().body->modes) m.stiffness *= 2;

@@ -117,11 +117,8 @@ std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>
     for (const std::string& text : texts) {
         const auto equals = text.find('=');
         if (equals == std::string::npos || equals == 0) throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
-        const std::string key = text.substr(0, equals);
-        const auto colon = key.find(':');
-        compare::SchemeOption o{colon == std::string::npos ? "" : key.substr(0, colon),
-                                colon == std::string::npos ? key : key.substr(colon + 1), text.substr(equals + 1)};
-        if (o.name.empty() || colon == 0) throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
+        auto o = compare::SchemeOption::of(text.substr(0, equals), text.substr(equals + 1));
+        if (o.name.empty() || text.front() == ':') throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
         options.push_back(std::move(o));
     }
     return options;

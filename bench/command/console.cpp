@@ -66,45 +66,32 @@ std::optional<std::size_t> columns_of(int terminal) {
     return size.ws_col;
 }
 
-class OnTerminal : public store::Progress {
+// On a terminal a line that renews itself, elsewhere one line a minute.
+class Line : public store::Progress {
 public:
-    explicit OnTerminal(std::string job) : job_(std::move(job)) {}
-    ~OnTerminal() override {
+    explicit Line(std::string job) : job_(std::move(job)) {}
+    ~Line() override {
         if (shown_) clear_line();
     }
     void show(double fraction, const std::string& what) override {
         const auto now = std::chrono::steady_clock::now();
-        if (now - start_ < 2s || now - last_ < 200ms) return;
+        if (now - start_ < 2s || now - last_ < pause_) return;
         last_ = now;
-        const store::Undisturbed line;
+        const std::string line = fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what);
+        if (!terminal_) return tell(line);
+        const store::Undisturbed whole;
         if (!shown_) shown_.emplace(clear_line);
         // a line that wraps could not be renewed
-        std::fputs(
-            ("\r\033[K" + fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what).substr(0, columns_of(STDERR_FILENO).value_or(80) - 1))
-                .c_str(),
-            stderr);
+        std::fputs(("\r\033[K" + line.substr(0, columns_of(STDERR_FILENO).value_or(80) - 1)).c_str(), stderr);
         std::fflush(stderr);
     }
 
 private:
     std::string job_;
+    const bool terminal_ = isatty(STDERR_FILENO) != 0;
+    const std::chrono::milliseconds pause_ = terminal_ ? 200ms : 60000ms;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
     std::optional<store::WhenInterrupted> shown_;  // the line is cleared at an interruption, too
-};
-
-class OffTerminal : public store::Progress {
-public:
-    explicit OffTerminal(std::string job) : job_(std::move(job)) {}
-    void show(double fraction, const std::string& what) override {
-        const auto now = std::chrono::steady_clock::now();
-        if (now - last_ < 1min) return;
-        last_ = now;
-        tell(fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what));
-    }
-
-private:
-    std::string job_;
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 }  // namespace
 
@@ -138,9 +125,7 @@ std::size_t Console::width() {
 }
 
 std::unique_ptr<store::Progress> Console::begin(const std::string& job) const {
-    if (quiet_) return Listener::begin(job);
-    if (isatty(STDERR_FILENO) != 0) return std::make_unique<OnTerminal>(job);
-    return std::make_unique<OffTerminal>(job);
+    return quiet_ ? Listener::begin(job) : std::make_unique<Line>(job);
 }
 
 }  // namespace jvari::bench::command

@@ -11,6 +11,7 @@
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/fits.hpp"
 #include "bench/report/report.hpp"
+#include "bench/store/folder.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
@@ -24,9 +25,9 @@ namespace fs = std::filesystem;
 constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", "references"};
 constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".pdf", ".py", ".html", ".toml", ".part"};
 
-std::string what_is_in(const fs::path& manifest) {  // "" where that cannot be told
+std::string what_is_in(const fs::path& folder) {  // "" where that cannot be told
     try {
-        const auto m = nlohmann::json::parse(store::read_whole(manifest));
+        const auto m = store::folder_at(folder).manifest();
         if (m.contains("suite")) {
             const std::string name = m.at("suite");
             return name.starts_with("trim ") ? "trim of " + name.substr(5) : "suite " + name;
@@ -41,7 +42,7 @@ std::string what_is_in(const fs::path& manifest) {  // "" where that cannot be t
 void must_be_ours(const fs::path& folder, const std::string& what, const store::Listener& listener) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) return;
-    if (const std::string there = what_is_in(folder / "manifest.json"); !there.empty() && there != what)
+    if (const std::string there = what_is_in(folder); !there.empty() && there != what)
         throw store::UsageError(fmt::format("--out {}: this folder holds the {}, and this is the {}; choose another folder, or empty it",
                                             folder.string(), there, what));
     std::vector<std::string> foreign;

@@ -79,20 +79,9 @@ std::string text_for(const study::Summary& s, const Scene& scene) {
 Json json_of(const study::Summary& s) {
     Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", name_of(s.status.outcome)}};
     if (s.status.outcome != Outcome::ok) j["step"] = s.status.step;
-    j["rate"] = s.rate;  // NaN becomes null
-    j["modes"] = s.modes;
-    j["dofs"] = s.dofs;
-    j["steps"] = s.steps;
-    j["rows"] = s.rows;
-    j["duration"] = s.duration;
-    j["wall_seconds"] = s.wall_seconds;
-    j["ns_per_step"] = s.ns_per_step;
-    j["times_real_time"] = s.times_real_time;
-    j["energy_residual_per_step"] = s.energy_residual_per_step;
-    j["energy_residual_accumulated"] = s.energy_residual_accumulated;
-    j[facts::smallest_contact_force.name] = s.smallest_contact_force;
-    j[facts::largest_contact_force.name] = s.largest_contact_force;
-    j[facts::deepest_penetration.name] = s.deepest_penetration;
+    each_figure(s, [&j](const std::string& name, auto figure) {  // NaN becomes null
+        if (name != "processor_seconds") j[name] = figure;       // nobody took them
+    });
     j["flags"] = Json::object();
     for (const study::Flag& f : study::flags_of(s)) j["flags"][f.name] = f.sentence;
     j["facts"] = Json::object();

@@ -8,7 +8,7 @@
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/diff/difference.hpp"
-#include "bench/store/fresh_file.hpp"
+#include "bench/store/folder.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/program.hpp"
@@ -78,7 +78,7 @@ bool is_lost(const diff::Finding& f) {
 
 int verify_command(const VerifyRequest& r) {
     const Console console(r.json, r.quiet);
-    const Json manifest = Json::parse(store::read_whole(fs::path(r.folder) / "manifest.json"));
+    const Json manifest = store::folder_at(r.folder).manifest();
     const fs::path out = r.out.empty() ? fs::temp_directory_path() / ("jvari-verify-" + store::now_utc()) : fs::path(r.out);
     const std::vector<std::string> words = again(manifest, r.folder, out);
     const bool same = of_this_program(manifest);

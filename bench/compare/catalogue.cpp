@@ -99,6 +99,14 @@ Settings settings_of_run(const Descriptor& d, double rate, std::optional<double>
     return s;
 }
 
+std::string arguments_of(const Descriptor& d, const Settings& s) {
+    std::string text = fmt::format("--scheme {} --rate {}", d.name, s.sample_rate);
+    if (s.modes > 0) text += fmt::format(" --modes {}", s.modes);
+    if (s.tap_rate != 44100) text += fmt::format(" --tap-rate {}", s.tap_rate);
+    for (const auto& [name, value] : s.options) text += fmt::format(" --option {}={}", name, value);
+    return text;
+}
+
 bool represents(const Descriptor& d, const Scene& scene) {
     return (needed_by(scene) - d.represents).empty();
 }

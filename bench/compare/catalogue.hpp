@@ -36,7 +36,8 @@ int tap_named(const Scene&, const std::string& name);
 // Of one run at this rate: rows at 44100 Hz unless asked otherwise, or at the rate where that is no multiple. Throws UsageError where the
 // rate is no multiple of the rows, or an option is another scheme's.
 Settings settings_of_run(const Descriptor&, double rate, std::optional<double> tap_rate, int modes, const std::vector<SchemeOption>&);
-bool whole_multiple(double rate, double of);  // rate = n x of, n = 1, 2, ...
+std::string arguments_of(const Descriptor&, const Settings&);  // the same as typed: "--scheme modal_two_point --rate 44100 --modes 40"
+bool whole_multiple(double rate, double of);                   // rate = n x of, n = 1, 2, ...
 
 bool represents(const Descriptor&, const Scene&);
 // Doubles of state with that many modes; nothing where it cannot be made. A grid has as many whatever it is told.

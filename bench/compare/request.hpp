@@ -3,12 +3,18 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace jvari::bench::compare {
 
 struct SchemeOption {                 // --option [scheme:]name=value; of one name several: each value is run
     std::string scheme, name, value;  // scheme "": every scheme that knows the name
+    static SchemeOption of(const std::string& key, std::string text) {  // key: [SCHEME:]NAME
+        const auto colon = key.find(':');
+        return colon == std::string::npos ? SchemeOption{"", key, std::move(text)}
+                                          : SchemeOption{key.substr(0, colon), key.substr(colon + 1), std::move(text)};
+    }
 };
 
 struct CompareRequest {

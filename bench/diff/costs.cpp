@@ -77,10 +77,10 @@ Turn turn_of_costs(const Folder& a, const Folder& b, const std::vector<Ratio>& s
     return change > 1 ? Turn::worse : Turn::better;
 }
 
-std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<CostPair>& pairs, const Clock& clock) {
+std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<Pair>& pairs, const Clock& clock) {
     std::vector<std::string> names = store::naming_columns(a.cells);
     std::vector<Ratio> ratios;
-    for (const CostPair& p : pairs) {
+    for (const Pair& p : pairs) {
         const double was = a.cells.number(p.before, clock.compared), is = b.cells.number(p.after, clock.compared);
         if (!(was > 0) || !(is > 0)) continue;
         std::string series;
@@ -91,7 +91,7 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
 }
 }  // namespace
 
-void compare_costs(const Folder& a, const Folder& b, const std::vector<CostPair>& pairs, Difference& d) {
+void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pairs, Difference& d) {
     const Clock clock = clock_of(a.cells, b.cells);
     std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
     if (ratios.empty()) return;

@@ -20,9 +20,9 @@
 namespace jvari::bench::diff {
 
 struct Difference;
-struct CostPair {
+struct Pair {  // what both have
     std::string name;
-    std::size_t before, after;  // rows of the two tables of cells
+    std::size_t before, after;  // rows of the two tables
 };
 
 constexpr double least_change = 1.15;  // times
@@ -30,6 +30,6 @@ constexpr double disturbances = 5;
 constexpr std::size_t fewest_series = 3;
 constexpr double told = 1.25;  // times: a drift that a note tells
 
-void compare_costs(const Folder& before, const Folder& after, const std::vector<CostPair>&, Difference&);
+void compare_costs(const Folder& before, const Folder& after, const std::vector<Pair>&, Difference&);
 
 }  // namespace jvari::bench::diff

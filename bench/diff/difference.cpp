@@ -11,11 +11,6 @@
 namespace jvari::bench::diff {
 
 namespace {
-struct Pair {
-    std::string name;
-    std::size_t before, after;
-};
-
 std::vector<Pair> in_both(const Named& before, const Named& after, Only& only) {
     std::vector<Pair> pairs;
     for (const auto& [name, row] : before)
@@ -71,9 +66,7 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     if (other_truth > 0)
         d.references = fmt::format("the references differ in {} of {} cells ({}): there errors are against another solution", other_truth,
                                    pairs.size(), how);
-    std::vector<CostPair> costs;
-    for (const Pair& p : pairs) costs.push_back({p.name, p.before, p.after});
-    compare_costs(a, b, costs, d);
+    compare_costs(a, b, pairs, d);
 }
 
 void compare_dispersion(const store::Table& a, const store::Table& b, Difference& d) {
@@ -117,7 +110,7 @@ int Difference::missing() const {
 }
 
 bool Difference::nothing() const {
-    for (const Only* only : {&cells, &columns, &points, &boundaries, &modes})
+    for (const auto& [kind, only] : alone())
         if (!only->before.empty() || !only->after.empty()) return false;
     return findings.empty();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/diff/folder.hpp"
@@ -24,6 +25,9 @@ struct Only {  // what one of the folders has alone
 struct Difference {
     std::vector<Finding> findings;  // of what both have; those of a row stand together, headline columns first
     Only cells, columns, points, boundaries, modes;
+    std::vector<std::pair<const char*, const Only*>> alone() const {  // each kind by its name
+        return {{"cells", &cells}, {"columns", &columns}, {"modes", &modes}, {"points", &points}, {"boundaries", &boundaries}};
+    }
     std::string references;          // that they are others, and how; "": they are the same
     std::vector<std::string> notes;  // what could not be compared, and why
     int cells_in_both = 0;

@@ -83,9 +83,7 @@ std::string text_of(const Difference& d, const Folder& before, const Folder& aft
     text += findings_text(d, Turn::worse, "worse", most);
     text += findings_text(d, Turn::better, "better", most);
     text += findings_text(d, Turn::moved, "moved: neither better nor worse for certain", most);
-    const std::pair<const char*, const Only*> kinds[] = {
-        {"cells", &d.cells}, {"columns", &d.columns}, {"modes", &d.modes}, {"points of maps", &d.points}, {"boundaries", &d.boundaries}};
-    for (const auto& [what, only] : kinds)
+    for (const auto& [what, only] : d.alone())
         text += only_text(what, "before", only->before, most) + only_text(what, "after", only->after, most);
     text.pop_back();
     return text;
@@ -100,7 +98,8 @@ std::string json_of(const Difference& d, const Folder& before, const Folder& aft
                             {"before", f.before},
                             {"after", f.after},
                             {"detail", f.detail}});
-    const auto only = [](const Only& o) { return Json{{"before", o.before}, {"after", o.after}}; };
+    Json alone = Json::object();
+    for (const auto& [what, only] : d.alone()) alone[what] = {{"before", only->before}, {"after", only->after}};
     return store::indented({{"status", d.worse()     ? "worse"
                                        : d.nothing() ? "same"
                                                      : "changed"},
@@ -114,12 +113,7 @@ std::string json_of(const Difference& d, const Folder& before, const Folder& aft
                             {"moved", d.count(Turn::moved)},
                             {"missing", d.missing()},
                             {"findings", findings},
-                            {"only",
-                             {{"cells", only(d.cells)},
-                              {"columns", only(d.columns)},
-                              {"modes", only(d.modes)},
-                              {"points", only(d.points)},
-                              {"boundaries", only(d.boundaries)}}},
+                            {"only", alone},
                             {"notes", d.notes}});
 }
 

@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/store/cell_rows.hpp"
-#include "bench/store/checksum.hpp"
-#include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::diff {
@@ -16,47 +14,14 @@ namespace fs = std::filesystem;
 namespace {
 using Json = nlohmann::ordered_json;
 
-store::Table table_of(const std::string& name, const std::string& file, const Contents& contents) {
-    const auto text = contents(file);
-    if (!text) return {};
-    try {
-        return store::read_csv(*text);
-    } catch (const std::runtime_error& e) {
-        throw store::UsageError(fmt::format("{}/{}: {}", name, file, e.what()));
-    }
-}
-
-// Each row of `errors` with the costs of its cell behind it. Tables of compare do not name the cell: there the rows are the same.
-store::Table joined(store::Table errors, const store::Table& cost) {
-    std::map<std::string, std::size_t> by_cell;
-    for (std::size_t i = 0; i < cost.rows.size(); ++i) by_cell[cost.at(i, "cell")] = i;
-    const bool named = cost.column("cell") >= 0;
-    for (const std::string& column : cost.columns) {
-        if (errors.column(column) >= 0) continue;
-        errors.columns.push_back(column);
-        for (std::size_t i = 0; i < errors.rows.size(); ++i) {
-            const auto found = by_cell.find(errors.at(i, "cell"));
-            const std::size_t row = !named ? i : found == by_cell.end() ? cost.rows.size() : found->second;
-            const bool same =
-                row < cost.rows.size() && cost.at(row, "scheme") == errors.at(i, "scheme") && cost.at(row, "rate") == errors.at(i, "rate");
-            errors.rows[i].push_back(same ? cost.at(row, column) : "");
-        }
-    }
-    return errors;
-}
-
-Made made_by(const std::string& name, const std::string& manifest) {
-    try {
-        store::refuse_deep(manifest);
-        const Json m = Json::parse(manifest);
-        const auto text = [&m](const char* key) { return m.value(key, std::string("unknown")); };
-        Made made{text("commit"), text("date"), text("compiler"), text("flags"), text("build"),
-                  text("cpu"),    "",           text("vectors"),  text("system")};
-        if (m.contains("cores")) made.cores = m["cores"].dump();
-        return made;
-    } catch (const std::exception& e) {  // Json::exception, what refuse_deep() throws
-        throw store::UsageError(fmt::format("{}/manifest.json: {}", name, e.what()));
-    }
+Made made_by(const store::Folder& folder) {
+    const Json m = folder.manifest();
+    const auto text = [&](const char* key) {
+        const auto found = m.find(key);
+        return found == m.end() ? "unknown" : found->is_string() ? found->get<std::string>() : found->dump();
+    };
+    return {text("commit"), text("date"),  text("compiler"), text("flags"), text("build"),
+            text("cpu"),    text("cores"), text("vectors"),  text("system")};
 }
 
 std::string counted(std::map<std::string, int>& seen, const std::string& text) {
@@ -79,30 +44,18 @@ std::string Made::machine() const {
     return fmt::format("{}, {} cores, {}, {}", cpu, cores, vectors, system);
 }
 
-Folder read_folder(const std::string& name, const Contents& contents) {
-    Folder f;
-    f.name = name;
-    const auto manifest = contents("manifest.json");
-    if (!manifest) throw store::UsageError(fmt::format("{}: no manifest.json, expected a folder that compare or suite wrote", name));
-    f.made = made_by(name, *manifest);
-    f.cells = table_of(name, "cells.csv", contents);
-    if (f.cells.columns.empty()) f.cells = joined(table_of(name, "errors.csv", contents), table_of(name, "cost.csv", contents));
-    f.dispersion = table_of(name, "dispersion.csv", contents);
-    f.maps = table_of(name, "maps.csv", contents);
-    f.boundaries = table_of(name, "boundaries.csv", contents);
+Folder read_folder(const store::Folder& folder) {
+    const Folder f{folder.name,          made_by(folder),           folder.cells(false), folder.table("dispersion"),
+                   folder.table("maps"), folder.table("boundaries")};
     if (f.cells.columns.empty() && f.maps.columns.empty())
-        throw store::UsageError(fmt::format("{}: neither cells.csv nor errors.csv nor maps.csv", name));
+        throw store::UsageError(fmt::format("{}: neither cells.csv nor errors.csv nor maps.csv", f.name));
     return f;
 }
 
 Folder read_folder(const fs::path& path) {
     std::error_code error;
     if (!fs::is_directory(path, error)) throw store::UsageError(fmt::format("{}: no such folder", path.string()));
-    return read_folder(path.string(), [&path](const std::string& file) -> std::optional<std::string> {
-        std::error_code ignored;
-        if (!fs::is_regular_file(path / file, ignored)) return std::nullopt;
-        return store::read_whole(path / file);
-    });
+    return read_folder(store::folder_at(path));
 }
 
 bool modes_name(const store::Table& cells) {

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/store/records.hpp"
+#include "bench/store/folder.hpp"
 
 namespace jvari::bench::diff {
 
@@ -27,12 +25,8 @@ struct Folder {
     store::Table dispersion, maps, boundaries;  // empty where the file is absent
 };
 
-// The content of a file of the folder; nothing where there is none.
-using Contents = std::function<std::optional<std::string>(const std::string& file)>;
-
-// From cells.csv, else from errors.csv and cost.csv. Throws UsageError where there is no manifest.json, no cells, errors or maps, or a file
-// cannot be read.
-Folder read_folder(const std::string& name, const Contents&);
+// Throws UsageError where there is no manifest.json, no cells, errors or maps, or a file cannot be read.
+Folder read_folder(const store::Folder&);
 Folder read_folder(const std::filesystem::path&);
 
 // Rows by the text that names them: scene, swept keys, scheme, options and rate; the modes too where a table has several at one rate.

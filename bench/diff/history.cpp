@@ -35,11 +35,11 @@ std::string commits_of(const fs::path& folder) {  // a line each, oldest first: 
 }
 
 Folder folder_at(const fs::path& folder, const std::string& commit) {
-    return read_folder(commit, [&](const std::string& file) -> std::optional<std::string> {
-        store::Said shown = git(folder, {"show", commit + ":./" + file});
-        if (shown.code != 0) return std::nullopt;
-        return std::move(shown.text);
-    });
+    return read_folder({commit, [&](const std::string& file) -> std::optional<std::string> {
+                            store::Said shown = git(folder, {"show", commit + ":./" + file});
+                            if (shown.code != 0) return std::nullopt;
+                            return std::move(shown.text);
+                        }});
 }
 }  // namespace
 

@@ -29,12 +29,9 @@ long steps_of(const JudgedPoint& p) {
 
 std::string scene_text(const Reproducer& r) {
     const Trial& t = r.trial;
-    std::string how = fmt::format("--scheme {} --rate {} --tap-rate {} --energy", t.scheme->name, store::text_of(t.settings.sample_rate),
-                                  store::text_of(t.settings.tap_rate));
-    if (t.settings.modes > 0) how += fmt::format(" --modes {}", t.settings.modes);
-    for (const auto& [name, value] : t.settings.options) how += fmt::format(" --option {}={}", name, value);
-    return fmt::format("# Minimised by jvari suite: {} is {} here, {}.\n# jvari run {} {}\n{}", t.scheme->name, name_of(r.expected.verdict),
-                       r.expected.detail, r.file, how, write_scene(t.scene));
+    return fmt::format("# Minimised by jvari suite: {} is {} here, {}.\n# jvari run {} {} --energy\n{}", t.scheme->name,
+                       name_of(r.expected.verdict), r.expected.detail, r.file, compare::arguments_of(*t.scheme, t.settings),
+                       write_scene(t.scene));
 }
 
 bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Reproducer& into) {

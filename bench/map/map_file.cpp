@@ -44,28 +44,20 @@ std::string value_text(const store::Entry& e, const std::string& axis) {
 
 // ---- An axis
 
-struct AxisWords {
-    MapAxis axis;
-    std::string key;
-    std::vector<std::string> values;
-    double from = 0, to = 0;  // 0: absent, as of points
-    int points = 0;
-};
-
-std::vector<store::Key<AxisWords>> axis_keys() {
-    return {store::needed("key", &AxisWords::key, store::text(),
-                          "rate, modes, duration, amplitude, option:[SCHEME:]NAME, or a key of the scene"),
-            {{"values", "values that ascend", "from ... to", "along the axis"},
-             [](AxisWords& a, const store::Entry& e) {
-                 for (const store::Entry& one : e.items()) a.values.push_back(value_text(one, a.key));
-             }},
-            store::key("from", &AxisWords::from, store::positive(), "the first value", ""),
-            store::key("to", &AxisWords::to, store::positive(), "the last", ""),
-            store::key("points", &AxisWords::points, store::count(), "how many, spaced by equal ratios", "")};
+std::vector<store::Key<MapAxis>> axis_keys() {
+    return {
+        store::needed("key", &MapAxis::key, store::text(), "rate, modes, duration, amplitude, option:[SCHEME:]NAME, or a key of the scene"),
+        {{"values", "values that ascend", "from ... to", "along the axis"},
+         [](MapAxis& a, const store::Entry& e) {
+             for (const store::Entry& one : e.items()) a.values.push_back(value_text(one, a.key));
+         }},
+        store::key("from", &MapAxis::from, store::positive(), "the first value", ""),
+        store::key("to", &MapAxis::to, store::positive(), "the last", ""),
+        store::key("points", &MapAxis::points, store::count(), "how many, spaced by equal ratios", "")};
 }
 
 // The values between `from` and `to`.
-void spread(AxisWords& a, const store::Entry& e) {
+void spread(MapAxis& a, const store::Entry& e) {
     for (const char* name : {"from", "to", "points"}) e.need(name);
     if (a.points < 2) e.need("points").refuse("2 or more");
     if (a.points > most_points) e.need("points").refuse(fmt::format("at most {}", most_points));
@@ -77,15 +69,12 @@ void spread(AxisWords& a, const store::Entry& e) {
     }
 }
 
-void finish(AxisWords& words, const store::Entry& e) {
+void finish(MapAxis& a, const store::Entry& e) {
     const bool listed = e.at("values").has_value();
     if (listed)
         for (const char* other : {"from", "to", "points"})
             if (const auto x = e.at(other)) x->refuse("either values or from, to and points");
-    if (!listed) spread(words, e);
-    MapAxis& a = words.axis;
-    a.key = words.key;
-    a.values = words.values;
+    if (!listed) spread(a, e);
     for (const std::string& text : a.values)
         if (const auto x = number_in(text)) a.at.push_back(*x);
     if (a.at.size() < a.values.size()) a.at.clear();
@@ -96,8 +85,7 @@ void finish(AxisWords& words, const store::Entry& e) {
 }
 
 store::Kind<MapAxis> axis() {
-    const auto words = store::table(axis_keys(), finish);
-    return {words.says, [read = words.read](const store::Entry& e) { return read(e).axis; }, words.below};
+    return store::table(axis_keys(), finish);
 }
 
 // ---- A map

@@ -15,6 +15,8 @@ struct MapAxis {
     std::vector<std::string> values;  // in TOML syntax, an option's as the scheme reads it; numbers ascend
     std::vector<double> at;           // as numbers, between which a boundary can be sought; empty where one of them is none
     bool whole = false;               // modes, and options given as whole numbers
+    double from = 0, to = 0;          // as the file may say its values; 0: absent, as of points
+    int points = 0;
 };
 
 using Assignment = std::pair<std::string, std::string>;  // a key as an axis has it, and its value

@@ -40,9 +40,8 @@ Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::st
         else if (key == "duration") duration = store::number_of(value);
         else if (key == "amplitude") amplitude = store::number_of(value);
         else if (key.rfind("option:", 0) == 0) {
-            const auto colon = key.find(':', 7);  // option:[SCHEME:]NAME
-            if (colon == std::string::npos) t.settings.options.emplace_back(key.substr(7), value);
-            else if (key.substr(7, colon - 7) == scheme.name) t.settings.options.emplace_back(key.substr(colon + 1), value);
+            const auto o = compare::SchemeOption::of(key.substr(7), value);  // behind "option:"
+            if (o.scheme.empty() || o.scheme == scheme.name) t.settings.options.emplace_back(o.name, o.value);
         } else overrides.push_back(key + "=" + value);
     }
     t.settings.tap_rate = row_rate(t.settings.sample_rate);

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <vector>
 
+#include "bench/store/folder.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
-#include "bench/store/usage.hpp"
 
 namespace jvari::bench::report {
 
@@ -59,18 +59,10 @@ Json authors() {
         all.push_back({{"@id", fmt::format("#author-{}", all.size() + 1)}, {"@type", "Organization"}, {"name", name}});
     return all;
 }
-
-Json manifest_in(const fs::path& folder) {
-    try {
-        return Json::parse(store::read_whole(folder / "manifest.json"));
-    } catch (const Json::exception& e) {
-        throw store::UsageError(fmt::format("{}: {}", (folder / "manifest.json").string(), e.what()));
-    }
-}
 }  // namespace
 
 std::string crate_of(const fs::path& folder) {
-    const Json manifest = manifest_in(folder);
+    const Json manifest = store::folder_at(folder).manifest();
     const auto text = [&manifest](const char* key) { return manifest.value(key, std::string()); };
     const bool of_a_scene = manifest.contains("scene") && manifest["scene"].is_object();
     const std::string name = of_a_scene ? manifest["scene"].value("name", "") : text("suite"),

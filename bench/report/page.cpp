@@ -8,18 +8,13 @@
 
 #include "bench/store/base64.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/installed.hpp"
 
 namespace jvari::bench::report {
 
 namespace {
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) safe += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-    return safe;
-}
-
 // JSON that stands inside <script>: '<' occurs in its strings alone, and may be written as an escape there.
 std::string island(const nlohmann::ordered_json& j) {
     std::string safe;
@@ -45,7 +40,7 @@ static std::string page_program() {
 }
 
 std::string page_of(const nlohmann::ordered_json& data, const std::string& scripts) {
-    const std::pair<const char*, std::string> parts[] = {{"@TITLE@", escaped(data.at("title"))},
+    const std::pair<const char*, std::string> parts[] = {{"@TITLE@", store::escaped(data.at("title"))},
                                                          {"@STYLE@", page_text("page.css")},
                                                          {"@SCRIPTS@", scripts},
                                                          {"@DATA@", island(data)},

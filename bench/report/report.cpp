@@ -12,6 +12,8 @@
 #include "bench/report/samples.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/base64.hpp"
+#include "bench/store/cell_rows.hpp"
+#include "bench/store/folder.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/study/errors.hpp"
 #include "bench/study/record.hpp"
@@ -91,16 +93,12 @@ Json kept_levels(const Results& r) {  // of the cells that asked for spectrogram
 }
 
 Json data_of(const Results& r) {
-    Json data{{"title", r.name},
-              {"source", r.source},
-              {"about", r.source + (r.source.empty() ? "" : " \u2014 ") + r.about},
-              {"command", r.command},
-              {"missing", ""},
-              {"machines", store::machines_text(r.cells)},
-              {"schemes", known_schemes()},
-              {"measures", measures()}};
+    Json data = empty_data(r.name, r.source + (r.source.empty() ? "" : " \u2014 ") + r.about);
+    data["source"] = r.source;
+    data["command"] = r.command;
+    data["machines"] = store::machines_text(r.cells);
+    data["measures"] = measures();
     data["manifest"] = Json::parse(r.manifest, nullptr, false);
-    data["left_out"] = {{"cells", Json::array()}, {"sounds", Json::array()}, {"figures", Json::array()}};
     for (const auto& [name, table] : r.tables)
         if (!table.columns.empty()) data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
     const auto derived = derived_tables(r);
@@ -114,7 +112,6 @@ Json data_of(const Results& r) {
     for (const auto& [name, table] : derived) data["tables"][name] = store::csv(table);
     data["sounds"] = heard(r, cheapest, longest_heard, sounds_limit, data["left_out"]["sounds"]);
     data["levels"] = kept_levels(r);
-    data["pictures"] = Json::array();
     return data;
 }
 
@@ -126,7 +123,7 @@ Json with_figures(Json data, const Results& r) {
     if (read.is_discarded()) throw store::UsageError(figures.string() + ": this is no JSON");
     data["figures"] = read;
     for (const suite::Facet& f : suite::facets())
-        if (const store::Table rows = read_table(r.folder / (std::string(f.name) + ".csv")); !rows.columns.empty())
+        if (const store::Table rows = store::folder_at(r.folder).table(f.name); !rows.columns.empty())
             data["tables"][f.name] = store::csv(rows);
     return data;
 }
@@ -153,11 +150,16 @@ void add_pictures(Json& data, const fs::path& folder, const std::vector<std::str
 }
 }  // namespace
 
-nlohmann::ordered_json known_schemes() {
-    Json all = Json::array();
+nlohmann::ordered_json empty_data(const std::string& title, const std::string& about) {
+    const Json none = Json::array();
+    Json known = none;
     for (const auto& list : {schemes(), references()})
-        for (const Descriptor& d : list) all.push_back({d.name, is_control(d)});
-    return all;
+        for (const Descriptor& d : list) known.push_back({d.name, is_control(d)});
+    Json data{{"title", title}, {"about", about}, {"schemes", known}, {"tables", Json::object()}, {"manifest", Json::object()}};
+    for (const char* text : {"source", "command", "missing", "machines"}) data[text] = "";
+    for (const char* list : {"measures", "sounds", "levels", "pictures"}) data[list] = none;
+    for (const char* of : {"cells", "sounds", "figures"}) data["left_out"][of] = none;
+    return data;
 }
 
 std::string fitting_page_of(Json data, const std::string& scripts, std::size_t limit) {

@@ -22,6 +22,8 @@ store::Table fitting(store::Table, nlohmann::ordered_json& left_out);
 // The page in less than `limit` bytes: pictures, then sounds are left out from the last on, and the page says so.
 std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scripts, std::size_t limit);
 
-nlohmann::ordered_json known_schemes();  // of schemes and references: name, is it a control; in the order of their registry
+// The data of a page with nothing in it: a title, what it is about, the schemes and references that there are (name, is it a control; in
+// the order of their registry), and empty tables, sounds, levels and pictures.
+nlohmann::ordered_json empty_data(const std::string& title, const std::string& about);
 
 }  // namespace jvari::bench::report

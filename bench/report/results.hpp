@@ -26,8 +26,6 @@ struct Results {
 // read.
 Results read_results(const std::filesystem::path&);
 
-store::Table read_table(const std::filesystem::path&);  // of a csv file; empty where it is absent
-
 // A problem is a scene at one point of what is swept; runs of different problems are not compared. A series is a scheme with its options,
 // and with its modes where the table has it with several at one rate.
 

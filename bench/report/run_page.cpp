@@ -106,20 +106,7 @@ int heard_tap(const DrawnRun& r) {  // the force on the nut, which is what drive
 
 Json run_data(const DrawnRun& r) {
     const Trace& t = r.trace;
-    Json data{{"title", r.title},
-              {"source", ""},
-              {"about", r.subtitle},
-              {"command", ""},
-              {"missing", ""},
-              {"machines", ""},
-              {"schemes", known_schemes()},
-              {"measures", Json::array()},
-              {"tables", Json::object()},
-              {"sounds", Json::array()},
-              {"levels", Json::array()},
-              {"pictures", Json::array()},
-              {"manifest", Json::object()}};
-    data["left_out"] = {{"cells", Json::array()}, {"sounds", Json::array()}, {"figures", Json::array()}};
+    Json data = empty_data(r.title, r.subtitle);
     Json taps = Json::array(), contact;
     std::vector<int> order;  // contact forces first
     for (int k = 0; k < t.taps(); ++k) order.push_back(k);

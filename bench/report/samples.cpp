@@ -13,10 +13,7 @@ namespace jvari::bench::report {
 
 namespace fs = std::filesystem;
 
-namespace {
 using Json = nlohmann::ordered_json;
-
-}  // namespace
 
 int place_of(const store::Table& t, std::size_t i, const store::Table& cheapest) {
     if (t.at(i, "scheme") == "reference") return 0;

@@ -50,4 +50,12 @@ std::string bytes_of_base64(std::string_view text) {
     return bytes;
 }
 
+std::vector<std::int16_t> samples_of_base64(std::string_view text) {
+    const std::string bytes = bytes_of_base64(text);
+    std::vector<std::int16_t> samples;
+    for (std::size_t n = 0; n + 1 < bytes.size(); n += 2)
+        samples.push_back(static_cast<std::int16_t>(static_cast<unsigned char>(bytes[n]) | static_cast<unsigned char>(bytes[n + 1]) << 8));
+    return samples;
+}
+
 }  // namespace jvari::bench::store

@@ -5,11 +5,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace jvari::bench::store {
 
 std::string base64(std::string_view bytes);
 std::string base64(std::span<const std::int16_t> samples);  // least significant byte first, as in a .wav
 std::string bytes_of_base64(std::string_view text);         // throws std::runtime_error where the text is none
+std::vector<std::int16_t> samples_of_base64(std::string_view text);
 
 }  // namespace jvari::bench::store

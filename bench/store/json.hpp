@@ -24,6 +24,19 @@ inline std::string indented(const nlohmann::ordered_json& j) {
     return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+// Text as it stands in HTML and XML.
+inline std::string escaped(const std::string& text) {
+    std::string safe;
+    for (const char c : text)
+        safe += c == '&'                               ? "&amp;"
+                : c == '<'                             ? "&lt;"
+                : c == '>'                             ? "&gt;"
+                : c == '"'                             ? "&quot;"
+                : static_cast<unsigned char>(c) < 0x20 ? " "
+                                                       : std::string(1, c);
+    return safe;
+}
+
 // ---- Whole numbers of JSON, looked at before they are converted: the library makes an int of 1e300 as C++ does, and that is undefined.
 
 // Throws std::runtime_error where it is no whole number that an Int can hold.

@@ -110,9 +110,8 @@ Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
 }
 
 void fail(Cell& cell, const std::exception& e) {
-    cell.failure = dynamic_cast<const Refusal*>(&e)               ? "refused"
-                   : dynamic_cast<const store::PastItsLimit*>(&e) ? "past_time_limit"
-                                                                  : "error";
+    const bool refused = dynamic_cast<const Refusal*>(&e) || dynamic_cast<const BadScene*>(&e);  // the latter: not with these modes
+    cell.failure = refused ? "refused" : dynamic_cast<const store::PastItsLimit*>(&e) ? "past_time_limit" : "error";
     cell.reason = e.what();
 }
 

@@ -35,6 +35,28 @@ struct Summary {
 
 Summary summary_of(const Descriptor&, const Scene&, const Settings&, const Run&);
 
+// Calls act(name, figure) for each number of a summary but those of its status and its facts.
+template <class Summary_, class Act>
+void each_figure(Summary_& s, Act act) {
+    act("rate", s.rate);
+    act("modes", s.modes);
+    act("dofs", s.dofs);
+    act("steps", s.steps);
+    act("rows", s.rows);
+    act("duration", s.duration);
+    act("wall_seconds", s.wall_seconds);
+    act("ns_per_step", s.ns_per_step);
+    act("times_real_time", s.times_real_time);
+    act("processor_seconds", s.processor_seconds);
+    act("energy_residual_per_step", s.energy_residual_per_step);
+    act("energy_residual_accumulated", s.energy_residual_accumulated);
+    act("smallest_contact_force", s.smallest_contact_force);
+    act("largest_contact_force", s.largest_contact_force);
+    act("deepest_penetration", s.deepest_penetration);
+    act("energy_gain", s.energy_gain);
+    act("largest_displacement", s.largest_displacement);
+}
+
 // The value of a fact, NaN where the scheme does not report it. Where each of several strings has its own: the least of smallest contact
 // forces, of any other the largest.
 double fact(const std::vector<Fact>&, const std::string& name);

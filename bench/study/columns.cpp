@@ -158,44 +158,54 @@ std::string in_model(const std::string& column) {
     return column.starts_with(error) ? error + "in_model_" + column.substr(error.size()) : column + "_in_model";
 }
 
-std::string window_name(std::size_t w) {
-    return std::string(trust::Trust::columns[w]).substr(std::string("certificate_").size());
+// What stands in the place of a slot in a declared name, one after the other; "" stands for nothing.
+struct Slot {
+    const char* mark;
+    std::size_t Field::*index;
+    std::vector<std::string> names;
+};
+const std::vector<Slot>& slots() {  // but those of a record's taps and facts
+    static const std::vector<Slot> all = [] {
+        std::vector<Slot> some{
+            {"{m}", &Field::measure, {}}, {"{d}", &Field::measure, {}}, {"{M}", &Field::measure, {}}, {"{w}", &Field::window, {}}};
+        for (const Measure& m : measures()) {
+            some[0].names.push_back(m.column);
+            some[1].names.push_back(m.less_is_better ? m.column : "");
+            some[2].names.push_back(in_model(m.column));
+        }
+        for (const std::string column : trust::Trust::columns) some[3].names.push_back(column.substr(std::string("certificate_").size()));
+        return some;
+    }();
+    return all;
 }
 
 // Calls each(name, field) for each column that a declaration stands for; of facts and taps those of the field's record.
 void expand(const std::string& pattern, Field f, const std::function<void(const std::string&, const Field&)>& each) {
-    const auto fill = [&](const char* slot, auto count, const auto& text) {
-        const auto at = pattern.find(slot);
-        if (at == std::string::npos) return false;
-        for (decltype(count) k = 0; k < count; ++k)
-            if (const std::string with = text(k, f); !with.empty()) expand(std::string(pattern).replace(at, 3, with), f, each);
-        return true;
+    const auto with = [&](std::size_t at, const std::string& name) {
+        if (!name.empty()) expand(std::string(pattern).replace(at, 3, name), f, each);
     };
     // the tap is in the outer loop: all columns of one stand together
-    if (fill("{t}", f.job.point->taps, [](std::size_t k, Field& x) { return x.tap = k, x.job.point->scene.taps[k].name; })) return;
-    const auto measure = [](std::size_t k, Field& x) -> const Measure& { return x.measure = k, measures()[k]; };
-    if (fill("{m}", measures().size(), [&](std::size_t k, Field& x) { return measure(k, x).column; })) return;
-    if (fill("{M}", measures().size(), [&](std::size_t k, Field& x) { return in_model(measure(k, x).column); })) return;
-    if (fill("{d}", measures().size(), [&](std::size_t k, Field& x) { return measure(k, x).less_is_better ? measures()[k].column : ""; }))
+    if (const auto at = pattern.find("{t}"); at != std::string::npos) {
+        for (f.tap = 0; f.tap < f.job.point->taps; ++f.tap) with(at, f.job.point->scene.taps[f.tap].name);
         return;
-    if (fill("{w}", trust::Trust::columns.size(), [](std::size_t k, Field& x) { return x.window = k, window_name(k); })) return;
-    const auto& facts = f.summary().facts;
-    if (fill("{f}", facts.size(), [&facts](std::size_t k, Field& x) { return x.fact = facts[k].name; })) return;
-    each(pattern, f);
+    }
+    for (const Slot& s : slots())
+        if (const auto at = pattern.find(s.mark); at != std::string::npos) {
+            for (f.*s.index = 0; f.*s.index < s.names.size(); ++(f.*s.index)) with(at, s.names[f.*s.index]);
+            return;
+        }
+    const auto at = pattern.find("{f}");
+    if (at == std::string::npos) return each(pattern, f);
+    for (const Fact& fact : f.summary().facts) with(at, f.fact = fact.name);
 }
 
 // What a declaration's name has before its slot for a tap or a fact, with its other slots filled in each way.
 std::vector<std::string> beginnings(const std::string& pattern) {
     std::vector<std::string> all;
-    const auto fill = [&](const char* slot, std::size_t count, const auto& text) {
-        const auto at = pattern.find(slot);
-        if (at == std::string::npos) return;
-        for (std::size_t k = 0; k < count; ++k) all.push_back(std::string(pattern).replace(at, 3, text(k)));
-    };
-    fill("{m}", measures().size(), [](std::size_t k) { return measures()[k].column; });
-    fill("{d}", measures().size(), [](std::size_t k) { return measures()[k].column; });
-    fill("{M}", measures().size(), [](std::size_t k) { return in_model(measures()[k].column); });
-    fill("{w}", trust::Trust::columns.size(), window_name);
+    for (const Slot& s : slots())
+        if (const auto at = pattern.find(s.mark); at != std::string::npos)
+            for (const std::string& name : s.names)
+                if (!name.empty()) all.push_back(std::string(pattern).replace(at, 3, name));
     if (all.empty()) all.push_back(pattern);
     for (std::string& name : all) name = name.substr(0, std::min(name.find("{t}"), name.find("{f}")));
     return all;

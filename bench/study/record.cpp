@@ -1,8 +1,8 @@
 #include "bench/study/record.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "bench/store/base64.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -38,29 +38,12 @@ std::vector<std::array<double, 3>> figures_in(const Json& j) {
     return figures;
 }
 
-// Every number of a summary, in one order for both ways.
-template <class Summary_, class Number>
-void each_number(Summary_& s, Number number) {
-    number("rate", s.rate);
-    number("duration", s.duration);
-    number("wall_seconds", s.wall_seconds);
-    number("processor_seconds", s.processor_seconds);
-    number("ns_per_step", s.ns_per_step);
-    number("times_real_time", s.times_real_time);
-    number("energy_residual_per_step", s.energy_residual_per_step);
-    number("energy_residual_accumulated", s.energy_residual_accumulated);
-    number("smallest_contact_force", s.smallest_contact_force);
-    number("largest_contact_force", s.largest_contact_force);
-    number("deepest_penetration", s.deepest_penetration);
-    number("energy_gain", s.energy_gain);
-    number("largest_displacement", s.largest_displacement);
-}
-
 Json summary_json(const Summary& s) {
-    Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"modes", s.modes}, {"dofs", s.dofs}, {"steps", s.steps}, {"rows", s.rows}};
-    j["status"] = {name_of(s.status.outcome), s.status.step};
-    each_number(s, [&j](const char* name, double x) { j[name] = store::text_of(x); });
-    j["facts"] = Json::array();
+    Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", {name_of(s.status.outcome), s.status.step}}, {"facts", Json::array()}};
+    each_figure(s, [&j]<class Number>(const char* name, Number x) {
+        if constexpr (std::is_integral_v<Number>) j[name] = x;
+        else j[name] = store::text_of(x);
+    });
     for (const Fact& f : s.facts) j["facts"].push_back({f.name, store::text_of(f.value), f.unit});
     return j;
 }
@@ -68,28 +51,20 @@ Summary summary_in(const Json& j) {
     Summary s{};
     s.scheme = j.at("scheme");
     s.scene = j.at("scene");
-    s.modes = store::whole<int>(j.at("modes"));
-    s.dofs = store::whole<int>(j.at("dofs"));
-    s.steps = store::whole<long>(j.at("steps"));
-    s.rows = store::whole<long>(j.at("rows"));
     s.status = {store::outcome_named(j.at("status").at(0)), store::whole<long>(j.at("status").at(1))};
-    each_number(s, [&j](const char* name, double& x) { x = store::number_of(j.at(name)); });
+    each_figure(s, [&j]<class Number>(const char* name, Number& x) {
+        if constexpr (std::is_integral_v<Number>) x = store::whole<Number>(j.at(name));
+        else x = store::number_of(j.at(name));
+    });
     for (const Json& f : j.at("facts")) s.facts.push_back({f.at(0), store::number_of(f.at(1)), f.at(2)});
     return s;
 }
 
 Json sound_json(const store::Sound& s) {
-    const std::string_view samples(reinterpret_cast<const char*>(s.samples.data()), s.samples.size() * sizeof(std::int16_t));
-    return {store::text_of(s.rate), store::text_of(s.peak), store::base64(samples)};
+    return {store::text_of(s.rate), store::text_of(s.peak), store::base64(s.samples)};
 }
 store::Sound sound_in(const Json& j) {
-    store::Sound s;
-    s.rate = store::number_of(j.at(0));
-    s.peak = store::number_of(j.at(1));
-    const std::string samples = store::bytes_of_base64(j.at(2).get<std::string>());
-    s.samples.resize(samples.size() / sizeof(std::int16_t));
-    if (!s.samples.empty()) std::memcpy(s.samples.data(), samples.data(), s.samples.size() * sizeof(std::int16_t));
-    return s;
+    return {store::number_of(j.at(0)), store::number_of(j.at(1)), store::samples_of_base64(j.at(2).get<std::string>())};
 }
 
 Json levels_json(const Levels& l) {

@@ -20,17 +20,10 @@ Where rows_that(Where where, const store::Entry& e) {  // with what `e` says in 
     return where;
 }
 
-store::Kind<Take> take() {
-    return store::one_of<Take>("take", {{"value", Take::value},
-                                        {"mean", Take::mean},
-                                        {"largest", Take::largest},
-                                        {"least", Take::least},
-                                        {"size", Take::size},
-                                        {"rms", Take::rms},
-                                        {"slope", Take::slope},
-                                        {"share_above_0", Take::share_above_0},
-                                        {"turns", Take::turns},
-                                        {"off_two_lines", Take::off_two_lines}});
+store::Kind<const Take*> take() {
+    std::vector<std::pair<std::string, const Take*>> words;
+    for (const Take& t : takes()) words.emplace_back(t.name, &t);
+    return store::one_of("take", std::move(words));
 }
 
 std::vector<store::Key<Pick>> pick_keys() {

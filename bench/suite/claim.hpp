@@ -9,28 +9,16 @@
 #include <vector>
 
 #include "bench/store/keys.hpp"
+#include "bench/suite/reduce.hpp"
 
 namespace jvari::bench::suite {
 
 using Where = std::vector<std::pair<std::string, std::string>>;  // column, value; "": the rows whose field is empty
 
-// One number from the rows of a table that carry certain values.
-enum class Take {
-    value,          // the one row that there is
-    mean,           // of the column
-    largest,        //
-    least,          //
-    size,           // the largest magnitude
-    rms,            //
-    slope,          // of the fitted line over `along`
-    share_above_0,  // part of the rows
-    turns,          // how often it turns down by a fifth of its largest value
-    off_two_lines   // relative L2 distance from the nearest two straight lines that begin and end at 0: of a shape, 0 for Helmholtz motion
-};
-struct Pick {
+struct Pick {                                // one number from the rows of a table that carry certain values
     std::string table, column, along;        // along: the column that orders the rows and that from and to are of
     double from = -HUGE_VAL, to = HUGE_VAL;  // of `along`
-    Take take = Take::value;
+    const Take* take = takes().data();
     Where where, own;  // own: of another number, what it says itself, whatever `each` says
 };
 

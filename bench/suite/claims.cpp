@@ -7,10 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/bound.hpp"
-#include "bench/store/fresh_file.hpp"
+#include "bench/store/folder.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/columns.hpp"
-#include "bench/suite/reduce.hpp"
 
 namespace jvari::bench::suite {
 
@@ -28,17 +27,15 @@ struct Number {
 
 class Tables {  // of a folder, each read once
 public:
-    explicit Tables(fs::path folder) : folder_(std::move(folder)) {}
+    explicit Tables(const fs::path& folder) : folder_(store::folder_at(folder)) {}
     const store::Table& of(const std::string& name) {
-        if (const auto known = read_.find(name); known != read_.end()) return known->second;
-        std::error_code error;
-        const fs::path file = folder_ / (name + ".csv");
-        if (!fs::is_regular_file(file, error)) throw CannotTell{name + ".csv is not in the folder"};
-        return read_.emplace(name, store::read_csv(store::read_whole(file))).first->second;
+        store::Table& t = read_[name];
+        if (t.columns.empty()) t = folder_.table(name);
+        return t.columns.empty() ? throw CannotTell{name + ".csv is not in the folder"} : t;
     }
 
 private:
-    fs::path folder_;
+    store::Folder folder_;
     std::map<std::string, store::Table> read_;
 };
 
@@ -105,7 +102,7 @@ Number reduced(Tables& tables, const Pick& q, const std::optional<Pick>& against
         }
         p.uncertainty += other.uncertainty;
     }
-    const Reduced r = reduce(p.series, q.take);
+    const Reduced r = q.take->of(p.series);
     if (!r.why.empty()) throw CannotTell{fmt::format("{}.csv: {}", q.table, r.why)};
     return {r.value, p.uncertainty + r.half_width, r.half_width > 0 ? "95 % interval" : p.rests_on};
 }
@@ -187,8 +184,7 @@ store::Table verdicts_on(const std::vector<Claim>& claims, const fs::path& folde
 std::vector<Claim> claims_on(const fs::path& folder) {
     std::error_code error;
     if (const fs::path own = folder / suite_file; fs::is_regular_file(own, error)) return read_suite(own.string()).claims;
-    const auto manifest = nlohmann::json::parse(store::read_whole(folder / "manifest.json"), nullptr, false);
-    const std::string suite = manifest.is_object() ? manifest.value("suite", "") : "";
+    const std::string suite = store::folder_at(folder).manifest().value("suite", "");
     if (suite.empty()) throw store::UsageError(folder.string() + "/manifest.json: it names no suite, and claims stand in suites");
     return read_suite(suite).claims;
 }

@@ -1,7 +1,5 @@
 #include "bench/suite/facet.hpp"
 
-#include "bench/suite/facet.hpp"
-
 namespace jvari::bench::suite {
 
 std::span<const Facet> facets() {

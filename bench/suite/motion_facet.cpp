@@ -120,8 +120,8 @@ store::Table motion_rows(const MeasuredCell& c) {
     if (const Descriptor* reference = c.reference ? best_reference(scene) : nullptr) {
         const int asked = c.set.reference_modes.value_or(0);
         Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : c.settings.modes, {}};
-        for (const VariedOption& o : c.set.options)
-            if (o.scheme == reference->name && o.values.size() == 1) settings.options.emplace_back(o.name, o.values[0]);
+        for (const auto& [option, values] : c.set.varied)
+            if (option.scheme == reference->name && values.size() == 1) settings.options.emplace_back(option.name, values[0]);
         if (const Run r = reference_run(*reference, scene, settings); r.status.outcome == Outcome::ok) theirs = row_of(scene, r.trace);
     }
     row.insert(row.end(), theirs.begin(), theirs.end());

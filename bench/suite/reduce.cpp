@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "analysis/line.hpp"
@@ -11,6 +12,15 @@ namespace jvari::bench::suite {
 
 namespace {
 constexpr double swing = 0.2;  // of the largest value, that a turn falls by
+
+double itself(double y) {
+    return y;
+}
+
+Reduced the_one_row(const Series& s) {
+    if (s.size() == 1) return {s.begin()->second};
+    return {.why = fmt::format("{} rows carry these values, expected one; say more in `where`, or another `take`", s.size())};
+}
 
 double mean_of(const Series& s, double (*of)(double)) {
     double sum = 0;
@@ -32,8 +42,8 @@ Reduced slope_of(const Series& s) {
     return {.why = fmt::format("{} rows, and a slope with its interval takes three", s.size())};
 }
 
-int turns_of(const Series& s) {
-    const double least_fall = swing * largest_of(s, [](double y) { return y; });
+Reduced turns_of(const Series& s) {  // how often it turns down by a fifth of its largest value
+    const double least_fall = swing * largest_of(s, itself);
     double top = -HUGE_VAL, bottom = HUGE_VAL;
     int turns = 0;
     bool rising = true;
@@ -43,11 +53,12 @@ int turns_of(const Series& s) {
         if (rising && y < top - least_fall) rising = false, bottom = y, ++turns;
         else if (!rising && y > bottom + least_fall) rising = true, top = y;
     }
-    return turns;
+    return {static_cast<double>(turns)};
 }
 
-// The two lines meet over one of the points, wherever they fit best.
-double off_two_lines(const Series& s) {
+// Relative L2 distance from the nearest two straight lines that begin and end at 0: of a shape, 0 for Helmholtz motion. The two lines meet
+// over one of the points, wherever they fit best.
+Reduced off_two_lines(const Series& s) {
     const double end = s.rbegin()->first;
     double least = HUGE_VAL, power = 0;
     for (const auto& [x, y] : s) power += y * y;
@@ -60,27 +71,25 @@ double off_two_lines(const Series& s) {
         }
         least = std::min(least, std::sqrt(std::max(0.0, power - wy * wy / ww) / power));
     }
-    return least;
+    return {least};
 }
 }  // namespace
 
-Reduced reduce(const Series& s, Take take) {
-    const auto itself = [](double y) { return y; };
-    switch (take) {
-        case Take::value:
-            if (s.size() == 1) return {s.begin()->second};
-            return {.why = fmt::format("{} rows carry these values, expected one; say more in `where`, or another `take`", s.size())};
-        case Take::mean: return {mean_of(s, itself)};
-        case Take::largest: return {largest_of(s, itself)};
-        case Take::least: return {-largest_of(s, [](double y) { return -y; })};
-        case Take::size: return {largest_of(s, [](double y) { return std::abs(y); })};
-        case Take::rms: return {std::sqrt(mean_of(s, [](double y) { return y * y; }))};
-        case Take::slope: return slope_of(s);
-        case Take::share_above_0: return {mean_of(s, [](double y) { return y > 0 ? 1.0 : 0.0; })};
-        case Take::turns: return {static_cast<double>(turns_of(s))};
-        case Take::off_two_lines: return {off_two_lines(s)};
-    }
-    return {};
+std::span<const Take> takes() {
+    using S = const Series&;
+    static constexpr Take all[] = {
+        {"value", the_one_row},
+        {"mean", [](S s) { return Reduced{mean_of(s, itself)}; }},
+        {"largest", [](S s) { return Reduced{largest_of(s, itself)}; }},
+        {"least", [](S s) { return Reduced{-largest_of(s, [](double y) { return -y; })}; }},
+        {"size", [](S s) { return Reduced{largest_of(s, [](double y) { return std::abs(y); })}; }},  // the largest magnitude
+        {"rms", [](S s) { return Reduced{std::sqrt(mean_of(s, [](double y) { return y * y; }))}; }},
+        {"slope", slope_of},  // of the fitted line over `along`
+        {"share_above_0", [](S s) { return Reduced{mean_of(s, [](double y) { return y > 0 ? 1.0 : 0.0; })}; }},  // part of the rows
+        {"turns", turns_of},
+        {"off_two_lines", off_two_lines},
+    };
+    return all;
 }
 
 }  // namespace jvari::bench::suite

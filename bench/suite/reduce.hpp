@@ -2,9 +2,8 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
-
-#include "bench/suite/claim.hpp"
 
 namespace jvari::bench::suite {
 
@@ -14,6 +13,11 @@ struct Reduced {
     double value = 0, half_width = 0;  // half_width: of the 95 % interval of a slope
     std::string why = {};              // why there is no number; "" where there is one
 };
-Reduced reduce(const Series&, Take);  // of a series that has a row
+
+struct Take {
+    const char* name;
+    Reduced (*of)(const Series&);  // of a series that has a row
+};
+std::span<const Take> takes();  // the first is taken unasked
 
 }  // namespace jvari::bench::suite

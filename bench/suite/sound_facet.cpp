@@ -3,7 +3,6 @@
 #include "bench/suite/facet.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <deque>
 #include <map>
 
@@ -13,16 +12,6 @@
 #include "bench/study/errors.hpp"
 
 namespace jvari::bench::suite {
-
-namespace {
-std::vector<std::int16_t> samples_of(const std::string& text) {
-    const std::string bytes = store::bytes_of_base64(text);
-    std::vector<std::int16_t> samples;
-    for (std::size_t n = 0; n + 1 < bytes.size(); n += 2)
-        samples.push_back(static_cast<std::int16_t>(static_cast<unsigned char>(bytes[n]) | static_cast<unsigned char>(bytes[n + 1]) << 8));
-    return samples;
-}
-}  // namespace
 
 store::Table sound_rows(const MeasuredCell& c) {
     store::Table t{{"tap", "quantity", "sample_rate", "peak", "samples", "reference_peak", "reference_samples"}, {}};
@@ -44,7 +33,8 @@ void write_sound_rows(const std::filesystem::path& folder, const store::Table& g
     std::vector<store::NamedSound> named;
     for (std::size_t i = 0; i < g.rows.size(); ++i) {
         const auto keep = [&](const char* peak, const char* samples) {
-            return &sounds.emplace_back(store::Sound{g.number(i, "sample_rate"), g.number(i, peak), samples_of(g.at(i, samples))});
+            return &sounds.emplace_back(
+                store::Sound{g.number(i, "sample_rate"), g.number(i, peak), store::samples_of_base64(g.at(i, samples))});
         };
         store::NamedSound own{{g.rows[i].begin(), g.rows[i].begin() + static_cast<long>(who.size())},
                               g.at(i, "cell"),

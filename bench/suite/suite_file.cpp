@@ -36,8 +36,7 @@ store::Kind<std::optional<int>> reference_modes() {
 }
 
 VariedOption varied(const std::string& name, const store::Entry& e) {
-    const auto colon = name.find(':');
-    VariedOption o{colon == std::string::npos ? "" : name.substr(0, colon), colon == std::string::npos ? name : name.substr(colon + 1), {}};
+    VariedOption o{compare::SchemeOption::of(name, ""), {}};
     for (const store::Entry& one : e.items()) o.values.push_back(one.option_text());
     return o;
 }
@@ -63,24 +62,26 @@ store::Kind<study::Element> element() {
 
 std::vector<store::Key<CellSet>> set_keys() {
     using Set = CellSet;
+    const auto asked = []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* { return member; };
     std::vector<store::Key<Set>> keys{
         needed("scenes", &Set::scenes, store::several(store::text()),
                "files, beside the suite or where the program runs, or names of the library"),
-        key("schemes", &Set::schemes, store::several(store::text()), "what is compared", "all that represent the scene"),
-        key("rates", &Set::rates, store::several(store::positive("Hz")), "at which each runs", "44100 x 1, 2, 4 ... 64"),
-        key("modes", &Set::modes, store::several(store::count()), "of each string", "those below 20 kHz, and more of them by `search`"),
-        key("search", &Set::search, store::yes_or_no(),
+        key("schemes", asked(&Set::schemes), store::several(store::text()), "what is compared", "all that represent the scene"),
+        key("rates", asked(&Set::rates), store::several(store::positive("Hz")), "at which each runs", "44100 x 1, 2, 4 ... 64"),
+        key("modes", asked(&Set::modes), store::several(store::count()), "of each string",
+            "those below 20 kHz, and more of them by `search`"),
+        key("search", asked(&Set::search), store::yes_or_no(),
             "where errors are measured and these are not named, tries more modes, and both forms of compliance"),
-        key("duration", &Set::duration, store::positive("s"), "of each run", "the scene's"),
-        key("tap_rate", &Set::tap_rate, store::positive("Hz"), "of the rows that are compared", "as compare"),
-        key("repeats", &Set::repeats, store::count(), "timed runs"),
-        key("reference", &Set::reference, store::text(), "what errors are against", "the highest that represents the scene"),
-        key("reference_modes", &Set::reference_modes, reference_modes(), "0: doubled until nothing moves; \"cell\": those of the cell",
-            "0"),
+        key("duration", asked(&Set::duration), store::positive("s"), "of each run", "the scene's"),
+        key("tap_rate", asked(&Set::tap_rate), store::positive("Hz"), "of the rows that are compared", "as compare"),
+        key("repeats", asked(&Set::repeats), store::count(), "timed runs"),
+        key("reference", asked(&Set::reference), store::text(), "what errors are against", "the highest that represents the scene"),
+        key("reference_modes", asked(&Set::reference_modes), reference_modes(),
+            "0: doubled until nothing moves; \"cell\": those of the cell", "0"),
         key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap", "the scene's first"),
         key("time_limit_s", &Set::time_limit, store::positive("s"),
             "processor time of a cell's accuracy run, and of each of its reference's two", "none"),
-        key("options", &Set::options, store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),
+        key("options", &Set::varied, store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),
             "one value, or several to vary"),
         key("sweep", &Set::sweep, store::by_name<SweptKey>("a table: key = [values]", swept),
             "any key of the scene, with the values to vary"),
@@ -98,7 +99,7 @@ void must_be_few(const CellSet& s, const store::Entry& e) {
     for (const std::size_t listed : {s.scenes.size(), s.schemes.size(), s.rates.size(), s.modes.size(), s.elements.size() + 1})
         times(listed);
     for (const SweptKey& k : s.sweep) times(k.values.size());
-    for (const VariedOption& o : s.options) times(o.values.size());
+    for (const VariedOption& o : s.varied) times(o.values.size());
     if (cells > most_cells) e.fail(fmt::format("found {} cells, expected at most {}: each is a run", cells, most_cells));
 }
 
@@ -199,50 +200,30 @@ std::vector<std::string> library_suites() {
     return toml_names(library());
 }
 
-namespace {
-std::vector<std::vector<int>> each_of(const std::vector<int>& modes) {  // a point for each; one where they are not named
-    std::vector<std::vector<int>> each;
-    for (const int n : modes) each.push_back({n});
-    if (each.empty()) each.emplace_back();
-    return each;
-}
-}  // namespace
-
 std::vector<SuitePoint> points_of(const Suite& suite) {
     std::vector<SuitePoint> points;
-    for (const CellSet& set : suite.sets)
-        for (const std::string& scene : set.scenes)
-            for (const std::vector<int>& modes : each_of(set.modes)) {
-                compare::CompareRequest base;
-                base.scene = scene;
-                base.schemes = set.schemes;
-                base.controls = true;
-                base.rates = set.rates;
-                base.modes = modes;
-                base.search = set.search;
-                base.duration = set.duration;
-                base.tap_rate = set.tap_rate;
-                base.reference = set.reference;
-                base.reference_modes = set.reference_modes;
-                base.repeats = set.repeats;
-                std::vector<compare::CompareRequest> requests{base};
-                const auto vary = [&requests](const std::vector<std::string>& values, const auto& apply) {
-                    std::vector<compare::CompareRequest> more;
-                    for (const compare::CompareRequest& r : requests)
-                        for (const std::string& value : values) apply(more.emplace_back(r), value);
-                    requests = std::move(more);
-                };
-                for (const SweptKey& k : set.sweep)
-                    vary(k.values, [&k](compare::CompareRequest& r, const std::string& value) { r.set.push_back(k.key + "=" + value); });
-                for (const VariedOption& o : set.options)
-                    vary(o.values, [&o](compare::CompareRequest& r, const std::string& value) {
-                        r.options.push_back({o.scheme, o.name, value});
-                    });
-                for (const compare::CompareRequest& r : requests) {
-                    points.push_back({&set, r});
-                    for (const study::Element e : set.elements) points.push_back({&set, r, e});
-                }
-            }
+    for (const CellSet& set : suite.sets) {
+        std::vector<compare::CompareRequest> requests{set};
+        requests.front().controls = true;
+        const auto vary = [&requests](const auto& values, const auto& apply) {  // as they are where there is no value
+            if (values.empty()) return;
+            std::vector<compare::CompareRequest> more;
+            for (const compare::CompareRequest& r : requests)
+                for (const auto& value : values) apply(more.emplace_back(r), value);
+            requests = std::move(more);
+        };
+        using Request = compare::CompareRequest;
+        vary(set.scenes, [](Request& r, const std::string& scene) { r.scene = scene; });
+        vary(set.modes, [](Request& r, int modes) { r.modes = {modes}; });
+        for (const SweptKey& k : set.sweep)
+            vary(k.values, [&k](Request& r, const std::string& value) { r.set.push_back(k.key + "=" + value); });
+        for (const VariedOption& o : set.varied)
+            vary(o.values, [&o](Request& r, const std::string& value) { r.options.emplace_back(o.option).value = value; });
+        for (const Request& r : requests) {
+            points.push_back({&set, r});
+            for (const study::Element e : set.elements) points.push_back({&set, r, e});
+        }
+    }
     return points;
 }
 

@@ -26,20 +26,15 @@ struct SweptKey {
     std::vector<std::string> values;  // in TOML syntax
 };
 struct VariedOption {
-    std::string scheme, name;  // scheme "": every scheme that knows the name
+    compare::SchemeOption option;  // without its value
     std::vector<std::string> values;
 };
 
-struct CellSet {
-    std::vector<std::string> scenes, schemes;
-    std::vector<double> rates;  // [Hz]
-    std::vector<int> modes;     // none: as compare
-    bool search = true;         // as CompareRequest has it; of errors alone
-    std::optional<double> duration, tap_rate;
-    std::optional<int> reference_modes = 0;  // as CompareRequest has it
-    int repeats = 5;
-    std::string reference, tap;
-    std::vector<VariedOption> options;
+struct CellSet
+    : compare::CompareRequest {  // of each of its scenes, at each of its modes, options and swept values; `search`: of errors alone
+    std::vector<std::string> scenes;
+    std::string tap;  // in place of the request's, whose other taps are not even run
+    std::vector<VariedOption> varied;
     std::vector<SweptKey> sweep;
     std::vector<std::string> measure{measured::errors};  // names of facets
     std::vector<study::Element> elements;

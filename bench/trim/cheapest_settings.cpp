@@ -101,7 +101,7 @@ std::optional<Found> CheapestSettings::of_variant(const Variant& v, const std::v
         const auto found = fewest(v, left_out, rate, limit, too_dear);
         if (too_dear) break;
         if (!found) continue;
-        if (best && found->cost >= best->cost) {
+        if (best && !found->better_than(*best)) {
             if (++dearer == 2) break;
             continue;
         }
@@ -174,7 +174,7 @@ std::optional<Found> CheapestSettings::of_variants(const std::vector<Variant>& v
     std::optional<Found> best;
     for (const Look& look : looked(variants, left_out, limit)) {
         const auto found = of_variant(look.variant, left_out, 0, HUGE_VAL, limit);
-        if (!found || (best && found->cost >= best->cost)) continue;
+        if (!found || (best && !found->better_than(*best))) continue;
         best = found;
         limit = std::min(limit, best->cost);
         best_said_ = fmt::format("{:.3g} s per s so far", best->cost);

@@ -11,32 +11,40 @@
 namespace jvari::bench::trim {
 
 namespace {
-constexpr double worth = 0.95;  // what is cheaper costs less than this of what it replaces
+struct Candidate {
+    int part;
+    double saved_per_error, error;  // saved: in twentieths of the cost; what is less a clock cannot tell, and then the error decides
+};
+
+// The parts that may be left out or put back, in the order in which they are tried: what saves most for the error that it costs goes first,
+// what is put back or not within at these settings last.
+std::vector<Candidate> candidates(CheapestSettings& s, const Found& now) {
+    std::vector<Candidate> order;
+    for (int k = 0; k < static_cast<int>(s.judge().reductions().size()); ++k) {
+        if (!s.judge().may_go(k)) continue;
+        const Model m = toggled(now.model, k);
+        Candidate c{k, -1, HUGE_VAL};
+        try {
+            if (const auto e = s.error_within(m, now.cost); e && m.left_out.size() > now.model.left_out.size()) {
+                const double saved = std::max(0.0, std::floor((1 - s.judge().cost(m) / now.cost) / (1 - worth)));
+                c = {k, saved / std::max(1e-3 * s.judge().target().most, *e - now.error), *e};
+            }
+        } catch (const std::exception&) {
+            continue;  // what is left makes no scene
+        }
+        order.push_back(c);
+    }
+    std::ranges::stable_sort(order, [](const Candidate& a, const Candidate& b) {
+        return a.saved_per_error > b.saved_per_error || (a.saved_per_error == b.saved_per_error && a.error < b.error);
+    });
+    return order;
+}
 
 // Step 2: toggles of single parts, settings sought anew, until none is cheaper.
 void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener& listener) {
-    const int parts = static_cast<int>(s.judge().reductions().size());
     for (bool cheaper = true; cheaper;) {
         cheaper = false;
-        struct Candidate {
-            int part;
-            double saved_per_error;
-        };
-        std::vector<Candidate> order;
-        for (int k = 0; k < parts; ++k) {
-            if (!s.judge().may_go(k)) continue;
-            const Model m = toggled(now.model, k);
-            double value = -1;  // of a part that is put back, or whose leaving is not within at these settings: last
-            try {
-                if (const auto e = s.error_within(m, now.cost); e && m.left_out.size() > now.model.left_out.size())
-                    value = (now.cost - s.judge().cost(m)) / std::max(1e-3 * s.judge().target().most, *e - now.error);
-            } catch (const std::exception&) {
-                continue;  // what is left makes no scene
-            }
-            order.push_back({k, value});
-        }
-        std::ranges::stable_sort(order, [](const Candidate& a, const Candidate& b) { return a.saved_per_error > b.saved_per_error; });
-        for (const Candidate& c : order) {
+        for (const Candidate& c : candidates(s, now)) {
             const double rate = now.model.settings.sample_rate;
             const std::vector<int> left_out = toggled(now.model, c.part).left_out;
             const auto found = s.of_variant({now.model.scheme, now.model.settings.options}, left_out, rate / 2, rate * 2, worth * now.cost);

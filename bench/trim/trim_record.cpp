@@ -56,12 +56,7 @@ store::Table path_table(const Trimmed& t, const Judge& judge) {
 }
 
 std::string command_of(const Trimmed& t, const std::string& file) {
-    const Settings& s = t.last().model.settings;
-    std::string text = fmt::format("jvari run {} --scheme {} --rate {:g}", file, t.last().model.scheme->name, s.sample_rate);
-    if (s.modes > 0) text += fmt::format(" --modes {}", s.modes);
-    if (s.tap_rate != 44100) text += fmt::format(" --tap-rate {:g}", s.tap_rate);
-    for (const auto& [name, value] : s.options) text += " --option " + name + "=" + value;
-    return text;
+    return fmt::format("jvari run {} {}", file, compare::arguments_of(*t.last().model.scheme, t.last().model.settings));
 }
 
 std::string trimmed_toml(const Trimmed& t, const Judge& judge) {

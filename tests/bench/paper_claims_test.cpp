@@ -16,7 +16,6 @@ namespace {
 
 using bench::store::Table;
 using bench::suite::Series;
-using bench::suite::Take;
 
 Table committed(const std::string& file) {
     return bench::store::read_csv(bench::store::read_whole(JVARI_RESULTS "/" + file));
@@ -66,7 +65,8 @@ TEST(RowsOfToday, ThePrecursorOfTheFirstStringFallsAndWithoutStiffnessNothingDoe
     const auto falls = [&t](const char* options, const char* stiffness) {
         Series s = series(t, {{"options", options}, {"string.0.bending_stiffness", stiffness}}, "time_s", "centroid_hz");
         std::erase_if(s, [](const auto& p) { return p.first <= 0.3 || p.first >= 1.15; });
-        const bench::suite::Reduced slope = reduce(s, Take::slope);
+        const bench::suite::Reduced slope =
+            std::ranges::find(bench::suite::takes(), std::string("slope"), &bench::suite::Take::name)->of(s);
         return slope.value < -slope.half_width;
     };
     for (const char* options : {"compliance=own", "compliance=matched"}) {

@@ -8,6 +8,9 @@
 #include <span>
 
 #include "analysis/energy.hpp"
+#include "bench/store/system/time_limit.hpp"
+#include "bench/study/judgement.hpp"
+#include "bench/study/run.hpp"
 #include "bench/trust/certificate_library.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/profile_points.hpp"
@@ -20,6 +23,8 @@
 namespace jvari::test {
 
 namespace {
+namespace study = bench::study;
+
 double cpu_seconds() {
     timespec t;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -63,16 +68,14 @@ void check_ledger(const Descriptor& d, const Trace& t, const Finding& finding) {
     else if (b.accumulated > (exact ? ledger_sum : ledger_toleranced)) finding(d.name, "ledger open by " + text(b.accumulated) + " in all");
 }
 
-void check_pull(const Descriptor& d, const RandomCase& c, const Run& r, const Finding& finding) {
+void check_pull(const Descriptor& d, const RandomCase& c, const study::Summary& told, const Trace& t, const Finding& finding) {
     if (may_pull(d) || pulls_by_law(c.scene)) return;
-    double most = 0, least = 0;
-    for (int k = 0; k < r.trace.taps(); ++k)
+    double least = told.smallest_contact_force, most = told.largest_contact_force;
+    for (int k = 0; k < t.taps(); ++k)
         if (c.scene.taps[static_cast<std::size_t>(k)].quantity == Quantity::bridge_force)
-            for (const double f : r.trace.column(k)) most = std::max(most, std::abs(f)), least = std::min(least, f);
-    const double rows = std::max(1.0, c.settings.sample_rate / c.settings.tap_rate);  // a row is a mean over its steps
-    for (const Fact& f : r.facts)
-        if (f.name == "smallest_contact_force") least = std::min(least, f.value / rows);
-    if (least < -pull * most) finding(d.name, "contact pulls by " + text(-least / most) + " of its largest force");
+            for (const double f : t.column(k)) most = std::fmax(most, f), least = std::fmin(least, f);
+    if (const double pull = study::pull_of(least, most); pull > study::pull_allowed)
+        finding(d.name, "contact pulls by " + text(pull) + " of its largest push");
 }
 
 bool same_bits(const Trace& a, const Trace& b) {
@@ -87,41 +90,51 @@ bool same_bits(const Trace& a, const Trace& b) {
 struct PastItsLimit {};
 struct FewerWereMeasured {};  // modes than the truth would take: there is none to hold a certificate against
 
-// An explicit integrator takes steps as short as the fastest decay asks, however slow the motion: under a contact loss of 100 s/m that is
-// minutes for a row. Its caller ends it by a limit, and that is no finding. No other run has one but that of its scene.
-RunOptions probed_within(const Descriptor& d, double from) {
-    RunOptions options{.energy = true, .block_rows = 64};
-    if (d.name == std::string("sundials"))
-        options.progress = [from](long, long) {
-            if (cpu_seconds() - from > sundials_seconds) throw PastItsLimit{};
-        };
-    return options;
-}
-
-void check_run(const Descriptor& d, const RandomCase& c, Tally& tally, const Finding& finding) {
-    const Settings settings = settings_for(d, c);
-    const double start = cpu_seconds();
-    const Run r = run(d, c.scene, settings, probed_within(d, start));
-    const double took = cpu_seconds() - start;
-    if (took > tally.slowest) tally.slowest = took, tally.slowest_at = std::string(d.name) + " on seed " + std::to_string(c.seed);
-    ++tally.runs;
-    const bool ok = r.status.outcome == Outcome::ok;
-    if (!ok) ++tally.failed;
-    if (r.trace.rows < 0 || r.trace.rows > r.trace.stride || (ok && r.trace.rows != r.trace.stride))
-        return finding(d.name, std::to_string(r.trace.rows) + " rows are valid of " + std::to_string(r.trace.stride));
-    for (int k = 0; k < r.trace.taps(); ++k)
-        for (const double x : r.trace.column(k))
+void check_trace(const Descriptor& d, const RandomCase& c, const Settings& settings, const study::Ran& ran, const Finding& finding) {
+    const Trace& t = ran.trace;
+    const study::Summary& told = ran.cell.summary;
+    const bool ok = told.status.outcome == Outcome::ok;
+    if (t.rows < 0 || t.rows > t.stride || (ok && t.rows != t.stride))
+        return finding(d.name, std::to_string(t.rows) + " rows are valid of " + std::to_string(t.stride));
+    for (int k = 0; k < t.taps(); ++k)
+        for (const double x : t.column(k))
             if (!std::isfinite(x) || (ok && std::abs(x) > largest_value))
                 return finding(d.name, "a value of " + text(x) + " is called valid");
     if (ok) {
-        check_ledger(d, r.trace, finding);
-        check_pull(d, c, r, finding);
+        check_ledger(d, t, finding);
+        check_pull(d, c, told, t, finding);
     }
     const bool probed = c.seed % 4 == 1;
     const Run again = run(d, c.scene, settings, {.energy = probed, .block_rows = probed ? 11 : 1000});
-    if (!same_bits(r.trace, again.trace)) finding(d.name, probed ? "the block size changes a bit" : "block size or probe change a bit");
-    if (again.status.outcome != r.status.outcome || again.status.step != r.status.step || again.trace.rows != r.trace.rows)
+    if (!same_bits(t, again.trace)) finding(d.name, probed ? "the block size changes a bit" : "block size or probe change a bit");
+    if (again.status.outcome != told.status.outcome || again.status.step != told.status.step || again.trace.rows != t.rows)
         finding(d.name, "block size or probe change the outcome");
+}
+
+// A scheme on the scene as a job of a study: judged by nothing but what is looked at here.
+//
+// An explicit integrator takes steps as short as the fastest decay asks, however slow the motion: under a contact loss of 100 s/m that is
+// minutes for a row. It is ended by a limit, and that is no finding. No other run has one but that of its scene.
+void check_run(const Descriptor& d, const RandomCase& c, Tally& tally, const Finding& finding) {
+    study::Plan plan;
+    study::Point& point = plan.points.emplace_back();
+    point.scene = c.scene;
+    study::Job& job = plan.jobs.emplace_back(study::Job{&point, {&d, settings_for(d, c)}});
+    job.judged = false;
+    if (d.name == std::string("sundials")) job.patience = sundials_seconds;
+    job.measure = [&](const study::Ran& ran, study::Record&) { check_trace(d, c, job.cell.settings, ran, finding); };
+    study::References none;
+    study::Kept nowhere;
+    const study::Cell cell = study::record_of(job, none, nowhere, bench::store::Done(), [](long, long) {}).cell;
+    if (cell.failure == "past_time_limit") ++tally.ended;
+    else if (cell.failure == "refused") ++tally.refused;
+    else if (!cell.ran()) finding(d.name, "throws what is no refusal: " + cell.reason);
+    if (!cell.ran()) return;
+    ++tally.runs;
+    tally.failed += cell.summary.status.outcome != Outcome::ok;
+    if (const double took = cell.summary.processor_seconds; took > tally.slowest)
+        tally.slowest = took, tally.slowest_at = std::string(d.name) + " on seed " + std::to_string(c.seed);
+    if (!(needed_by(c.scene) - d.represents).empty()) finding(d.name, "runs a scene that it says it cannot represent");
 }
 }  // namespace
 
@@ -137,19 +150,10 @@ void Tally::add(const Tally& t) {
 
 void check_schemes(const RandomCase& c, Tally& tally, const Finding& finding, const std::function<void(const std::string&)>& at) {
     for (const auto& table : {schemes(), std::span(schemes_of_pairings()), references()})
-        for (const Descriptor& d : table) try {
-                at(d.name);
-                check_run(d, c, tally, finding);
-                if (!(needed_by(c.scene) - d.represents).empty()) finding(d.name, "runs a scene that it says it cannot represent");
-            } catch (const PastItsLimit&) {
-                ++tally.ended;
-            } catch (const Refusal&) {
-                ++tally.refused;
-            } catch (const BadScene&) {
-                ++tally.refused;
-            } catch (const std::exception& e) {
-                finding(d.name, std::string("throws what is no refusal: ") + e.what());
-            }
+        for (const Descriptor& d : table) {
+            at(d.name);
+            check_run(d, c, tally, finding);
+        }
 }
 
 // ---- Certificates
@@ -278,36 +282,55 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
 }
 
 void check_matching(const RandomCase& c, Tally& tally, const Finding& finding, const std::function<void(const std::string&)>& at) try {
-    const double from = cpu_seconds();
-    RunOptions options;
-    options.progress = [&](long, long) {
-        if (cpu_seconds() - from > matching_seconds) throw PastItsLimit{};
-    };
-    const auto once = [&](const Descriptor& d, double rate, int modes, const char* compliance) {
-        at(std::string(d.name) + " " + compliance);
-        return run(d, c.scene, {rate, c.settings.tap_rate, modes, {{"compliance", compliance}}}, options);
-    };
     const Descriptor& scheme =
         *std::find_if(schemes().begin(), schemes().end(), [](const Descriptor& d) { return std::string(d.name) == "modal_two_point"; });
     const int modes = c.settings.modes, multiple = std::clamp(600 / modes, 4, 8);
-    const Run truth = once(exact_contact, 0, modes * multiple, "matched"), half = once(exact_contact, 0, modes * multiple / 2, "matched");
-    for (const int rate : {1, 4}) {
-        const Run own = once(scheme, rate * c.settings.sample_rate, modes, "own");
-        const Run matched = once(scheme, rate * c.settings.sample_rate, modes, "matched");
+    const auto reference = [&](int of_modes) {
+        return std::vector<study::ReferenceChoice>{{&exact_contact, {0, c.settings.tap_rate, of_modes, {{"compliance", "matched"}}}, ""}};
+    };
+    study::Plan plan;
+    study::Point& point = plan.points.emplace_back();
+    point.scene = c.scene;
+    point.taps = c.scene.taps.size();
+    point.references = reference(modes * multiple);
+    point.truth_modes = std::nullopt;
+    point.alone = true;
+    point.time_limit = matching_seconds;
+    for (const int rate : {1, 4})
+        for (const char* compliance : {"own", "matched"})
+            plan.jobs.push_back(
+                {&point, {&scheme, {rate * c.settings.sample_rate, c.settings.tap_rate, modes, {{"compliance", compliance}}}}});
+    study::address(plan, "{}");
+    study::References references(plan.jobs);
+    references.hold(point);
+    study::Kept nowhere;
+    at(scheme.name);
+    const std::vector<study::Record> cells = study::run(plan, references, nowhere, 1, bench::store::Listener()).records;
+    const study::References::Of known = references.make(point, 1, bench::store::Listener());
+    for (const study::Record& r : cells)
+        if (r.cell.failure == "past_time_limit") throw PastItsLimit{};
+    if (!known.truth || std::ranges::any_of(cells, [](const study::Record& r) { return !r.cell.ran(); })) throw Refusal(known.refused);
+    const Trace& truth = known.truth->reference.run.trace;
+    const study::Errors off =
+        study::errors_of(study::run_reference(reference(modes * multiple / 2), c.scene, 1, {}, matching_seconds, true).run.trace, truth);
+    for (std::size_t pair = 0; pair < cells.size(); pair += 2) {
+        const std::size_t whole = study::measure("error_l2_whole");
         double worst = 0;
         std::string tap;
-        for (int k = 0; k < truth.trace.taps(); ++k) {
-            const auto off = [&](const Run& r) { return relative_difference(r.trace.column(k), truth.trace.column(k)); };
-            const double uncertain = off(half), error = off(matched), ratio = (error - uncertain) / (off(own) + uncertain);
-            if (error > harm_matters && ratio > worst) worst = ratio, tap = truth.trace.names[k] + " errs by " + text(error);
+        for (std::size_t k = 0; k < off.size(); ++k) {
+            const double uncertain = off[k][whole], own = cells[pair].cell.errors[k][whole], error = cells[pair + 1].cell.errors[k][whole],
+                         ratio = (error - uncertain) / (own + uncertain);
+            if (error > harm_matters && ratio > worst) worst = ratio, tap = truth.names[k] + " errs by " + text(error);
         }
         tally.harmed += worst > harm;
         if (worst > harm)
-            finding(scheme.name,
-                    "matched at " + std::to_string(rate) + " times the rate: " + tap + ", " + text(worst) + " times as much as own");
+            finding(scheme.name, "matched at " + std::to_string(pair == 0 ? 1 : 4) + " times the rate: " + tap + ", " + text(worst) +
+                                     " times as much as own");
     }
     ++tally.judged;
 } catch (const PastItsLimit&) {
+    ++tally.ended;
+} catch (const bench::store::PastItsLimit&) {
     ++tally.ended;
 } catch (const Refusal&) {
     ++tally.refused;

@@ -16,7 +16,6 @@ constexpr double ledger_toleranced = 1e-5;  // both, if the balance holds to a t
 constexpr double claim_allowed = 1.1;
 constexpr double claim_allowed_alone = 2;  // where one does so itself, at another accuracy
 constexpr double largest_value = 1e12;     // of a tap, in SI units; beyond it the run has diverged
-constexpr double pull = 1e-6;              // of the largest contact force
 constexpr double sundials_seconds = 10;    // of CPU, for one run
 
 constexpr int model_modes = 80;            // of a certificate about the scene, at most; those below 20 kHz where they are fewer
@@ -47,7 +46,7 @@ void check_certificate_about_scene(const RandomCase&, Tally&, const Finding&, co
 
 // Matched modal_two_point must not err by more than 1.2 times as much as own, in a tap whose error is above 1e-3. The truth is matched
 // exact_contact with 4 to 8 times the modes; half of these give its uncertainty.
-constexpr double harm = 1.2, harm_matters = 1e-3, matching_seconds = 10;  // seconds: of CPU, all runs of one scene
+constexpr double harm = 1.2, harm_matters = 1e-3, matching_seconds = 10;  // seconds: of CPU, each run of one scene
 void check_matching(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 
 }  // namespace jvari::test

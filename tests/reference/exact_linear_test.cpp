@@ -139,21 +139,6 @@ TEST(ExactLinear, TheLedgerClosesOverPluckAndDecayAlsoWithOverdampedModes) {
     EXPECT_GT(total, 0.1 * largest);
 }
 
-TEST(ExactLinear, BlocksProbeAndResetLeaveEveryBitAsItWas) {
-    Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});
-    scene.strings[0].pluck = pluck(30);
-    scene.duration = 0.01;
-    const auto scheme = make_scheme(exact_linear, scene, settings(20));
-    EXPECT_EQ(scheme->dofs(), 40);
-    const jvari::Run once = run(*scheme, scene, settings(20));
-    for (int block : {1, 7, 100000}) {
-        RunOptions options;
-        options.block_rows = block;
-        options.energy = block != 7;
-        EXPECT_EQ(run(*scheme, scene, settings(20), options).trace.tap, once.trace.tap) << block;
-    }
-}
-
 TEST(ExactLinear, RefusesWhatTouchesTheString) {
     Scene scene = one_string(NoDamping{});
     scene.strings[0].thread = Thread{5e-3, 1e-3, 1e5, 1, 0};

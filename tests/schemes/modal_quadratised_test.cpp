@@ -291,22 +291,6 @@ TEST(Quadratised, BothFormsAreThePublishedFormulae) {  // Ducceschi et al. 2021,
             }
 }
 
-TEST(Quadratised, BlocksAndTheProbeDoNotChangeTheTrace) {
-    for (const char* name : {"modal_quadratised", "modal_quadratised_three_point"}) {
-        Scene scene = c3_pluck();
-        scene.duration = 0.01;
-        const Settings settings{88200, 44100, 40, {}};
-        RunOptions one;
-        one.block_rows = 1;
-        one.energy = true;
-        const auto a = run(scheme(name), scene, settings), b = run(scheme(name), scene, settings, one);
-        EXPECT_EQ(a.trace.tap, b.trace.tap) << name;
-        const auto again = make_scheme(scheme(name), scene, settings);
-        run(*again, scene, settings);
-        EXPECT_EQ(run(*again, scene, settings).trace.tap, a.trace.tap) << name;  // reset() is complete
-    }
-}
-
 // At 44.1 kHz all 133 modes yield by 1.045 of what they should; at eight times that the cut weighs more.
 TEST(Quadratised, ThreeLevelsCarryMatchedComplianceWhereTheirStringIsStiffEnough) {
     const auto at = [](double rate) { return Settings{rate, rate, 133, {{"levels", "3"}, {"compliance", "matched"}}}; };

@@ -210,16 +210,6 @@ TEST(ModalSpatialNewton, TheTwoFormsAgreeWhereManyPointsLieBetweenNodes) {
     }
 }
 
-TEST(ModalSpatialNewton, BlocksAndTheEnergyProbeDoNotChangeTheTrace) {
-    Scene scene = tanpura(0.01);
-    scene.taps.push_back({"v", Quantity::velocity, 0, 0.02});
-    const auto plain = steps(scene, 88200, 44100, 133);
-    RunOptions probed;
-    probed.energy = true;
-    probed.block_rows = 7;
-    EXPECT_EQ(plain.trace.tap, steps(scene, 88200, 44100, 133, "restricted", probed).trace.tap);
-}
-
 TEST(ModalSpatialNewton, EveryInstructionSetOfThisMachineAgreesWithTheDenseForm) {
     Scene gap = flat_bridge(600 / 256e3);  // runs of 3 and 2 nodes, one alone, and a pluck beside them; later rounding has grown
     gap.strings[0].barriers = {ProfileBarrier{FlatCurve{}, 0.011, 0.019, {1e13}, 1.3, 0},

@@ -69,32 +69,23 @@ Listing list_scenes(const Shelf& shelf) {
     return {std::move(all), text, ""};
 }
 
-Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {  // its text has schemes down; scenes across where they fit, else by name
+Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {
     Json all = Json::array();
-    std::size_t width = 0, right = 0;
-    std::string head, crosses, names;
+    std::size_t width = 0;
     for (const Descriptor* d : schemes) width = std::max(width, std::string(d->name).size());
-    for (std::size_t k = 0; k < shelf.scenes.size(); ++k) {
-        const auto& [name, scene] = shelf.scenes[k];
-        head += fmt::format("  {:<{}}  {}{}\n", "", width, std::string(3 * k, ' '), name);
-        right = std::max(right, width + 4 + 3 * k + name.size());
+    for (const auto& [name, scene] : shelf.scenes)
         for (const Descriptor* d : schemes) {
             const Features missing = needed_by(scene) - d->represents;
             all.push_back({{"scene", name}, {"scheme", d->name}, {"represents", missing.empty()}, {"missing", compare::names_in(missing)}});
         }
-    }
+    std::string text = "which represents which scene\n";
     for (const Descriptor* d : schemes) {
         std::vector<std::string> able;
-        crosses += fmt::format("  {:<{}}  ", d->name, width);
-        for (const auto& [name, scene] : shelf.scenes) {
-            const bool represents = compare::represents(*d, scene);
-            crosses += represents ? "x  " : ".  ";
-            if (represents) able.push_back(name);
-        }
-        crosses += '\n';
-        names += fmt::format("  {:<{}}  {}\n", d->name, width, fmt::join(able, ", "));
+        for (const auto& [name, scene] : shelf.scenes)
+            if (compare::represents(*d, scene)) able.push_back(name);
+        text += fmt::format("  {:<{}}  {}\n", d->name, width, fmt::join(able, ", "));
     }
-    return {std::move(all), "which represents which scene\n" + (right <= Console::width() ? head + crosses : names), ""};
+    return {std::move(all), text, ""};
 }
 
 Listing list_suites() {

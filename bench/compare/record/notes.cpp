@@ -1,9 +1,10 @@
 #include "bench/compare/record/notes.hpp"
 
 #include <fmt/core.h>
-#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "analysis/statistics.hpp"
 
 namespace jvari::bench::compare {
 
@@ -17,10 +18,7 @@ double median_spread(const store::Table& cells) {
         const double spread = 0.5 * (cells.number(i, "cost_upper") - cells.number(i, "cost_lower")) / cells.number(i, "cost_s_per_s");
         if (std::isfinite(spread)) spreads.push_back(spread);
     }
-    if (spreads.empty()) return std::nan("");
-    const auto middle = spreads.begin() + static_cast<std::ptrdiff_t>(spreads.size() / 2);
-    std::nth_element(spreads.begin(), middle, spreads.end());
-    return *middle;
+    return spreads.empty() ? store::nan : spread_of(spreads).median;
 }
 
 std::string busy_text(const store::Table& cells) {
