@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <cstddef>
-#include <cstdlib>
 
 #if defined(__SANITIZE_ADDRESS__)
 #define JVARI_SANITIZED

@@ -6,7 +6,6 @@
 // (bench/study/judgement.hpp), on the side of its stability limit where it is sound. That its contacts do not pull is a promise of its own.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "bench/check/promise.hpp"

@@ -6,7 +6,6 @@
 // all others.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>

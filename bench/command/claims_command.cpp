@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "bench/command/console.hpp"
 #include "bench/command/text_table.hpp"

@@ -1,7 +1,6 @@
 // jvari export: the problem that a scheme of one's own solves, as arrays.
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/command/console.hpp"

@@ -2,7 +2,6 @@
 // manifest.json and the report.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -18,7 +17,6 @@
 #include "bench/compare/record/notes.hpp"
 #include "bench/compare/record/pareto.hpp"
 #include "bench/map/map_tables.hpp"
-#include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
-#include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/sound.hpp"

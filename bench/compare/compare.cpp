@@ -10,7 +10,6 @@
 #include "bench/compare/needed_cells.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "reference/agreement.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {

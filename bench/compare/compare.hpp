@@ -5,7 +5,6 @@
 #pragma once
 
 #include <limits>
-#include <string>
 
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/request.hpp"

@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "bench/compare/variants.hpp"
 #include "bench/study/cell.hpp"

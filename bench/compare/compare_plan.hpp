@@ -1,7 +1,6 @@
 // What a comparison is going to run: which cells at which settings, which references to try in turn.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "bench/diff/costs.hpp"
 #include "bench/store/usage.hpp"

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "bench/diff/difference.hpp"
 #include "bench/store/json.hpp"

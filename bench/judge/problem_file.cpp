@@ -1,7 +1,5 @@
 #include "bench/judge/problem_file.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/error.hpp"

@@ -1,7 +1,6 @@
 #include "bench/report/derived.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"

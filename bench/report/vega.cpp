@@ -13,7 +13,6 @@
 #include "bench/report/page.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/system/interruption.hpp"
 #include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"
 

@@ -4,7 +4,6 @@
 #include <samplerate.h>
 
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "analysis/convolution.hpp"

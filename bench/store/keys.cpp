@@ -1,7 +1,6 @@
 #include "bench/store/keys.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace jvari::bench::store {
 

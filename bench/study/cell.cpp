@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/energy.hpp"
 #include "bench/store/records.hpp"

@@ -18,7 +18,6 @@
 //   sound           none of these, and at least one figure that would have told
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "bench/study/cell.hpp"

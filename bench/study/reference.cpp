@@ -9,7 +9,6 @@
 #include "bench/store/system/time_limit.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/trust/kept_run.hpp"
-#include "reference/agreement.hpp"
 
 namespace jvari::bench::study {
 

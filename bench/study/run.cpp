@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/side_by_side.hpp"

@@ -7,7 +7,6 @@
 
 #include "analysis/error.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/system/time_limit.hpp"
 #include "bench/study/errors.hpp"
 #include "reference/agreement.hpp"
 #include "reference/certificate.hpp"

@@ -1,7 +1,5 @@
 #include "bench/suite/claim.hpp"
 
-#include <algorithm>
-
 namespace jvari::bench::suite {
 
 namespace {

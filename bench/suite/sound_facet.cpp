@@ -2,7 +2,6 @@
 // there.
 #include "bench/suite/facet.hpp"
 
-#include <algorithm>
 #include <deque>
 #include <map>
 

@@ -12,7 +12,6 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/time_limit.hpp"
-#include "bench/store/usage.hpp"
 #include "bench/study/cost.hpp"
 #include "bench/study/judgement.hpp"
 #include "bench/study/truth.hpp"

@@ -211,7 +211,7 @@ TEST(Report, NothingInThePageEndsAScriptEarly) {
     EXPECT_EQ(bench::report::inside_script("a</script>b</SCRIPT><!--"), "a<\\/script>b<\\/SCRIPT><\\!--");
     EXPECT_EQ(bench::report::inside_script("x</g,1<2"), "x</g,1<2");
     const std::string text = bench::report::page_of(a_page(), "");
-    EXPECT_NE(text.find("<title>&lt;b></title>"), std::string::npos);
+    EXPECT_NE(text.find("<title>&lt;b&gt;</title>"), std::string::npos);
     EXPECT_EQ(data_of(text).at("tables").at("cells"), "</script><script>");
     EXPECT_EQ(data_of(text).at("manifest").at("note"), "<!-- </script>");
     for (const char* mark : {"@TITLE@", "@STYLE@", "@SCRIPTS@", "@DATA@", "@PROGRAM@"})

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/compare/catalogue.hpp"
-
 namespace jvari::bench::command {
 
 // One thing listed in its three forms.

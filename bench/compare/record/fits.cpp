@@ -1,6 +1,5 @@
 #include "bench/compare/record/fits.hpp"
 
-#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <optional>
