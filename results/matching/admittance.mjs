@@ -1,15 +1,15 @@
 // What a contact sees of a string, over frequency: draws admittance.svg beside this file, and admittance.csv with what is drawn.
 //     node results/matching/admittance.mjs
 // Displacement at the contact per newton, mean over a step, of a force that is constant over each step: of the true string (6000 modes, exact in
-// time), of the modes below 20 kHz by the two-point step (van Walstijn et al. 2016, eqs 32-38), the difference of the two, and the spring and
-// damper that stand for it (docs/compliance-matching.md). On a circle |z| > 1 three mode spacings outside, so that single resonances blur.
+// time), of the modes below 20 kHz by the two-point step (van Walstijn et al. 2016, eqs 32-38), the difference of the two, and the ladder
+// that stands for it (docs/compliance-matching.md). On a circle |z| > 1 three mode spacings outside, so that single resonances blur.
 import { writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import * as vega from "vega";
 import * as vegaLite from "vega-lite";
 
-const here = dirname(fileURLToPath(import.meta.url)), all = 6000, rate = 44100, points = 120;
+const here = dirname(fileURLToPath(import.meta.url)), all = 6000, rates = [44100, 176400], points = 120;
 
 // scenes/tanpura_c3_release.toml at its bridge, scenes/guitar_over_fret.toml at its fret
 const contacts = [
@@ -43,42 +43,49 @@ function stepped({ omega, sigma, yields }, z, h) {
 }
 
 const table = [];
-for (const c of contacts) {
+for (const c of contacts) for (const rate of rates) {
     const modes = modesOf(c), kept = modes.filter((m) => m.omega < 2 * Math.PI * 20e3).length, h = 1 / rate;
     const sum = (some, of) => some.map(of).reduceRight((a, b) => a + b, 0);
-    const atRest = (m) => m.yields / m.omega ** 2, third = modes[kept - 1].omega / 3;
-    const cut = sum(modes.slice(kept), atRest), there = sum(modes.slice(kept), (m) => m.yields / (m.omega ** 2 + third ** 2));
-    const R = (cut / there - 1) / (third * cut);
+    const atRest = (m) => m.yields / m.omega ** 2, beyond = modes.slice(kept), cut = sum(beyond, atRest);
+    const mass = sum(beyond, (m) => atRest(m) / m.omega ** 2) / cut ** 2;
+    const touching = Array.from({ length: 22 }, (_, k) => modes[kept - 1].omega * 1.1 ** k).map((s) => {
+        const there = sum(beyond, (m) => m.yields / (m.omega ** 2 + s ** 2));
+        return (mass * s) / ((mass * s * s) / (1 / there - 1 / cut) - 1);
+    });
+    const branch = ((2 * mass) / h) * Math.tanh(Math.min((Math.min(...touching) * h) / mass, 1) / 2);
     const own = sum(modes.slice(0, kept), (m) => stepped(m, [1 + 1e-9, 0], h)[0]), C = sum(modes, atRest) - own;
+    const damper = ((h / 2) * sum(beyond.filter((m) => m.omega > Math.PI / h), atRest)) / C ** 2;
     const blur = Math.exp(((3 * Math.PI) / c.L) * Math.sqrt(c.T / c.mu) * h);
     for (let k = 0; k < points; ++k) {
         const phase = (Math.PI * (k + 0.5)) / points, z = [blur * Math.cos(phase), blur * Math.sin(phase)], mean = times([0.5, 0], plus(z, [1, 0]));
         const total = (some, of) => times(mean, some.map((m) => of(m, z, h)).reduce(plus));
         const truth = total(modes, exact), scheme = total(modes.slice(0, kept), stepped), missing = plus(truth, times([-1, 0], scheme));
-        const element = over([1, 0], plus([1 / C, 0], times([(2 * R) / h, 0], over(plus(z, [-1, 0]), plus(z, [1, 0])))));
-        const lines = { "true string": truth, "modes and step": scheme, "what is missing": missing, "spring and damper": element };
+        const speed = times([2 / h, 0], over(plus(z, [-1, 0]), plus(z, [1, 0])));
+        const behind = over([mass * branch, 0], plus([branch, 0], times(speed, [mass, 0])));
+        const element = over([1, 0], plus([1 / C, 0], times(speed, plus([damper, 0], times(speed, behind)))));
+        const lines = { "true string": truth, "modes and step": scheme, "what is missing": missing, ladder: element };
         for (const [line, [re, im]] of Object.entries(lines))
-            table.push({ contact: c.name, line, frequency_hz: (phase * rate) / (2 * Math.PI), admittance_m_per_N: Math.hypot(re, im) });
+            table.push({ contact: c.name, rate, line, frequency_hz: (phase * rate) / (2 * Math.PI), admittance_m_per_N: Math.hypot(re, im) });
     }
-    console.log(`${c.name}: ${kept} modes, C ${C.toExponential(2)} m/N, R ${R.toFixed(3)} kg/s`);
+    console.log(`${c.name}, ${rate} Hz: ${kept} modes, C ${C.toExponential(2)} m/N, damper ${damper.toPrecision(3)} and ${branch.toPrecision(3)} kg/s, mass ${mass.toExponential(2)} kg`);
 }
 const rounded = (x) => Number(x.toPrecision(4));
 const columns = Object.keys(table[0]);
 const text = (x) => (typeof x === "number" ? String(rounded(x)) : x);
 writeFileSync(join(here, "admittance.csv"), [columns.join(","), ...table.map((row) => columns.map((c) => text(row[c])).join(","))].join("\n") + "\n");
 
-const order = ["true string", "modes and step", "what is missing", "spring and damper"];
+const order = ["true string", "modes and step", "what is missing", "ladder"];
 const chart = {
     $schema: "https://vega.github.io/schema/vega-lite/v5.json",
-    title: { text: "What a contact sees at 44.1 kHz", anchor: "start" },
+    title: { text: "What a contact sees, up to half the sample rate", anchor: "start" },
     data: { values: table.map((row) => ({ ...row, kHz: rounded(row.frequency_hz / 1e3), Y: rounded(row.admittance_m_per_N) })) },
-    facet: { column: { field: "contact", title: null, sort: contacts.map((c) => c.name) } },
-    resolve: { scale: { y: "shared" } },
+    facet: { column: { field: "contact", title: null, sort: contacts.map((c) => c.name) }, row: { field: "rate", title: "sample rate [Hz]" } },
+    resolve: { scale: { x: "independent", y: "shared" } },
     spec: {
-        width: 320, height: 260,
+        width: 320, height: 190,
         mark: { type: "line", clip: true },
         encoding: {
-            x: { field: "kHz", type: "quantitative", title: "frequency [kHz]", scale: { domain: [0, 22.05], nice: false } },
+            x: { field: "kHz", type: "quantitative", title: "frequency [kHz]", scale: { nice: false } },
             y: { field: "Y", type: "quantitative", title: "displacement per force [m/N]", scale: { type: "log", domain: [1e-8, 1e-3] } },
             color: { field: "line", type: "nominal", title: null, sort: order, scale: { domain: order, range: ["#222222", "#7f7f7f", "#1f77b4", "#d62728"] } },
             strokeDash: { field: "line", type: "nominal", sort: order, scale: { domain: order, range: [[1, 0], [6, 3], [1, 0], [6, 3]] } },

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scenes/barrier.hpp"
@@ -124,6 +125,62 @@ double radiation_resistance(const String& s, const Footprint& at, int kept) {
     return yield > slower && slower > 0 ? slower / (yield * (yield - slower) * frequency) : none;
 }
 
+namespace {
+constexpr int further_modes = 8;  // times as many as are kept: what is beyond adds 1/500 to E, and to C from its closed form
+
+// R of C^-1 D + R (D' - v), mass v' = R (D' - v), where its admittance is that of the cut modes at one real frequency: the least over all.
+// There both touch. On an ideal string that is at infinity, and R the wave resistance. With stiffness and footprints R is larger, and
+// hardly changes near three times the frequency of the last mode kept. `none`: of a single cut mode, which has no resistance.
+double touching_resistance(const Modes& modes, int kept, const std::vector<double>& g, double C, double E, double none) {
+    const double mass = E / (C * C), last = modes.omega0[kept - 1];
+    double least = std::numeric_limits<double>::infinity();
+    double beyond = C;  // of the modes that are not summed, whose share in C falls as 1/omega^2
+    for (int i = modes.count() - 1; i >= kept; --i) beyond -= g[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
+    for (double s = last; s < further_modes * last; s *= 1.1) {
+        const double x_end = s / modes.omega0.back();
+        double slower = beyond * (1 - std::atan(x_end) / x_end);  // C - H
+        for (int i = modes.count() - 1; i >= kept; --i) {
+            const double square = modes.omega0[i] * modes.omega0[i];
+            slower += g[i] * g[i] / (modes.mass * square) * s * s / (square + s * s);
+        }
+        const double x = mass * s * C * (C - slower) * s / slower - 1;  // M s^2/(1/H - 1/C) - 1
+        if (slower < C && x > 1e-6) least = std::min(least, mass * s / x);
+    }
+    return std::isfinite(least) ? least : none;
+}
+}  // namespace
+
+CutModes cut_modes(const String& s, std::span<const Footprint> points, int kept, double nyquist) {
+    const auto* table = measured(s);
+    const int all = table ? static_cast<int>(table->frequency_hz.size()) : further_modes * kept;
+    if (all <= kept) return {};
+    const Modes modes = modes_of(s, all);
+    const std::size_t n = points.size();
+    std::vector<std::vector<double>> g;
+    for (const Footprint& p : points) g.push_back(footprint_weights(modes, p.position, p.width));
+    CutModes cut;
+    for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = 0; b < n; ++b) {
+            double C = table ? 0 : static_deflection(s, points[a], points[b]), E = 0, below = 0;  // below half the sample rate
+            for (int i = all - 1; i >= 0; --i) {
+                const double square = modes.omega0[i] * modes.omega0[i], own = g[a][i] * g[b][i] / (modes.mass * square);
+                if (i < kept) C -= table ? 0 : own;
+                else {
+                    if (table) C += own;
+                    E += own / square;
+                    if (modes.omega0[i] < nyquist) below += own;
+                }
+            }
+            // Of the modes beyond `all` those above the half rate have C as 1/omega.
+            const double share = table ? 1 : std::min(1.0, modes.omega0[all - 1] / nyquist);
+            cut.C.push_back(C), cut.E.push_back(E), cut.folded.push_back((C - below) * share);
+        }
+    for (std::size_t a = 0; a < n; ++a)
+        cut.resistance.push_back(
+            touching_resistance(modes, kept, g[a], cut.C[a * n + a], cut.E[a * n + a], 2 * std::sqrt(s.tension * s.linear_density)));
+    return cut;
+}
+
 Sites sites_of(const Scene& scene, std::span<const Footprint> contacts) {
     const String& s = scene.strings.front();
     Sites all;
@@ -166,13 +223,36 @@ void refuse_soft(const std::string& who, double bb, double bc, double cc) {
     if (!(bb * cc >= bc * bc)) refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
 }
 
-MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, int kept, const OwnResponse& own) {
+// Of all points pressed alike: each has the row sums of C and E, so that neighbours share a mass and a damper. Modes above half the sample
+// rate fold down to any frequency: sampled, they are a spring with a damper of dt/2 over their compliance. No mass follows its point faster
+// than in a step, and in a step of constant velocity by what is exact, 1 - exp(-x).
+std::vector<Ladder> ladders(const String& s, const std::vector<double>& C, const CutModes& cut, std::size_t n, double dt) {
+    std::vector<Ladder> all(n);
+    for (std::size_t a = 0; a < n; ++a) {
+        if (cut.C.empty()) {
+            all[a].damper = std::sqrt(s.tension * s.linear_density);
+            continue;
+        }
+        const auto row = [&](const std::vector<double>& m) {
+            double sum = 0;
+            for (std::size_t b = 0; b < n; ++b) sum += std::abs(m[a * n + b]);
+            return sum;
+        };
+        const double yields = row(C), yields_cut = row(cut.C);
+        if (!(yields > 0 && yields_cut > 0)) continue;
+        all[a].damper = 0.5 * dt * row(cut.folded) / (yields * yields);
+        all[a].mass = row(cut.E) / (yields_cut * yields_cut);
+        const double follows = dt > 0 ? std::min(cut.resistance[a] * dt / all[a].mass, 1.0) : 0;  // x
+        all[a].resistance = dt > 0 ? 2 * all[a].mass / dt * std::tanh(0.5 * follows) : cut.resistance[a];
+    }
+    return all;
+}
+
+MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, const OwnResponse& own) {
     MissingMatrix m;
     const int forces = static_cast<int>(sites.forces.size()), points = sites.points();
     m.contacts = sites.contacts;
     m.thread = sites.thread;
-    m.wave_resistance = 2 * std::sqrt(s.tension * s.linear_density);
-    for (int p = 0; p < points; ++p) m.radiation.push_back(radiation_resistance(s, sites.forces[p], kept));
     m.taps.resize(taps);
     for (int r = 0; r < static_cast<int>(sites.readings.size()); ++r)
         for (int f = 0; f < forces; ++f) {
@@ -187,11 +267,13 @@ MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, 
 }
 }  // namespace
 
-MissingMatrix missing_matrix(const std::string& who, const String& s, const Sites& sites, std::size_t taps, int kept,
+MissingMatrix missing_matrix(const std::string& who, const String& s, const Sites& sites, std::size_t taps, int kept, double dt,
                              const OwnResponse& own) {
-    MissingMatrix m = difference(s, sites, taps, kept, own);
+    MissingMatrix m = difference(s, sites, taps, own);
     const int n = sites.points();
+    const CutModes cut = cut_modes(s, std::span(sites.forces).first(n), kept, dt > 0 ? std::numbers::pi / dt : HUGE_VAL);
     if (n <= 1 + (m.thread ? 1 : 0)) {
+        m.ladder = ladders(s, m.C, cut, n, dt);
         const MissingCompliance one(m);
         refuse_soft(who, one.bb, one.bc, one.cc);
         return m;
@@ -208,6 +290,7 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
             for (int k = 0; k < n; ++k) sum += parts.vector[k * n + a] * std::max(parts.value[k], 0.0) * parts.vector[k * n + b];
             m.C[a * n + b] = m.C[b * n + a] = sum;  // symmetric to the last bit
         }
+    m.ladder = ladders(s, m.C, cut, n, dt);
     return m;
 }
 
@@ -220,11 +303,10 @@ bool matched_without_loss(const Descriptor& descriptor, const Scene& scene, cons
 }
 
 MissingCompliance::MissingCompliance(const MissingMatrix& m) {
-    wave_resistance = m.wave_resistance;
     const bool barrier = m.contacts > 0;
     const int points = m.contacts + (m.thread ? 1 : 0), c = m.contacts;
-    if (barrier) radiation_b = m.radiation[0];
-    if (m.thread) radiation_c = m.radiation[c];
+    if (barrier) ladder_b = m.ladder[0];
+    if (m.thread) ladder_c = m.ladder[c];
     if (barrier) bb = m.C[0];
     if (m.thread) cc = m.C[c * points + c];
     if (barrier && m.thread) bc = m.C[1];

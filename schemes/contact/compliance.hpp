@@ -33,10 +33,28 @@ struct Footprint {        // where a force acts and a displacement is read
 
 double static_deflection(const String&, const Footprint& at, const Footprint& force);  // C_true [m/N]
 
-// What the modes beyond the first `kept` resist at a point, beside the spring C_cut that they are under a steady force [kg/s]: with their
-// admittance H(s) = sum of g_i^2/(m (s^2 + omega_i^2)), H(s) = C_cut/(1 + s R C_cut) at a third of the frequency of the last mode kept.
-// Where no mode is left out, half the wave resistance of the string, sqrt(T mu).
+// What the modes beyond the first `kept` resist at a point, if a damper alone stands beside the spring C_cut that they are under a steady
+// force [kg/s]: with their admittance H(s) = sum of g_i^2/(m (s^2 + omega_i^2)), H(s) = C_cut/(1 + s R C_cut) at a third of the frequency
+// of the last mode kept. Where no mode is left out, half the wave resistance of the string, sqrt(T mu). For schemes from outside.
 double radiation_resistance(const String&, const Footprint&, int kept);
+
+// What the points see of the modes beyond the first `kept`, as matrices over the points: their static yield C and inertia E, the sums of
+// g g'/(m omega^2) and g g'/(m omega^4), and the part of C whose modes lie above `nyquist` [rad/s]. Empty where no mode is left out.
+struct CutModes {
+    std::vector<double> C, E, folded;  // [m/N], [m s^2/N], [m/N]
+    std::vector<double> resistance;    // of the damper in each point's ladder [kg/s]
+};
+CutModes cut_modes(const String&, std::span<const Footprint> points, int kept, double nyquist);
+
+// The element of a point: a spring C, beside it a damper, beside both a mass behind a damper.
+//     F = C^-1 D + damper D' + resistance (D' - v),     mass v' = resistance (D' - v)
+struct Ladder {
+    double damper = 0, resistance = 0;  // [kg/s]
+    double mass = 0;                    // [kg]
+    // v follows the point by v' = rate v + what is known. Then both dampers resist a velocity of the point by:
+    double resists(double rate) const { return damper + branch(rate); }
+    double branch(double rate) const { return mass > 0 ? 1 / (1 / resistance + 1 / (rate * mass)) : 0; }  // rate [1/s]
+};
 
 double static_nut_force(const String&, const Footprint& force);  // of 1 N [1]
 
@@ -71,8 +89,7 @@ struct MissingMatrix {
     std::vector<double> pluck;              // on each point; empty without a pluck [m/N]
     std::vector<std::vector<double>> taps;  // per tap of the scene, of each point and then the pluck; empty for what is no linear tap
     double excess = 0;                      // [m/N]
-    double wave_resistance = 0;             // of the string, 2 sqrt(T mu) [kg/s]
-    std::vector<double> radiation;          // what the cut modes resist at each point [kg/s]
+    std::vector<Ladder> ladder;             // of each point
 
     double on_tap(std::size_t k, const double* force, double F_e) const {  // force: of each point
         if (taps[k].empty()) return 0;
@@ -82,14 +99,14 @@ struct MissingMatrix {
         return sum;
     }
 };
-// `kept`: how many of the string's modes the scheme has. Refuses a string that is too soft already, since what is missing can stand in
-// series only where it is more than nothing; `who` opens the sentence.
-MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps, int kept, const OwnResponse& own);
+// `kept`: how many of the string's modes the scheme has, dt its step, 0 if it is exact in time. Refuses a string that is too soft already,
+// since what is missing can stand in series only where it is more than nothing; `who` opens the sentence.
+MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps, int kept, double dt,
+                             const OwnResponse& own);
 
 struct MissingCompliance {                          // of one contact at most [m/N]; 0 where a part is absent
     double bb = 0, bc = 0, cc = 0, be = 0, ce = 0;  // barrier, thread, pluck
-    double wave_resistance = 0;                     // of the string, 2 sqrt(T mu) [kg/s]
-    double radiation_b = 0, radiation_c = 0;        // what the cut modes resist at barrier and thread [kg/s]
+    Ladder ladder_b, ladder_c;                      // of barrier and thread
     std::vector<std::array<double, 3>> taps;        // per tap of the scene, of 1 N at each; 0 for what is no linear tap of this string
     double on_tap(std::size_t k, double F_b, double F_c, double F_e) const {
         return taps[k][0] * F_b + taps[k][1] * F_c + taps[k][2] * F_e;

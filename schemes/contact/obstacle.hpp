@@ -12,15 +12,17 @@
 // known before the step, and never negative. Then r = (I + Theta D)^-1 (free + Theta F) is the same equation with other compliances, solved
 // so only while a lossy contact is closed. It takes sum D_a r_a^2.
 //
-// What the string lacks at its points stands in series with them (compliance.hpp): a compliance C, beside it dampers R. It moves by D, and
-// by the rule at midpoints F = P + (D+ - D)/2 C^-1 + R (D+ - D)/span with P = C^-1 D the force of the spring. So with
-// W = (R C/span + 1/2)^-1 and K = C W,
-//     D+ = D + K (F - P),   P+ = P + W (F - P),   points at reading + C P,   r = free - K P + (Theta + K) F,
-// the equation above with Theta + K for Theta. P' C P/2 is stored, and (D+ - D)' R (D+ - D)/span lost.
+// What the string lacks at its points stands in series with them (compliance.hpp): a compliance C, beside it a ladder. It moves by D, and
+// by the rule at midpoints F = P + (D+ - D)/2 C^-1 + R (D+ - D)/span - B v with P = C^-1 D the force of the spring, v the velocities of the
+// ladder's masses, R and B what all of it and its branch with the mass resist in a step. So with Q = P - B v, W = (R C/span + 1/2)^-1 and
+// K = C W,
+//     D+ = D + K (F - Q),   P+ = P + W (F - Q),   points at reading + C P,   r = free - K Q + (Theta + K) F,
+// the equation above with Theta + K for Theta. (P' C P + v' M v)/2 is stored, and what LadderStep says is lost.
 //
 // Where the contacts' forces are known before the step (explicit_rule.hpp), D is that of the instant by which they go, and D' the backward
-// difference of second order (3 D - 4 D- + D--)/(2 dt). Midpoints would alternate for ever there: a stiff contact says what D is, and not
-// by how much it moves. With F = P + R D' and q = R/dt C (2 P- - P--/2), P = W (F + q), W = (1 + 3/2 R C/dt)^-1, S = C W.
+// difference of second order (3 D - 4 D- + D--)/(2 dt), v' likewise. Midpoints would alternate for ever there: a stiff contact says what D
+// is, and not by how much it moves. With F = P + R D' - B v_0, v_0 = (4 v- - v--)/3 and q = R/dt C (2 P- - P--/2) + B v_0,
+// P = W (F + q), W = (1 + 3/2 R C/dt)^-1, S = C W.
 #pragma once
 
 #include <algorithm>
@@ -78,7 +80,8 @@ public:
     }
     void put_in_series(const MissingMatrix& missing, int levels) {  // levels: how many of them a step spans
         const double dt = span_ / levels;
-        Series z{Residual(missing, known_before ? 4 * dt / 3 : span_), {}, {}, {}, {}, {}};
+        Series z{Residual(missing, known_before ? 4 * dt / 3 : span_), {}, {}, {}, {}, {}, {}, {}};
+        for (const Ladder& l : z.ladder) z.in_step.emplace_back(l, z.span);
         std::vector<double> theta = theta_;
         for (std::size_t i = 0; i < theta.size(); ++i) {
             if (known_before) z.K[i] *= 0.5, z.W[i] *= 0.5;
@@ -95,7 +98,7 @@ public:
         if constexpr (known_before) rule_.put_in_series(yield_alone(z));
         z.span = known_before ? dt : span_;
         series_levels_ = levels;
-        for (auto* v : {&z.P[0], &z.P[1], &z.older, &z.now, &z.free, &z.q}) v->assign(z.points, 0.0);
+        for (auto* v : {&z.P[0], &z.P[1], &z.v[0], &z.v[1], &z.older, &z.now, &z.free, &z.q}) v->assign(z.points, 0.0);
         series_ = std::move(z);
     }
 
@@ -110,17 +113,18 @@ public:
     void begin(const double* reading) {  // at rest at t = 0
         for (int a = 0; a < contacts(); ++a) eta_[a] = contacts_.heights[a] - reading[a];
         rule_.begin(eta_.data());
-        if (series_)
-            for (auto& P : series_->P) std::fill(P.begin(), P.end(), 0.0);
+        if (series_) series_->rest();
     }
     void follow(const Obstacle& first) {                   // after `first` made the first half step
         if constexpr (!known_before) rule_ = first.rule_;  // with its state, and other compliances
         rule_.set(loss_.undamped());
         if (!series_) return;
-        for (auto& P : series_->P) std::fill(P.begin(), P.end(), 0.0);
+        series_->rest();
         series_->P[1] = first.series_->P[0];
+        series_->v[1] = first.series_->v[0];
         if (known_before)  // the level before the first, so that D begins as by Euler's backward step
-            for (double& P : series_->P[1]) P = -P;
+            for (auto* x : {&series_->P[1], &series_->v[1]})
+                for (double& value : *x) value = -value;
     }
 
     // Forces on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
@@ -132,7 +136,7 @@ public:
     // At the readings of one level [J]; level: 0 the one that the next step starts from, 1 the one after it (with something in series).
     double potential(const double* reading, int level = 0) const {
         const double* P = series_ ? series_->P[level].data() : nullptr;
-        double sum = series_ ? series_->stored(P) : 0;
+        double sum = series_ ? series_->stored(P, series_->v[level].data()) : 0;
         const auto at = [&](int a) { return reading[a] + (series_ ? series_->yield(a, P) : 0); };
         for (int a = 0; a < contacts(); ++a) sum += rule_.potential(a, contacts_.heights[a] - at(a));
         for (int t = 0; t < threads_.count(); ++t) sum += threads_.stored(t, at(contacts() + t));
@@ -271,13 +275,19 @@ private:
         for (std::size_t a = 0; a < n; ++a) {
             z.older[a] = at.older[a] + z.yield(a, P.data());
             z.now[a] = at.now[a] + z.yield(a, P_now);
-            z.free[a] = at.free[a] - Residual::times(z.K, a, P.data(), n);
+            z.q[a] = P[a] - z.in_step[a].branch * z.v[0][a];
         }
+        for (std::size_t a = 0; a < n; ++a) z.free[a] = at.free[a] - Residual::times(z.K, a, z.q.data(), n);
         const bool converged = solve_points<false>({z.older.data(), z.now.data(), z.free.data()}, force);
-        for (std::size_t a = 0; a < n; ++a) z.free[a] = force[a] - P[a];
-        z.lost = z.lost_in(z.free.data());
-        for (std::size_t a = 0; a < n; ++a) P[a] += Residual::times(z.W, a, z.free.data(), n);
-        if (series_levels_ == 2) z.P[0].swap(z.P[1]);
+        for (std::size_t a = 0; a < n; ++a) z.free[a] = force[a] - z.q[a];
+        z.lost = 0;
+        for (std::size_t a = 0; a < n; ++a) {
+            const double moved = Residual::times(z.K, a, z.free.data(), n);
+            z.lost += z.in_step[a].lost(moved, z.v[0][a]);
+            z.in_step[a].follow(moved, z.v[0][a]);
+            P[a] += Residual::times(z.W, a, z.free.data(), n);
+        }
+        if (series_levels_ == 2) z.P[0].swap(z.P[1]), z.v[0].swap(z.v[1]);
         return converged;
     }
 
@@ -287,7 +297,11 @@ private:
         const auto speed = [&](double D, std::size_t a) {
             return (1.5 * D - 2 * z.yield(a, z.P[0].data()) + 0.5 * z.yield(a, z.P[1].data())) / z.span;
         };
-        for (std::size_t a = 0; a < n; ++a) z.q[a] = -z.R[a] * speed(0, a);
+        const auto mass_alone = [&](std::size_t a) { return (4 * z.v[0][a] - z.v[1][a]) / 3; };
+        for (std::size_t a = 0; a < n; ++a) {
+            const LadderStep& l = z.in_step[a];
+            z.q[a] = l.branch * mass_alone(a) - (l.damper + l.branch) * speed(0, a);
+        }
         for (std::size_t a = 0; a < n; ++a) {  // without forces D = S q
             const double D = Residual::times(z.K, a, z.q.data(), n);
             z.now[a] = at.now[a] + D + (levels_ == 1 ? 0.5 * at.free[a] : 0);
@@ -299,12 +313,16 @@ private:
         z.lost = 0;
         for (std::size_t a = 0; a < n; ++a) {
             const double v = speed(Residual::times(z.K, a, z.q.data(), n), a);
-            z.lost += span_ * z.R[a] * v * v;
+            const LadderStep& l = z.in_step[a];
+            const double behind = v - mass_alone(a), pulls = l.branch * behind;
+            z.lost += span_ * (l.damper * v * v + (l.mass > 0 ? pulls * pulls / z.ladder[a].resistance : 0));
+            z.v[1][a] = mass_alone(a) + 0.5 * l.share * behind;
             if (threaded_ && a + 1 == n) {
                 z.thread_moved = at.free[a] + span_ * v;
                 for (std::size_t c = 0; c < n; ++c) z.thread_moved += (theta_[a * n + c] - z.on_thread * z.K[a * n + c]) * force[c];
             }
         }
+        z.v[0].swap(z.v[1]);
         z.P[0].swap(z.P[1]);
         for (std::size_t a = 0; a < n; ++a) z.P[0][a] = Residual::times(z.W, a, z.q.data(), n);
         return converged;
@@ -317,12 +335,17 @@ private:
         int most_iterations = 0;
     };
     struct Series : Residual {
-        std::array<std::vector<double>, 2> P;  // at the two levels [N]
+        std::array<std::vector<double>, 2> P, v;  // at the two levels [N], [m/s]
+        std::vector<LadderStep> in_step;
         std::vector<double> older, now, free;  // of the points where they touch [m]
         std::vector<double> q;                 // [N]
         double on_thread = 1;
         double lost = 0;          // in the last step [J]
         double thread_moved = 0;  // in it, of what is known before [m]
+        void rest() {
+            for (auto* levels : {&P, &v})
+                for (auto& x : *levels) std::fill(x.begin(), x.end(), 0.0);
+        }
     };
     Contacts contacts_;
     EliminatedThreads threads_;

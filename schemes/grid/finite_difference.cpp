@@ -299,7 +299,7 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
         reader.push_back(static_cast<int>(reader.size()) < sites.points() ? footprint_stencil(g.grid, r.at.position, r.at.width)
                          : r.nut_force                                    ? nut_force_stencil(g.grid, s)
                                                                           : displacement_stencil(g.grid, r.at.position));
-    g.points.series = missing_matrix(d.name, s, sites, scene.taps.size(), g.grid.intervals - 1,
+    g.points.series = missing_matrix(d.name, s, sites, scene.taps.size(), g.grid.intervals - 1, g.points.dt,
                                      [&](int r, int f) { return reader[r].read(shape[f].data()); });
 }
 

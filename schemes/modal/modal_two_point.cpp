@@ -212,7 +212,7 @@ private:
         std::vector<double> own;
         own.reserve(A.size());
         for (const double Ai : A) own.push_back(m_.dt * m_.dt / (4 * modes.mass * Ai));  // (42) with s = 0
-        const MissingCompliance C = modal_compliance(descriptor, scene, modes, own);
+        const MissingCompliance C = modal_compliance(descriptor, scene, modes, m_.dt, own);
         for (std::size_t k = 0; k < taps_.size(); ++k) taps_[k].on_force = C.taps[k];
         matched_ = true;
         ResidualPair& z = m_.series.points = ResidualPair(C, m_.dt);

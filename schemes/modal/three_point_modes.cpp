@@ -45,7 +45,8 @@ void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings
     }
     std::vector<double> own;
     for (int j = 0; j < p.modes.count(); ++j) own.push_back(u.gain_of(j) / u.kappa[j]);  // under a steady force (14)
-    if (choice_option(settings, compliance_option) == "matched") p.points.series = modal_missing_matrix(descriptor, p.scene, p.modes, own);
+    if (choice_option(settings, compliance_option) == "matched")
+        p.points.series = modal_missing_matrix(descriptor, p.scene, p.modes, p.dt, own);
     else if (s.barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(s.barriers.front()))
         p.facts.push_back({facts::static_compliance, relative_compliance(p.modes, s, own)});
 }

@@ -88,7 +88,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
     }
     std::vector<double> own;
     for (int i = 0; i < count_; ++i) own.push_back(dt_ * dt_ / (4 * modes.mass * A_[i]));  // (42) with s = 0
-    if (choice_option(settings, compliance_option) == "matched") p_.series = modal_missing_matrix(descriptor, scene, modes, own);
+    if (choice_option(settings, compliance_option) == "matched") p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
     else if (p_.contacts.count() == 1 && !on_body) compliance_ = relative_compliance(modes, s, own);
     for (auto* v : {&older_, &free_}) v->assign(g_.size(), 0.0);
     if (p_.contacts.count() <= 1 && !on_body) {

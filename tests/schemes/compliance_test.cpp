@@ -11,6 +11,7 @@
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/contact/compliance.hpp"
+#include "schemes/contact/residual.hpp"
 #include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -299,19 +300,19 @@ double relative_l2(std::span<const double> got, std::span<const double> want) {
 }
 
 // With the contact soft, its errors are no longer of first order. C3 with bridge and thread, all 133 modes, from where neither is pressed:
-// a start under load puts a step's lag into what yields.
+// a start under load puts a step's lag into what yields. Up to 32 times 44.1 kHz the error falls faster: the masses follow no faster than
+// in a step.
 TEST(ModalStrang, IsOfSecondOrderInTimeThroughContactAndRelease) {
     Scene scene = c3_pluck();
     scene.duration = 0.02;
     scene.strings.front().thread->height = 0;
     const auto at_multiple = [&](int m) { return run(scheme("modal_strang"), scene, at(44100.0 * m, 133, {})).trace; };
-    const Trace truth = at_multiple(512), coarse = at_multiple(8), middle = at_multiple(16), fine = at_multiple(32);
+    const Trace truth = at_multiple(1024), first = at_multiple(8), coarse = at_multiple(32), fine = at_multiple(64);
     ASSERT_GT(*std::max_element(truth.column(2).begin(), truth.column(2).end()), 0.05);
     for (const int k : {0, 1, 2}) {
-        const double a = relative_l2(coarse.column(k), truth.column(k)), b = relative_l2(middle.column(k), truth.column(k)),
-                     c = relative_l2(fine.column(k), truth.column(k));
-        EXPECT_NEAR(std::log2(a / b), 2, 0.2) << scene.taps[k].name << " " << a;
-        EXPECT_NEAR(std::log2(b / c), 2, 0.1) << scene.taps[k].name << " " << b;
+        const double a = relative_l2(coarse.column(k), truth.column(k)), b = relative_l2(fine.column(k), truth.column(k));
+        EXPECT_NEAR(std::log2(a / b), 2, 0.1) << scene.taps[k].name << " " << a;
+        EXPECT_LE(relative_l2(first.column(k), truth.column(k)), 1e-6) << scene.taps[k].name;
     }
 }
 
@@ -392,7 +393,7 @@ TEST(Radiation, BringsTheStruckStringAndTheWrappedOneNearerAtEveryRate) {
     Scene scene = read_scene("guitar_over_fret");
     scene.duration = 0.05;
     const auto truth = exact(scene, 1064);
-    const double most[3][3] = {{0.17, 0.25, 1.9e-3}, {0.125, 0.14, 7.9e-4}, {0.125, 0.22, 6.5e-4}};  // saddle, fret, y(0.2)
+    const double most[3][3] = {{0.17, 0.25, 1.9e-3}, {0.125, 0.10, 6.0e-4}, {0.12, 0.08, 6.5e-4}};  // saddle, fret, y(0.2)
     for (int n = 0; n < 3; ++n) {
         const auto r = run(scheme("modal_two_point"), scene, at(44100 << n, 133));
         for (int k = 0; k < 3; ++k) EXPECT_LE(relative_l2(r.trace.column(k), truth.trace.column(k)), most[n][k]) << n << " " << k;
@@ -400,7 +401,7 @@ TEST(Radiation, BringsTheStruckStringAndTheWrappedOneNearerAtEveryRate) {
     Scene wraps = c3_release();
     wraps.duration = 0.05;
     const auto wrapped = exact(wraps, 1064), c3 = run(scheme("modal_two_point"), wraps, at(44100, 133));
-    const double allowed[] = {2.0e-2, 3.2e-4, 1.6e-2, 3.0e-2};  // nut, y(0.3), bridge, thread
+    const double allowed[] = {2.0e-2, 3.21e-4, 1.6e-2, 3.0e-2};  // nut, y(0.3), bridge, thread
     for (int k = 0; k < 4; ++k) EXPECT_LE(relative_l2(c3.trace.column(k), wrapped.trace.column(k)), allowed[k]) << k;
 }
 
@@ -428,6 +429,37 @@ TEST(Radiation, ResistanceIsThatOfTheCutModesOfAnIdealString) {
     const double Z0 = std::sqrt(s.tension * s.linear_density), x = 1.0 / 3, share = std::atan(x) / x;
     EXPECT_NEAR(radiation_resistance(s, {0.5, 0}, 2000) / (std::numbers::pi * Z0 * (1 / share - 1) / x), 1,
                 3e-3);  // eight times as many modes leave 1/8^3
+}
+
+// Its inverse begins with (1/C)(1 + x^2/3 ...): C^-1 beside a mass of 1/(3 C omega_M^2), and ends with the wave resistance 2 Z0.
+TEST(Radiation, MassAndDamperAreThoseOfTheCutModesOfAnIdealString) {
+    String s = c3_release().strings.front();
+    s.bending_stiffness = 0;
+    constexpr int kept = 400;
+    const Footprint place{0.3, 0};
+    const double Z0 = std::sqrt(s.tension * s.linear_density), last = modes_of(s, kept).omega0.back();
+    const CutModes cut = cut_modes(s, {&place, 1}, kept, 4 * last);
+    EXPECT_NEAR(cut.C[0] * std::numbers::pi * Z0 * last, 1, 5e-3);
+    EXPECT_NEAR(cut.E[0] / (cut.C[0] * cut.C[0]) * 3 * last / (std::numbers::pi * Z0), 1, 1e-2);
+    EXPECT_NEAR(cut.folded[0] / cut.C[0], 0.25, 5e-3);  // of modes above four times the last: C falls as 1/omega
+    EXPECT_GT(cut.resistance[0], 2 * Z0);
+    EXPECT_LT(cut.resistance[0], 2.4 * Z0);
+}
+
+// The mass takes up what it lags behind in a step, all that is stored and lost adds up, and nothing is lost by a slow motion.
+TEST(Radiation, ALadderTakesFromAStepWhatItStoresAndLoses) {
+    const double span = 1 / 44100.0;
+    const Ladder ladder{0.1, 2e-6 / span, 2e-6};
+    const LadderStep in_step(ladder, span);
+    double v = 0.3;
+    for (const double moved : {1e-5, -3e-6, 4e-5}) {
+        const double before = v, force = in_step.damper * moved / span + in_step.branch * (moved / span - v);
+        const double lost = in_step.lost(moved, v);
+        in_step.follow(moved, v);
+        EXPECT_GE(lost, 0);
+        EXPECT_NEAR(force * moved, lost + 0.5 * ladder.mass * (v * v - before * before), 1e-15 * ladder.mass);
+    }
+    EXPECT_NEAR(ladder.branch(2 / 1e-9), ladder.resistance, 1e-4 * ladder.resistance);
 }
 
 TEST(Compliance, SchemesThatAreTooSoftSaySo) {
