@@ -23,13 +23,9 @@ MeanForce mean_force(const ContactLaw& law, double eta, double depth) {
         return {F, -F / r};
     }
     if (a == 1) return {law.k * (eta - 0.5 * r), -0.5 * law.k};
-    const double z = -r / eta, F0 = law.force(eta);  // stays: F = F0 S(z), S = ((1+z)^(a+1) - 1)/((a+1) z)
-    if (std::abs(z) < 1e-4) {
-        const double S = 1 + a / 2 * z * (1 + (a - 1) / 3 * z * (1 + (a - 2) / 4 * z * (1 + (a - 3) / 5 * z)));
-        return {F0 * S, -F0 / eta * a / 2 * (1 + (a - 1) / 3 * z * (2 + (a - 2) / 4 * z * 3))};
-    }
-    const double S = std::expm1((a + 1) * std::log1p(z)) / ((a + 1) * z);
-    return {F0 * S, std::min(0.0, -F0 / eta * (std::pow(1 + z, a) - S) / z)};
+    const auto [value, slope] = power_quotient(a + 1, -r / eta);  // stays
+    const double scale = law.force(eta) / (a + 1);
+    return {scale * value, std::min(0.0, -scale / eta * slope)};
 }
 
 ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta, Force force)
@@ -49,10 +45,10 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
                 }
         groups_.push_back({first, static_cast<int>(order_.size()) - first});
     }
-    for (auto* w : {&depth_, &mean_, &slope_, &defect_, &dr_, &df_}) w->assign(n, 0.0);
+    for (auto* w : {&depth_, &mean_, &slope_, &defect_, &dr_, &df_, &root_}) w->assign(n, 0.0);
     active_.assign(n, 0);
     for (const Group& g : groups_) largest_ = std::max(largest_, g.count);
-    matrix_.assign(static_cast<std::size_t>(largest_) * largest_, 0.0);
+    system_ = ScaledSystem(largest_);
 }
 
 [[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta, double b) const noexcept {
@@ -96,39 +92,23 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r, d
 bool ContactGram::newton_step(const int* set, int n) noexcept {
     const int stride = count();
     int m = 0;
-    for (int i = 0; i < n; ++i)
-        if (slope_[set[i]] < 0) active_[m++] = set[i];
-    for (int i = 0; i < m; ++i) {  // Cholesky factor, row by row
-        const int a = active_[i];
-        const double root = std::sqrt(-slope_[a]);
-        double* row = matrix_.data() + i * m;
-        for (int j = 0; j <= i; ++j) {
-            const double* other = matrix_.data() + j * m;
-            double sum = root * theta_[a * stride + active_[j]] * std::sqrt(-slope_[active_[j]]) + (i == j);
-            for (int l = 0; l < j; ++l) sum -= row[l] * other[l];
-            row[j] = i == j ? std::sqrt(sum) : sum / other[j];
-        }
-        if (!(row[i] > 0) || !std::isfinite(row[i])) return false;
+    for (int i = 0; i < n; ++i) {
+        if (!(slope_[set[i]] < 0)) continue;
+        root_[set[i]] = std::sqrt(-slope_[set[i]]);
+        active_[m++] = set[i];
     }
+    if (!system_.factor(theta_.data(), stride, active_.data(), m, root_.data())) return false;
     double* w = df_.data();  // by position in the active set, until the end
-    for (int i = 0; i < m; ++i) {
-        double sum = -std::sqrt(-slope_[active_[i]]) * defect_[active_[i]];
-        for (int l = 0; l < i; ++l) sum -= matrix_[i * m + l] * w[l];
-        w[i] = sum / matrix_[i * m + i];
-    }
-    for (int i = m - 1; i >= 0; --i) {
-        double sum = w[i];
-        for (int l = i + 1; l < m; ++l) sum -= matrix_[l * m + i] * w[l];
-        w[i] = sum / matrix_[i * m + i];
-    }
+    for (int i = 0; i < m; ++i) w[i] = -root_[active_[i]] * defect_[active_[i]];
+    system_.solve(w);
     for (int i = 0; i < n; ++i) {  // dr = -defect - Theta D dr; on the active set D dr = D^1/2 w
         const int a = set[i];
         double sum = -defect_[a];
-        for (int l = 0; l < m; ++l) sum -= theta_[a * stride + active_[l]] * std::sqrt(-slope_[active_[l]]) * w[l];
+        for (int l = 0; l < m; ++l) sum -= theta_[a * stride + active_[l]] * root_[active_[l]] * w[l];
         dr_[a] = sum;
     }
     for (int i = 0; i < m; ++i)  // stiff: the same without the difference of nearly equal terms
-        if (-slope_[active_[i]] * theta_[active_[i] * stride + active_[i]] > 1) dr_[active_[i]] = w[i] / std::sqrt(-slope_[active_[i]]);
+        if (-slope_[active_[i]] * theta_[active_[i] * stride + active_[i]] > 1) dr_[active_[i]] = w[i] / root_[active_[i]];
     return true;
 }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "schemes/contact/contact.hpp"
+#include "schemes/contact/scaled_system.hpp"
 
 namespace jvari {
 
@@ -65,8 +66,9 @@ private:
     bool at_the_end_ = false;
     std::vector<int> order_;
     std::vector<Group> groups_;
-    int largest_ = 0;                                                       // of them
-    std::vector<double> depth_, mean_, slope_, defect_, dr_, df_, matrix_;  // workspaces
+    int largest_ = 0;                                                     // of them
+    std::vector<double> depth_, mean_, slope_, defect_, dr_, df_, root_;  // workspaces
+    ScaledSystem system_;
     std::vector<int> active_;
 };
 

@@ -9,7 +9,8 @@ ContactLoss::ContactLoss(const Contacts& contacts, std::vector<double> theta, do
     if (std::all_of(contacts.loss.begin(), contacts.loss.end(), [](double b) { return b == 0; })) return;
     laws_ = contacts.laws;
     beta_ = contacts.loss;
-    damped_ = matrix_ = across_ = theta_;
+    damped_ = across_ = theta_;
+    system_ = ScaledSystem(beta_.size());
     for (auto* v : {&drag_, &root_, &b_, &off_, &x_}) v->assign(beta_.size(), 0.0);
     closed_.resize(beta_.size());
 }
@@ -27,33 +28,20 @@ bool ContactLoss::damp_closed(const BeforeStep& at, double* b) noexcept {
         if (drag_[a] > 0) closed_[m++] = a;
     }
     if (m == 0) return false;
-    for (int i = 0; i < m; ++i) {  // row by row: L, X and x = L^-1 S b
-        const int a = closed_[i];
-        double* row = matrix_.data() + i * n;
-        double* x = across_.data() + i * n;
-        for (int j = 0; j <= i; ++j) {
-            const double* other = matrix_.data() + j * n;
-            double sum = root_[a] * theta_[a * n + closed_[j]] * root_[closed_[j]] + (i == j);
-            for (int l = 0; l < j; ++l) sum -= row[l] * other[l];
-            row[j] = i == j ? std::sqrt(sum) : sum / other[j];
-        }
-        double right = root_[a] * b[a];
-        for (int c = 0; c < n; ++c) x[c] = root_[a] * theta_[a * n + c];
-        for (int l = 0; l < i; ++l) {
-            right -= row[l] * x_[l];
-            for (int c = 0; c < n; ++c) x[c] -= row[l] * across_[l * n + c];
-        }
-        x_[i] = right / row[i];
-        for (int c = 0; c < n; ++c) x[c] /= row[i];
-    }
-    for (int a = 0; a < n; ++a)
-        for (int i = 0; i < m; ++i) b[a] -= across_[i * n + a] * x_[i];
-    for (int a = 0; a < n; ++a)
-        for (int c = 0; c < n; ++c) {
+    system_.factor(theta_.data(), n, closed_.data(), m, root_.data());
+    for (int i = 0; i < m; ++i) x_[i] = root_[closed_[i]] * b[closed_[i]];
+    system_.forward(x_.data());
+    for (int c = 0; c < n; ++c) {
+        double* x = across_.data() + c * n;
+        for (int i = 0; i < m; ++i) x[i] = root_[closed_[i]] * theta_[closed_[i] * n + c];
+        system_.forward(x);
+        for (int i = 0; i < m; ++i) b[c] -= x[i] * x_[i];
+        for (int a = 0; a <= c; ++a) {
             double sum = theta_[a * n + c];
-            for (int i = 0; i < m; ++i) sum -= across_[i * n + a] * across_[i * n + c];
-            damped_[a * n + c] = sum;
+            for (int i = 0; i < m; ++i) sum -= across_[a * n + i] * x[i];
+            damped_[a * n + c] = damped_[c * n + a] = sum;
         }
+    }
     return true;
 }
 
@@ -71,16 +59,8 @@ void ContactLoss::settle(double* r, double* force) noexcept {
         for (int c = 0; c < n; ++c) sum += theta_[a * n + c] * force[c];
         return sum;
     };
-    for (int i = 0; i < m; ++i) {  // L^-1 S off
-        double sum = root_[closed_[i]] * miss(closed_[i]);
-        for (int l = 0; l < i; ++l) sum -= matrix_[i * n + l] * off_[l];
-        off_[i] = sum / matrix_[i * n + i];
-    }
-    for (int i = m; i-- > 0;) {
-        double sum = off_[i];
-        for (int l = i + 1; l < m; ++l) sum -= matrix_[l * n + i] * off_[l];
-        off_[i] = sum / matrix_[i * n + i];
-    }
+    for (int i = 0; i < m; ++i) off_[i] = root_[closed_[i]] * miss(closed_[i]);
+    system_.solve(off_.data());
     for (int i = 0; i < m; ++i) {
         const double change = root_[closed_[i]] * off_[i];
         force[closed_[i]] -= change;

@@ -27,10 +27,11 @@ private:
     bool damp_closed(const BeforeStep&, double* b) noexcept;
 
     std::vector<ContactLaw> laws_;
-    std::vector<double> beta_, drag_;             // [s/m], D [N/m]; none where nothing is lost
-    std::vector<double> theta_, damped_;          // as it is, and with D
-    std::vector<double> matrix_, root_, across_;  // workspaces: L, S, X
-    std::vector<double> b_, off_, x_;             // b without D; by how much the readings miss the forces, on the closed contacts
+    std::vector<double> beta_, drag_;     // [s/m], D [N/m]; none where nothing is lost
+    std::vector<double> theta_, damped_;  // as it is, and with D
+    std::vector<double> root_, across_;   // workspaces: S, X by columns
+    ScaledSystem system_;                 // M
+    std::vector<double> b_, off_, x_;     // b without D; by how much the readings miss the forces, on the closed contacts
     std::vector<int> closed_;
     double span_ = 1, lost_ = 0;
 };

@@ -71,14 +71,11 @@ inline QuadratisedStep solve_quadratised(const QuadratisedLaw& q, double eta, do
     return {force, next};
 }
 
-// What a run of a quadratised scheme has to say about itself.
+// How far psi went from sqrt(2V) in a run.
 struct QuadratisedFacts {
-    ForceRange range;
-    double depth = 0, gap = 0, stuck = 0, largest = 0, energy_gap = 0;
+    double gap = 0, stuck = 0, largest = 0, energy_gap = 0;
 
-    void note(double force, double psi, double eta, double true_psi) {
-        range.note(force);
-        depth = std::max(depth, eta);
+    void note(double psi, double true_psi) {
         gap = std::max(gap, std::abs(psi - true_psi));
         if (true_psi == 0) stuck = std::max(stuck, std::abs(psi));
         largest = std::max(largest, true_psi);
@@ -86,9 +83,7 @@ struct QuadratisedFacts {
     }
     std::vector<Fact> list() const {
         const double scale = largest > 0 ? largest : 1;
-        return {{facts::smallest_contact_force, range.least}, {facts::largest_contact_force, range.most},
-                {facts::deepest_penetration, depth},          {facts::psi_gap, gap / scale},
-                {facts::psi_out_of_contact, stuck / scale},   {facts::energy_gap, energy_gap}};
+        return {{facts::psi_gap, gap / scale}, {facts::psi_out_of_contact, stuck / scale}, {facts::energy_gap, energy_gap}};
     }
 };
 

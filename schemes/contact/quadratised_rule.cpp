@@ -16,7 +16,7 @@ constexpr double no_psi = 1e-150;                        // [sqrt(J)] its square
 
 QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws, std::span<const double> theta, int levels,
                                          Quadratisation variant)
-    : variant_(variant), levels_(levels), c_(levels == 1 ? 0.5 : 1), theta_(theta.begin(), theta.end()), matrix_(theta_) {
+    : variant_(variant), levels_(levels), c_(levels == 1 ? 0.5 : 1), theta_(theta.begin(), theta.end()), system_(laws.size()) {
     const std::size_t n = laws.size();
     for (const ContactLaw& law : laws) laws_.push_back(QuadratisedLaw::make(law, variant, c_));
     for (auto* v : {&psi_, &next_, &eta_, &free_, &f_, &gamma_, &scale_, &df_, &work_}) v->assign(n, 0.0);
@@ -34,33 +34,6 @@ bool QuadratisedContacts::acts(const BeforeStep& at) const {
     return any;
 }
 
-bool QuadratisedContacts::factor() noexcept {
-    const int n = contacts();
-    for (int i = 0; i < many_; ++i) {
-        double* row = matrix_.data() + i * n;
-        for (int j = 0; j <= i; ++j) {
-            const double* other = matrix_.data() + j * n;
-            double sum = scale_[set_[i]] * theta_[set_[i] * n + set_[j]] * scale_[set_[j]] + (i == j);
-            for (int l = 0; l < j; ++l) sum -= row[l] * other[l];
-            row[j] = i == j ? std::sqrt(sum) : sum / other[j];
-        }
-        if (!(row[i] > 0) || !std::isfinite(row[i])) return false;
-    }
-    return true;
-}
-
-void QuadratisedContacts::back(double* x) const noexcept {
-    const int n = contacts();
-    for (int i = 0; i < many_; ++i) {
-        for (int l = 0; l < i; ++l) x[i] -= matrix_[i * n + l] * x[l];
-        x[i] /= matrix_[i * n + i];
-    }
-    for (int i = many_ - 1; i >= 0; --i) {
-        for (int l = i + 1; l < many_; ++l) x[i] -= matrix_[l * n + i] * x[l];
-        x[i] /= matrix_[i * n + i];
-    }
-}
-
 bool QuadratisedContacts::solve_linearly() noexcept {
     many_ = 0;
     for (int a = 0; a < contacts(); ++a) {
@@ -74,7 +47,7 @@ bool QuadratisedContacts::solve_linearly() noexcept {
     }
     if (!factor()) return false;
     for (int i = 0; i < many_; ++i) work_[i] = std::sqrt(c_) * (2 * psi_[set_[i]] - gamma_[set_[i]] * free_[set_[i]]);
-    back(work_.data());
+    system_.solve(work_.data());
     for (int i = 0; i < many_; ++i) {
         f_[set_[i]] = scale_[set_[i]] * work_[i];
         next_[set_[i]] = work_[i] / std::sqrt(c_) - psi_[set_[i]];
@@ -124,7 +97,7 @@ bool QuadratisedContacts::release() noexcept {
             work_[i] = -scale_[a] * falls_short(a);
         }
         if (!factor()) return false;
-        back(work_.data());
+        system_.solve(work_.data());
         double t = 1;
         for (int i = 0; i < many_; ++i) {
             const int a = set_[i];
@@ -190,7 +163,7 @@ GramSolution QuadratisedContacts::start(const BeforeStep& at, double* r, double*
     }
     if (!factor()) return {0, 0, false};
     for (int i = 0; i < many_; ++i) work_[i] = psi_[set_[i]] + gamma_[set_[i]] * at.b[set_[i]];
-    back(work_.data());
+    system_.solve(work_.data());
     for (int i = 0; i < many_; ++i) {
         next_[set_[i]] = std::max(work_[i], 0.0);
         f_[set_[i]] = 2 * gamma_[set_[i]] * next_[set_[i]];
@@ -209,7 +182,7 @@ void QuadratisedContacts::end(const BeforeStep& at, double* r, double* force) no
         force[a] = f_[a];
         psi_[a] = next_[a];
         const double newer = laws_[a].psi(at.older[a] - r[a]), now = laws_[a].psi(at.now[a]);
-        seen_.note(f_[a], psi_[a], at.older[a] - r[a], levels_ == 1 ? newer : std::sqrt(0.5 * (newer * newer + now * now)));
+        seen_.note(psi_[a], levels_ == 1 ? newer : std::sqrt(0.5 * (newer * newer + now * now)));
     }
 }
 

@@ -35,8 +35,7 @@ public:
 private:
     bool solve_linearly() noexcept;
     bool release() noexcept;
-    bool factor() noexcept;                    // I + G Theta G over set_, G = scale_
-    void back(double* x) const noexcept;       // solves with it, in place, by position in set_
+    bool factor() noexcept { return system_.factor(theta_.data(), contacts(), set_.data(), many_, scale_.data()); }
     double falls_short(int a) const noexcept;  // free + Theta f, less the r that f belongs to
     void end(const BeforeStep&, double* r, double* force) noexcept;
     int contacts() const { return static_cast<int>(laws_.size()); }
@@ -48,7 +47,8 @@ private:
     std::vector<double> theta_;
     std::vector<double> psi_, next_;      // [sqrt(J)]
     std::vector<double> eta_, free_, f_;  // of the step in hand
-    std::vector<double> gamma_, scale_, df_, matrix_, work_;
+    std::vector<double> gamma_, scale_, df_, work_;
+    ScaledSystem system_;  // I + G Theta G over set_, G = scale_
     std::vector<int> set_;
     int many_ = 0, iterations_ = 0;  // of set_; of the step in hand
     QuadratisedFacts seen_;
