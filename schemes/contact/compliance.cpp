@@ -274,8 +274,7 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
     const CutModes cut = cut_modes(s, std::span(sites.forces).first(n), kept, dt > 0 ? std::numbers::pi / dt : HUGE_VAL);
     if (n <= 1 + (m.thread ? 1 : 0)) {
         m.ladder = ladders(s, m.C, cut, n, dt);
-        const MissingCompliance one(m);
-        refuse_soft(who, one.bb, one.bc, one.cc);
+        refuse_soft(who, m.contacts > 0 ? m.C.front() : 0, n == 2 ? m.C[1] : 0, m.thread ? m.C.back() : 0);
         return m;
     }
     std::vector<double> symmetric(m.C);
@@ -300,25 +299,6 @@ bool matched_without_loss(const Descriptor& descriptor, const Scene& scene, cons
     for (const auto& [feature, name] : {std::pair(Feature::contact_loss, "contact loss"), std::pair(Feature::moving_body, "a moving body")})
         if (needed.has(feature)) throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out " + name);
     return true;
-}
-
-MissingCompliance::MissingCompliance(const MissingMatrix& m) {
-    const bool barrier = m.contacts > 0;
-    const int points = m.contacts + (m.thread ? 1 : 0), c = m.contacts;
-    if (barrier) ladder_b = m.ladder[0];
-    if (m.thread) ladder_c = m.ladder[c];
-    if (barrier) bb = m.C[0];
-    if (m.thread) cc = m.C[c * points + c];
-    if (barrier && m.thread) bc = m.C[1];
-    if (!m.pluck.empty() && barrier) be = m.pluck[0];
-    if (!m.pluck.empty() && m.thread) ce = m.pluck[c];
-    taps.resize(m.taps.size());
-    for (std::size_t k = 0; k < taps.size(); ++k) {
-        if (m.taps[k].empty()) continue;
-        if (barrier) taps[k][0] = m.taps[k][0];
-        if (m.thread) taps[k][1] = m.taps[k][c];
-        if (!m.pluck.empty()) taps[k][2] = m.taps[k][points];
-    }
 }
 
 String with_profile_points(String s, const Settings& settings) {

@@ -10,7 +10,6 @@
 // averaged over cosine footprints (van Walstijn et al. 2016, eqs 5-6). Where modes are measured, it is the sum over all of them.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -104,16 +103,6 @@ struct MissingMatrix {
 MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps, int kept, double dt,
                              const OwnResponse& own);
 
-struct MissingCompliance {                          // of one contact at most [m/N]; 0 where a part is absent
-    double bb = 0, bc = 0, cc = 0, be = 0, ce = 0;  // barrier, thread, pluck
-    Ladder ladder_b, ladder_c;                      // of barrier and thread
-    std::vector<std::array<double, 3>> taps;        // per tap of the scene, of 1 N at each; 0 for what is no linear tap of this string
-    double on_tap(std::size_t k, double F_b, double F_c, double F_e) const {
-        return taps[k][0] * F_b + taps[k][1] * F_c + taps[k][2] * F_e;
-    }
-    explicit MissingCompliance(const MissingMatrix&);
-    MissingCompliance() = default;
-};
 // Whether compliance=matched is asked for, of a scheme that leaves out contact loss and a moving body then: Refusal where the scene has
 // one.
 bool matched_without_loss(const Descriptor&, const Scene&, const Settings&);

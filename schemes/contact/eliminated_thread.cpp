@@ -4,20 +4,24 @@
 
 namespace jvari {
 
+namespace {  // rounded once: an error here is one in the balance of every step, and of one sign
+using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+}
+
 EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts, std::span<const double> theta, double span)
     : laws_(std::move(threads)), contacts_(contacts), span_(span) {
     const int n = contacts, m = count(), all = n + m;
     if (m == 0) return;
     for (const Thread& t : laws_) phi_.push_back(0.5 * t.stiffness + t.damping / span);
-    Eigen::MatrixXd give = Eigen::MatrixXd::Identity(m, m), across(m, n);
+    Matrix give = Matrix::Identity(m, m), across(m, n);
     for (int t = 0; t < m; ++t) {
-        for (int u = 0; u < m; ++u) give(t, u) += phi_[t] * theta[(n + t) * all + n + u];
-        for (int a = 0; a < n; ++a) across(t, a) = phi_[t] * theta[(n + t) * all + a];
+        for (int u = 0; u < m; ++u) give(t, u) += static_cast<long double>(phi_[t]) * theta[(n + t) * all + n + u];
+        for (int a = 0; a < n; ++a) across(t, a) = static_cast<long double>(phi_[t]) * theta[(n + t) * all + a];
     }
-    const Eigen::MatrixXd inverse = give.inverse(), answer = inverse * across;
+    const Matrix inverse = give.inverse(), answer = inverse * across;
     for (int t = 0; t < m; ++t) {
-        for (int u = 0; u < m; ++u) inverse_.push_back(inverse(t, u));
-        for (int a = 0; a < n; ++a) answer_.push_back(answer(t, a));
+        for (int u = 0; u < m; ++u) inverse_.push_back(static_cast<double>(inverse(t, u)));
+        for (int a = 0; a < n; ++a) answer_.push_back(static_cast<double>(answer(t, a)));
     }
     for (int a = 0; a < n; ++a)
         for (int t = 0; t < m; ++t) coupling_.push_back(theta[a * all + n + t]);
@@ -29,9 +33,9 @@ std::vector<double> EliminatedThreads::between_contacts(std::span<const double> 
     std::vector<double> between(static_cast<std::size_t>(n) * n);
     for (int a = 0; a < n; ++a)
         for (int b = 0; b <= a; ++b) {  // symmetric to the last bit
-            double sum = theta[static_cast<std::size_t>(a) * all + b];
-            for (int t = 0; t < count(); ++t) sum -= coupling(a, t) * answer(t, b);
-            between[static_cast<std::size_t>(a) * n + b] = between[static_cast<std::size_t>(b) * n + a] = sum;
+            long double sum = theta[static_cast<std::size_t>(a) * all + b];
+            for (int t = 0; t < count(); ++t) sum -= static_cast<long double>(coupling(a, t)) * answer(t, b);
+            between[static_cast<std::size_t>(a) * n + b] = between[static_cast<std::size_t>(b) * n + a] = static_cast<double>(sum);
         }
     return between;
 }

@@ -15,8 +15,13 @@ Residual::Residual(const MissingMatrix& m, double span_) : points(m.ladder.size(
     Eigen::Map<Matrix>(K.data(), n, n) = 0.5 * (k + k.transpose());
 }
 
-ResidualPair::ResidualPair(const MissingCompliance& m, double span)
-    : C_be(m.be), C_ce(m.ce), C_bb(m.bb), C_bc(m.bc), C_cc(m.cc), b_(m.ladder_b, span), c_(m.ladder_c, span) {
+ResidualPair::ResidualPair(const MissingMatrix& m, double span) {
+    const bool contact = m.contacts > 0;
+    if (contact) C_bb = m.C.front(), b_ = LadderStep(m.ladder.front(), span);
+    if (m.thread) C_cc = m.C.back(), c_ = LadderStep(m.ladder.back(), span);
+    if (contact && m.thread) C_bc = m.C[1];
+    if (contact && !m.pluck.empty()) C_be = m.pluck.front();
+    if (m.thread && !m.pluck.empty()) C_ce = m.pluck.back();
     const double R_b = (b_.damper + b_.branch) / span, R_c = (c_.damper + c_.branch) / span;
     const double bb = R_b * C_bb + 0.5, bc = R_b * C_bc, cb = R_c * C_bc, cc = R_c * C_cc + 0.5, det = bb * cc - bc * cb;
     W_bb = cc / det, W_bc = -bc / det, W_cb = -cb / det, W_cc = bb / det;

@@ -62,7 +62,7 @@ struct ResidualPair {
     double D_b = 0, D_c = 0, v_b = 0, v_c = 0, H_b = 0, H_c = 0;  // [m], [m/s]; change from step to step
 
     ResidualPair() = default;
-    ResidualPair(const MissingCompliance&, double span);
+    ResidualPair(const MissingMatrix&, double span);
     void clear() { D_b = D_c = v_b = v_c = H_b = H_c = 0; }
     double P_b() const { return stiff_bb * D_b + stiff_bc * D_c; }  // of the springs [N]
     double P_c() const { return stiff_bc * D_b + stiff_cc * D_c; }

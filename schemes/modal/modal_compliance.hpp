@@ -11,12 +11,6 @@ namespace jvari {
 // own: what the scheme makes of 1 N of steady modal force on each mode [m/N]; dt: its step, 0 if it is exact in time.
 MissingMatrix modal_missing_matrix(const Descriptor&, const Scene&, const Modes&, double dt, std::span<const double> own);
 
-// The same of one lumped barrier at most.
-inline MissingCompliance modal_compliance(const Descriptor& descriptor, const Scene& scene, const Modes& modes, double dt,
-                                          std::span<const double> own) {
-    return MissingCompliance(modal_missing_matrix(descriptor, scene, modes, dt, own));
-}
-
 // How much the string's only contact, which is lumped, yields under a steady force, relative to the true string of the same modes.
 double relative_compliance(const Modes&, const String&, std::span<const double> own);
 

@@ -31,20 +31,6 @@ PluckSteps pluck_steps(const Pluck& pluck, double dt) {
     return {static_cast<long>(first), static_cast<long>(last - first)};
 }
 
-double modal_dot(const ModalArray& a, const ModalArray& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i] * b[i];
-    return sum;
-}
-
-double modal_dot_by_eights(const ModalArray& a, const ModalArray& b) {
-    double sum[8] = {};
-    const double *x = a.data(), *y = b.data();
-    for (std::size_t i = 0; i + 8 <= a.size(); i += 8)
-        for (int k = 0; k < 8; ++k) sum[k] += x[i + k] * y[i + k];
-    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
-}
-
 bool touches_once_without_loss(const String& s) {
     if (s.barriers.empty()) return true;
     const auto* lumped = std::get_if<LumpedBarrier>(&s.barriers.front());

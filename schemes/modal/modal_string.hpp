@@ -5,13 +5,12 @@
 
 #include "scenes/modes.hpp"
 #include "schemes/aligned.hpp"
-#include "schemes/modal/kernels/modal_pass.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
 
 constexpr double modal_overflow = 1e140;  // [m] not finite, or so far off that the energy columns no longer are
-using ModalArray = std::vector<double, LineAllocator<double>>;
+constexpr int modal_padding = 16;         // whole vectors of any machine, in pairs
 
 // What a scheme of one string in its modes represents.
 constexpr Features modal_features = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
@@ -29,7 +28,6 @@ bool touches_once_without_loss(const String&);  // one lumped barrier at most: w
 // Modes above half the sample rate would alias.
 void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 
-double modal_dot(const ModalArray&, const ModalArray&);
-double modal_dot_by_eights(const ModalArray&, const ModalArray&);  // eight partial sums: of padded arrays, and faster
+double modal_dot(const AlignedVector& w, const AlignedVector& x);  // sum w x of padded arrays (kernels/modal_two_point_kernel.cpp)
 
 }  // namespace jvari

@@ -121,14 +121,11 @@ public:
     }
     double tap(int k, const double* mean) const noexcept {
         const TapReading& r = readings_[k];
-        const auto read = [](const AlignedVector& w, const AlignedVector& x) {
-            return pass_dot(w.data(), x.data(), static_cast<int>(x.size()));
-        };
-        if (r.displacement.size() == 0) return heard_force(r.quantity, p_.points, mean);
-        if (r.quantity != Quantity::velocity) return read(r.displacement, form_.levels.displacement);
+        if (r.displacement.empty()) return heard_force(r.quantity, p_.points, mean);
+        if (r.quantity != Quantity::velocity) return modal_dot(r.displacement, form_.levels.displacement);
         if (step_ == 0) return 0;
-        double v = read(r.displacement, form_.levels.displacement) + read(r.increment, form_.levels.increment);
-        if (differenced_) v += read(r.kept, form_.levels.kept);
+        double v = modal_dot(r.displacement, form_.levels.displacement) + modal_dot(r.increment, form_.levels.increment);
+        if (differenced_) v += modal_dot(r.kept, form_.levels.kept);
         for (std::size_t z = 0; z < r.force.size(); ++z) v += r.force[z] * force_[z] + r.earlier_force[z] * earlier_force_[z];
         return v;
     }

@@ -2,6 +2,7 @@
 #include "schemes/modal/two_point_modes.hpp"
 
 #include <cmath>
+#include <complex>
 
 #include "scenes/excitation.hpp"
 #include "schemes/making.hpp"
@@ -9,6 +10,27 @@
 #include "schemes/modal_coefficients.hpp"
 
 namespace jvari {
+
+namespace {
+using Column = TwoPointColumn;
+
+// Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y = tanh(s dt/2) on the discrete mode
+// z = exp(s dt), where the true motion has s dt/2.
+double lead_at_start(double omega0, double sigma, double A, double B) {
+    if (omega0 <= sigma) return 0;
+    const double J = 1 + A + B, real = (1 - A) / J, square = (1 + A - B) / J - real * real;  // z of (35)
+    if (square <= 0) return 0;
+    const std::complex<double> z(real, std::sqrt(square)), t = (z - 1.0) / (z + 1.0), s = std::log(z);
+    return std::abs(std::atan2(t.real(), t.imag()) - std::atan2(s.real(), s.imag()));
+}
+
+// Rounded once: an error in Theta is one in the balance of every step of contact, and of one sign.
+double gram(const AlignedVector& a, const AlignedVector& b) {
+    long double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<long double>(a[i]) * b[i];
+    return static_cast<double>(sum);
+}
+}  // namespace
 
 TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt) {
     const ModeStep m = exact_step(omega0, sigma, dt);
@@ -21,28 +43,35 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
     const String s = scene.strings.front() = with_profile_points(scene.strings.front(), settings);
     const Modes modes = modes_of(s, settings);
     refuse_above_nyquist(descriptor, modes, settings.sample_rate);
-    count_ = modes.count();
-    const std::size_t size = (count_ + modal_lanes - 1) / modal_lanes * modal_lanes;
+    const int count = m_.modes = modes.count();
+    m_.size = (count + modal_padding - 1) / modal_padding * modal_padding;
     const double xi = dt_ * dt_ / (2 * modes.mass);
-    std::vector<double> scale;  // sqrt(J/xi)
-    for (ModalArray* a : {&A_, &c_, &loss_, &inverse_J_, &y0_, &u0_, &y_, &u_, &push_}) a->assign(size, 0.0);
+    std::vector<double> A, B, scale, own;  // scale: sqrt(J/xi)
+    AlignedVector c(m_.size), loss(m_.size);
+    for (AlignedVector* a : {&J_, &y0_, &u0_, &push_}) a->assign(m_.size, 0.0);
     const auto shape = initial_displacement(modes, s);
-    for (int i = 0; i < count_; ++i) {
-        const auto [A, B] = law(modes.omega0[i], modes.sigma[i], dt_);
-        const double J = 1 + A + B;
-        A_[i] = A;
-        c_[i] = 4 * A / J;
-        loss_[i] = 2 * B / J;
-        inverse_J_[i] = 1 / J;
+    for (int i = 0; i < count; ++i) {
+        const auto [Ai, Bi] = law(modes.omega0[i], modes.sigma[i], dt_);
+        const double J = J_[i] = 1 + Ai + Bi;
+        A.push_back(Ai);
+        B.push_back(Bi);
+        c[i] = 4 * Ai / J;
+        loss[i] = 2 * Bi / J;
         scale.push_back(std::sqrt(J / xi));
         y0_[i] = shape[i] * scale[i];
-        u0_[i] = -2 * A / J * y0_[i];  // (42) with q = 0
-        free_modes_.push_back(two_point_mode(A, B, dt_));
+        u0_[i] = -2 * Ai / J * y0_[i];                     // (42) with q = 0
+        own.push_back(dt_ * dt_ / (4 * modes.mass * Ai));  // (42) with s = 0
+        free_modes_.push_back(two_point_mode(Ai, Bi, dt_));
+        offset_ = std::max(offset_, lead_at_start(modes.omega0[i], modes.sigma[i], Ai, Bi));
     }
+    stream_.assign(static_cast<std::size_t>(m_.size) * two_point_columns, 0.0);
+    m_.stream = stream_.data();
+    put(Column::c, c);
+    put(Column::loss, loss);
     const auto scaled = [&](const std::vector<double>& weights) {
-        ModalArray w(weights.begin(), weights.end());
-        for (int i = 0; i < count_; ++i) w[i] /= scale[i];
-        w.resize(size);
+        AlignedVector w(weights.begin(), weights.end());
+        for (int i = 0; i < count; ++i) w[i] /= scale[i];
+        w.resize(m_.size);
         return w;
     };
 
@@ -52,26 +81,27 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
         if (g_.size() < p_.positions.size()) g_.push_back(scaled(footprint_weights(modes, f.position, f.width)));
     if (s.pluck) {
         g_e_ = scaled(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        for (const ModalArray& g : g_) theta_e_.push_back(modal_dot(g, g_e_));
+        m_.g_e = g_e_.data();
+        for (const AlignedVector& g : g_) pluck_.theta.push_back(gram(g, g_e_));
         const PluckSteps steps = pluck_steps(*s.pluck, dt_);
-        pluck_first_ = steps.first;
+        pluck_.first = steps.first;
         for (long n = steps.first; n < steps.first + steps.count; ++n)
-            pluck_.push_back(0.5 * (force(*s.pluck, n * dt_) + force(*s.pluck, (n + 1) * dt_)));
+            pluck_.mean.push_back(0.5 * (force(*s.pluck, n * dt_) + force(*s.pluck, (n + 1) * dt_)));
     }
-    std::vector<const ModalArray*> all;
-    for (const ModalArray& g : g_) all.push_back(&g);
+    std::vector<const AlignedVector*> all;
+    for (const AlignedVector& g : g_) all.push_back(&g);
     const bool on_body = needed_by(scene).has(Feature::moving_body);
     if (on_body) {
-        const ModalArray mu = scaled(end_inertia(modes, s));
-        body_ = {mu, mu, mu, s.pluck ? modal_dot(mu, g_e_) : 0};
-        for (int i = 0; i < count_; ++i) {  // s - 2q = (1 - J) u - 2 A y, J - 1 = A + B
-            body_.on_y[i] *= -2 * A_[i];
-            body_.on_u[i] *= 1 - 1 / inverse_J_[i];
+        const AlignedVector mu = scaled(end_inertia(modes, s));
+        body_ = {mu, mu, mu, s.pluck ? gram(mu, g_e_) : 0};
+        for (int i = 0; i < count; ++i) {  // s - 2q = -(A + B) u - 2 A y
+            body_.on_y[i] *= -2 * A[i];
+            body_.on_u[i] *= -(A[i] + B[i]);
         }
         all.push_back(&body_.mu);
     }
-    for (std::size_t a = 0; a < all.size(); ++a)
-        for (std::size_t b = 0; b < all.size(); ++b) p_.theta.push_back(modal_dot(*all[std::min(a, b)], *all[std::max(a, b)]));
+    for (const AlignedVector* a : all)
+        for (const AlignedVector* b : all) p_.theta.push_back(gram(*a, *b));
 
     for (const Tap& tap : scene.taps) {
         TapOfModes t{tap.quantity, {}, {}};
@@ -79,58 +109,62 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
         if (tap.quantity == Quantity::nut_force) t.on_y = scaled(nut_force_weights(modes, s));
         if (tap.quantity == Quantity::velocity) {  // p/m = 2q/dt, q = J u/2 + A y
             t.on_y = t.on_u = scaled(displacement_weights(modes, tap.position));
-            for (int i = 0; i < count_; ++i) {
-                t.on_u[i] /= dt_ * inverse_J_[i];
-                t.on_y[i] *= 2 * A_[i] / dt_;
+            for (int i = 0; i < count; ++i) {
+                t.on_u[i] *= J_[i] / dt_;
+                t.on_y[i] *= 2 * A[i] / dt_;
             }
         }
         taps_.push_back(std::move(t));
     }
-    std::vector<double> own;
-    for (int i = 0; i < count_; ++i) own.push_back(dt_ * dt_ / (4 * modes.mass * A_[i]));  // (42) with s = 0
     if (choice_option(settings, compliance_option) == "matched") p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
     else if (p_.contacts.count() == 1 && !on_body) compliance_ = relative_compliance(modes, s, own);
     for (auto* v : {&older_, &free_}) v->assign(g_.size(), 0.0);
     if (p_.contacts.count() <= 1 && !on_body) {
-        a_ = loss_;
-        for (std::size_t i = 0; i < a_.size(); ++i) a_[i] = 2 - loss_[i] - c_[i];
         const bool barrier = p_.contacts.count() == 1, thread = !p_.threads.empty();
-        const double *g_b = barrier ? g_.front().data() : nullptr, *g_c = thread ? g_.back().data() : nullptr;
-        fused_ = {static_cast<int>(size), y_.data(), u_.data(), a_.data(), c_.data(), g_b, g_c, g_b, g_c, g_e_.data()};
+        if (barrier) put(Column::g_b, g_.front());
+        if (thread) put(Column::g_c, g_.back());
         unplucked_ = two_point_pass(barrier, thread, false);
         plucked_ = two_point_pass(barrier, thread, true);
     }
     reset();
 }
 
+void TwoPointModes::put(Column column, const AlignedVector& values) {
+    for (int i = 0; i < m_.size; ++i) stream_[two_point_at(column, i)] = values[i];
+}
+
 void TwoPointModes::reset() noexcept {
-    std::copy(y0_.begin(), y0_.end(), y_.begin());
-    std::copy(u0_.begin(), u0_.end(), u_.begin());
+    put(Column::y, y0_);
+    put(Column::u, u0_);
     step_ = 0;
     sum_ = 0;
-    for (std::size_t p = 0; p < g_.size() && unplucked_; ++p) {
-        older_[p] = modal_dot_by_eights(g_[p], y_);
-        free_[p] = modal_dot_by_eights(g_[p], u_);
-    }
+    m_.y_b = m_.u_b = m_.y_c = m_.u_c = 0;
+    if (!unplucked_) return;
+    if (p_.contacts.count() == 1) m_.y_b = modal_dot(g_.front(), y0_), m_.u_b = modal_dot(g_.front(), u0_);
+    if (!p_.threads.empty()) m_.y_c = modal_dot(g_.back(), y0_), m_.u_c = modal_dot(g_.back(), u0_);
 }
 
 void TwoPointModes::approach(bool) noexcept {
-    const long k = step_ - pluck_first_;
-    F_e_ = k < 0 || k >= static_cast<long>(pluck_.size()) ? 0 : pluck_[k];
+    const long k = step_ - pluck_.first;
+    F_e_ = k < 0 || k >= static_cast<long>(pluck_.mean.size()) ? 0 : pluck_.mean[k];
     sum_ = 0;
+    const std::size_t contacts = p_.contacts.laws.size();
     for (std::size_t a = 0; a < g_.size(); ++a) {
-        if (!unplucked_) {
-            older_[a] = modal_dot_by_eights(g_[a], y_);
-            free_[a] = modal_dot_by_eights(g_[a], u_);
+        if (unplucked_) {
+            older_[a] = a < contacts ? m_.y_b : m_.y_c;
+            free_[a] = a < contacts ? m_.u_b : m_.u_c;
+        } else {
+            older_[a] = two_point_dot(g_[a].data(), m_, Column::y);
+            free_[a] = two_point_dot(g_[a].data(), m_, Column::u);
         }
         sum_ += older_[a];
-        if (F_e_ != 0) free_[a] += theta_e_[a] * F_e_;
+        if (F_e_ != 0) free_[a] += pluck_.theta[a] * F_e_;
     }
 }
 
 void TwoPointModes::push(const double* force, double a) noexcept {  // sum of g F
     std::fill(push_.begin(), push_.end(), 0.0);
-    const auto add = [this](const ModalArray& g, double F) {
+    const auto add = [this](const AlignedVector& g, double F) {
         for (std::size_t i = 0; i < push_.size(); ++i) push_[i] += g[i] * F;
     };
     for (std::size_t p = 0; p < g_.size(); ++p)
@@ -142,59 +176,59 @@ void TwoPointModes::push(const double* force, double a) noexcept {  // sum of g 
 Spent TwoPointModes::pass(const double* force, double a, bool probed) noexcept {
     if (probed || !unplucked_) push(force, a);
     Spent spent;
-    for (std::size_t i = 0; probed && i < y_.size(); ++i) {  // (51), (52)
-        const double s = u_[i] + push_[i];
-        spent.dissipated += 0.5 * loss_[i] * s * s;
+    for (int i = 0; probed && i < m_.modes; ++i) {  // (51), (52)
+        const double s = at(Column::u, i) + push_[i];
+        spent.dissipated += 0.5 * at(Column::loss, i) * s * s;
         if (F_e_ != 0) spent.supplied += F_e_ * g_e_[i] * s;
     }
     ++step_;
     if (unplucked_) {
-        const std::size_t c = p_.contacts.count();
-        fused_.F_b = c == 1 ? force[0] : 0;
-        fused_.F_c = p_.threads.empty() ? 0 : force[c];
-        fused_.F_e = F_e_;
-        (F_e_ != 0 ? plucked_ : unplucked_)(fused_);
-        if (c == 1) older_[0] = fused_.x_b, free_[0] = fused_.v_b;
-        if (!p_.threads.empty()) older_[c] = fused_.x_c, free_[c] = fused_.v_c;
+        const std::size_t c = p_.contacts.laws.size();
+        (F_e_ != 0 ? plucked_ : unplucked_)(m_, c == 1 ? force[0] : 0, p_.threads.empty() ? 0 : force[c], F_e_);
         return spent;
     }
-    for (std::size_t i = 0; i < y_.size(); ++i) {
-        const double s = u_[i] + push_[i];  // (41)
-        y_[i] += s;                         // (40)
-        u_[i] = s + push_[i] - loss_[i] * s - c_[i] * y_[i];
+    for (int from = 0; from < m_.modes; from += two_point_line) {
+        double *y = m_.stream + two_point_at(Column::y, from), *u = m_.stream + two_point_at(Column::u, from);
+        const double *c = m_.stream + two_point_at(Column::c, from), *loss = m_.stream + two_point_at(Column::loss, from);
+        const double* f = push_.data() + from;
+        for (int k = 0; k < two_point_line; ++k) {
+            const double s = u[k] + f[k];  // (41)
+            y[k] += s;                     // (40)
+            u[k] = s + f[k] - loss[k] * s - c[k] * y[k];
+        }
     }
     return spent;
 }
 
 void TwoPointModes::reading(int, double* out) const noexcept {
-    for (std::size_t p = 0; p < g_.size(); ++p) out[p] = modal_dot_by_eights(g_[p], y_);
+    for (std::size_t p = 0; p < g_.size(); ++p) out[p] = two_point_dot(g_[p].data(), m_, Column::y);
 }
 
-double TwoPointModes::stored() const noexcept {  // q = J u/2 + A y
+double TwoPointModes::stored() const noexcept {
     double H = 0;
-    for (int i = 0; i < count_; ++i) {
-        const double q = 0.5 * u_[i] / inverse_J_[i] + A_[i] * y_[i];
-        H += (q * q + A_[i] * y_[i] * y_[i]) * inverse_J_[i];
+    for (int i = 0; i < m_.modes; ++i) {
+        const double q = momentum_of(i), y = at(Column::y, i);
+        H += J_[i] * q * q + 0.25 * at(Column::c, i) * y * y;
     }
     return H;
 }
 
 double TwoPointModes::inertia() const {
-    const double a = modal_dot_by_eights(body_.on_y, y_) + modal_dot_by_eights(body_.on_u, u_) + body_.theta_e * F_e_;
-    return 2 / (dt_ * dt_) * a;
+    const double a = two_point_dot(body_.on_y.data(), m_, Column::y) + two_point_dot(body_.on_u.data(), m_, Column::u);
+    return 2 / (dt_ * dt_) * (a + body_.theta_e * F_e_);
 }
 
 double TwoPointModes::momentum() const {  // v = 2q/dt
     double sum = 0;
-    for (int i = 0; i < count_; ++i) sum += body_.mu[i] * (0.5 * u_[i] / inverse_J_[i] + A_[i] * y_[i]);
+    for (int i = 0; i < m_.modes; ++i) sum += body_.mu[i] * J_[i] * momentum_of(i);
     return 2 / dt_ * sum;
 }
 
 double TwoPointModes::tap(int k, const double* mean) const noexcept {
-    const auto read = [](const ModalArray& w, const ModalArray& x) { return pass_dot(w.data(), x.data(), static_cast<int>(x.size())); };
     const TapOfModes& t = taps_[k];
     if (t.on_y.empty()) return heard_force(t.quantity, p_, mean);
-    return t.on_u.empty() ? read(t.on_y, y_) : read(t.on_y, y_) + read(t.on_u, u_);
+    const double of_y = two_point_dot(t.on_y.data(), m_, Column::y);
+    return t.on_u.empty() ? of_y : of_y + two_point_dot(t.on_u.data(), m_, Column::u);
 }
 
 std::vector<Fact> TwoPointModes::facts() const {

@@ -3,13 +3,13 @@
 //
 //     s = u + sum_p g_p F_p,   y <- y + s,   u <- s + sum_p g_p F_p - loss s - c y;   r_p = g_p.s, Theta_pq = g_p.g_q
 //
-// which is one fused pass over the modes for one contact and a thread (kernels/modal_pass.hpp: u' = a s - (u + c y), a = 2 (1 - A)/J). Here
-// J = 1 + A + B, c = 4 A/J, loss = 2 B/J, xi = dt^2/2m, and A, B of eq 33 (exact) or 32. The momentum is q = J u/2 + A y. On a body
-// that moves (schemes/body) its acceleration is one more force.
+// which is one fused pass over the modes for one contact and a thread (kernels/modal_two_point_kernel.hpp). Here J = 1 + A + B, c = 4 A/J,
+// loss = 2 B/J, xi = dt^2/2m, and A, B of eq 33 (exact) or 32. The momentum is q = J u/2 + A y = J (u/2 + c y/4). On a body that moves
+// (schemes/body) its acceleration is one more force.
 #pragma once
 
 #include "schemes/driver/string_step.hpp"
-#include "schemes/modal/kernels/modal_pass.hpp"
+#include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/modal_string.hpp"
 
 namespace jvari {
@@ -36,7 +36,7 @@ public:
     double stored() const noexcept;  // (49)
     bool failed() const { return !(std::abs(sum_) < modal_overflow); }
     double tap(int k, const double* mean) const noexcept;
-    int dofs() const { return 2 * count_; }
+    int dofs() const { return 2 * m_.modes; }
     std::vector<Fact> facts() const;
     std::vector<FreeMode> free_modes() const { return free_modes_; }
 
@@ -44,34 +44,48 @@ public:
     double momentum() const;  // sum mu_i v_i' [kg m/s]
     double pluck() const { return F_e_; }
 
-private:
+    // ---- For the kernel of one contact, which makes whole rows (modal_two_point.cpp).
+
     struct TapOfModes {
         Quantity quantity;
-        ModalArray on_y, on_u;  // on_u: velocity only
+        AlignedVector on_y, on_u;  // on_u: velocity only
     };
-    struct AtBody {                 // what a body that moves reads of the string, and pushes: empty without one
-        ModalArray mu, on_y, on_u;  // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
-        double theta_e = 0;         // of the pluck [s^2]
+    struct PluckForce {
+        std::vector<double> mean;   // in the step first + n [N]
+        std::vector<double> theta;  // of each point [m/N]
+        long first = 0;
     };
-    void push(const double* force, double a) noexcept;
+    const TwoPointStream& stream() const { return m_; }
+    const PluckForce& pluck_force() const { return pluck_; }
+    const std::vector<TapOfModes>& taps() const { return taps_; }
+    double start_phase_offset() const { return offset_; }  // [rad]
 
-    int count_ = 0;
+private:
+    struct AtBody {                    // what a body that moves reads of the string, and pushes: empty without one
+        AlignedVector mu, on_y, on_u;  // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
+        double theta_e = 0;            // of the pluck [s^2]
+    };
+    void put(TwoPointColumn, const AlignedVector&);
+    void push(const double* force, double a) noexcept;
+    double momentum_of(int i) const {  // q_i/J_i
+        return 0.5 * at(TwoPointColumn::u, i) + 0.25 * at(TwoPointColumn::c, i) * at(TwoPointColumn::y, i);
+    }
+    double at(TwoPointColumn column, int i) const { return stream_[two_point_at(column, i)]; }
+
     double dt_ = 0;
     StringPoints p_;
-    ModalArray A_, c_, loss_, inverse_J_, y0_, u0_, y_, u_, push_;
-    std::vector<ModalArray> g_;  // scaled; the contacts in order, then the thread
-    ModalArray g_e_;             // the pluck's
-    std::vector<double> theta_e_;
-    std::vector<double> pluck_;  // its mean force in the step pluck_first_ + n [N]
-    long pluck_first_ = 0;
+    TwoPointStream m_;
+    AlignedVector stream_, J_, y0_, u0_, push_;
+    std::vector<AlignedVector> g_;  // scaled; the contacts in order, then the thread
+    AlignedVector g_e_;             // the pluck's
+    PluckForce pluck_;
     AtBody body_;
-    ModalArray a_;     // of the fused pass: 2 - loss - c
-    ModalPass fused_;  // of one contact and a thread at most, on no body
-    ModalPassFunction unplucked_ = nullptr, plucked_ = nullptr;
+    TwoPointPass unplucked_ = nullptr, plucked_ = nullptr;  // fused, of one contact and a thread at most, on no body
     std::vector<TapOfModes> taps_;
     std::vector<FreeMode> free_modes_;
     std::vector<double> older_, free_;
     double compliance_ = 0;  // of one contact under a steady force, relative to the true one of the same modes; else 0
+    double offset_ = 0;
     long step_ = 0;
     double F_e_ = 0, sum_ = 0;  // of the step: the pluck's force [N]; the points' readings added up [m]
 };

@@ -22,7 +22,7 @@ public:
     Levels levels;
 
 private:
-    std::size_t padded() const { return (size_ + 7) / 8 * 8; }  // as whole vectors read it
+    std::size_t padded() const { return (size_ + modal_padding - 1) / modal_padding * modal_padding; }
     int size_, reads_;
     std::vector<double> S_, Dt_, Kappa_;         // column-major, size x size
     std::vector<AlignedVector> push_, reading_;  // per port: dt^2/m S g and the reading of g

@@ -1,4 +1,4 @@
-// One pass over the modes of modal_two_point_kernel.hpp, and the sums over lanes that end it. Compiled once per instruction set by Highway.
+// The pass over the modes of modal_two_point_kernel.hpp, and the sums over lanes that end it. Compiled once per instruction set by Highway.
 #if defined(JVARI_MODAL_TWO_POINT_PASS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_TWO_POINT_PASS
 #undef JVARI_MODAL_TWO_POINT_PASS
@@ -18,12 +18,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Column = TwoPointColumn;
 
-HWY_INLINE double* column(const TwoPoint& m, Column of, std::ptrdiff_t mode) {
+HWY_INLINE double* column(const TwoPointStream& m, Column of, std::ptrdiff_t mode) {
     return m.stream + two_point_at(of, mode);
 }
 
 // dot() with a column of the modes.
-HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPoint& m, Column x) {
+HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Column x) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     V even = hn::Zero(d), odd = hn::Zero(d);
@@ -52,34 +52,6 @@ HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
 #endif
 }
 
-// The dots of the next step, before the sum over lanes; zero where the part is absent.
-struct Dots {
-    V y_b, u_b, y_c, u_c;
-};
-
-HWY_INLINE void take(TwoPoint& m, const Dots& next) {
-    alignas(64) double sum[4];
-    sums(next.y_b, next.u_b, next.y_c, next.u_c, sum);
-    m.y_b = sum[0];
-    m.u_b = sum[1];
-    m.y_c = sum[2];
-    m.u_c = sum[3];
-}
-
-// A contact solved, into what a string tells of its run.
-template <ContactKind kind>
-HWY_INLINE void note(TwoPoint& m, const ContactSolution& x, double eta) {
-    m.least_force = x.force < m.least_force ? x.force : m.least_force;
-    m.most_force = x.force > m.most_force ? x.force : m.most_force;
-    m.depth = eta > m.depth ? eta : m.depth;
-    m.impulse_b += x.force;
-    if constexpr (kind == ContactKind::power) {
-        m.iterations += x.iterations;
-        m.iterations_most = x.iterations > m.iterations_most ? x.iterations : m.iterations_most;
-        if (!x.converged && m.status.outcome == Outcome::ok) m.status = {Outcome::not_converged, m.step};
-    }
-}
-
 // In a register from here on: GCC 12 otherwise reads it from memory at each use, three loads for one, and a pass waits for its loads.
 HWY_INLINE V held(V v) {
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
@@ -88,9 +60,10 @@ HWY_INLINE V held(V v) {
     return v;
 }
 
-// One pass: the update and the next dots. Two accumulators per dot hide the latency of adding.
+// One pass: the update and the next dots. Presence of contact, thread and pluck is a template argument: an absent part costs nothing. Two
+// accumulators per dot hide the latency of adding.
 template <bool barrier, bool thread, bool pluck>
-HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e) {
+HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
@@ -135,7 +108,12 @@ HWY_INLINE Dots pass(const TwoPoint& m, double F_b, double F_c, double F_e) {
     }
     if (i < m.modes) at(i, 0);
     const auto both = [](const V(&v)[2]) { return hn::Add(v[0], v[1]); };
-    return {both(yb), both(ub), both(yc), both(uc)};
+    alignas(64) double sum[4];
+    sums(both(yb), both(ub), both(yc), both(uc), sum);
+    m.y_b = sum[0];
+    m.u_b = sum[1];
+    m.y_c = sum[2];
+    m.u_c = sum[3];
 }
 
 }  // namespace HWY_NAMESPACE

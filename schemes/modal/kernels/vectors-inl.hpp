@@ -17,17 +17,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
-// Sum of w x. size: a multiple of the lanes.
+// Sum of w x. size: a multiple of twice the lanes.
 HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x, int size) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     V even = hn::Zero(d), odd = hn::Zero(d);
-    int i = 0;
-    for (; i + 2 * N <= size; i += 2 * N) {
+    for (int i = 0; i < size; i += 2 * N) {
         even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
         odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, x + i + N), odd);
     }
-    if (i < size) even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, x + i), even);
     return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
 }
 
