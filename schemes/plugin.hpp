@@ -140,43 +140,38 @@ private:
 
 #if defined(__OPTIMIZE__)
 inline constexpr bool optimised = true;
-#define JVARI_FLAG_OPTIMISED "optimised"
 #else
 inline constexpr bool optimised = false;
-#define JVARI_FLAG_OPTIMISED "not optimised"
 #endif
+inline const std::string& compiled_with() {  // the flags of the plugin
+    static const std::string flags = std::string(optimised ? "optimised" : "not optimised") +
 #if defined(NDEBUG)
-#define JVARI_FLAG_NDEBUG ", NDEBUG"
+                                     ", NDEBUG"
 #else
-#define JVARI_FLAG_NDEBUG ", assertions"
+                                     ", assertions"
 #endif
 #if defined(__AVX512F__)
-#define JVARI_FLAG_VECTOR ", AVX-512"
+                                     ", AVX-512"
 #elif defined(__AVX2__)
-#define JVARI_FLAG_VECTOR ", AVX2"
+                                     ", AVX2"
 #elif defined(__AVX__)
-#define JVARI_FLAG_VECTOR ", AVX"
-#else
-#define JVARI_FLAG_VECTOR ""
+                                     ", AVX"
 #endif
 #if defined(__FMA__)
-#define JVARI_FLAG_FMA ", FMA"
-#else
-#define JVARI_FLAG_FMA ""
+                                     ", FMA"
 #endif
 #if defined(__FAST_MATH__)
-#define JVARI_FLAG_FAST_MATH ", fast math"
-#else
-#define JVARI_FLAG_FAST_MATH ""
+                                     ", fast math"
 #endif
+        ;
+    return flags;
+}
 
 // Exported although all else is compiled with -fvisibility=hidden.
-#define JVARI_PLUGIN(schemes)                                                                                      \
-    extern "C" JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {                                              \
-        static const jvari::plugin::Tables tables(                                                                 \
-            schemes, JVARI_FLAG_OPTIMISED JVARI_FLAG_NDEBUG JVARI_FLAG_VECTOR JVARI_FLAG_FMA JVARI_FLAG_FAST_MATH, \
-            jvari::plugin::optimised);                                                                             \
-        return &tables.table();                                                                                    \
+#define JVARI_PLUGIN(schemes)                                                                                                 \
+    extern "C" JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {                                                         \
+        static const jvari::plugin::Tables tables(schemes, jvari::plugin::compiled_with().c_str(), jvari::plugin::optimised); \
+        return &tables.table();                                                                                               \
     }
 
 }  // namespace jvari::plugin

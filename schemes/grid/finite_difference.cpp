@@ -124,7 +124,7 @@ LossFit fit_losses(const String& s) {
     return fit;
 }
 
-// ---- Stability limits and von Neumann relations.
+// ---- Stability limits.
 
 double explicit_spacing_limit(const String& s, const LossFit& loss, double dt) {
     const double c2 = s.tension / s.linear_density, kappa2 = s.bending_stiffness / s.linear_density;
@@ -146,61 +146,6 @@ double tuned_theta(const String& s, double dt, double dx) {
 double theta_spacing_limit(const String& s, double dt) {  // the same at the tuned theta: 1 >= c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4
     const double p = s.tension / s.linear_density * dt * dt, q = s.bending_stiffness / s.linear_density * dt * dt;
     return std::sqrt(0.5 * (p + std::sqrt(p * p + 24 * q)));
-}
-
-namespace {
-struct Symbols {
-    double lambda, stiffness, loss;  // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
-};
-Symbols symbols(double c2, double kappa2, const LossFit& f, const Grid& g, int mode) {
-    const double sine = std::sin(0.5 * pi * mode / g.intervals) / (0.5 * g.dx), lambda = sine * sine;
-    return {lambda, (c2 + kappa2 * lambda) * lambda, 2 * f.at(lambda)};
-}
-Symbols symbols(const String& s, const LossFit& f, const Grid& g, int mode) {
-    return symbols(s.tension / s.linear_density, s.bending_stiffness / s.linear_density, f, g, mode);
-}
-
-// (M + dt R/2) z^2 - (2M - dt^2 K) z + (M - dt R/2) = 0, for |z| and arg z
-GridMode three_point_mode(double M, const Symbols& y, double dt) {
-    const double over = M + 0.5 * dt * y.loss, under = M - 0.5 * dt * y.loss;
-    const double cosine = M - 0.5 * dt * dt * y.stiffness;  // both times |z|
-    const double square = dt * dt * (y.stiffness * M - 0.25 * (dt * dt * y.stiffness * y.stiffness + y.loss * y.loss));
-    return {std::atan2(std::sqrt(std::max(0.0, square)), cosine) / dt, -0.5 * std::log(under / over) / dt};
-}
-}  // namespace
-
-GridMode explicit_mode(const String& s, const LossFit& f, const Grid& g, double dt, int mode) {
-    const Symbols y = symbols(s, f, g, mode);
-    return three_point_mode(1 - (f.sigma1 + f.sigma2 * y.lambda) * dt * y.lambda, y,
-                            dt);  // the backward difference in the loss takes from the mass
-}
-
-GridMode theta_mode(const String& s, const LossFit& f, const Grid& g, double dt, double theta, int mode) {
-    const Symbols y = symbols(s, f, g, mode);
-    return three_point_mode(1 - 0.5 * (1 - theta) * g.dx * g.dx * y.lambda, y, dt);
-}
-
-GridMode three_point_mode(const GridString& g, double dt, double m, double m4, int mode) {
-    const Symbols y = symbols(g.c2, g.kappa2, g.loss, g.grid, mode);
-    return three_point_mode(1 - (m - m4 * y.lambda) * y.lambda, y, dt);
-}
-
-namespace {
-GridMode midpoint_mode(const Symbols& y, double dt) {
-    // z = (1 + p)/(1 - p), p = p_r + i p_i the scaled pole of y'' + R y' + K y = 0; without loss omega = 2/dt atan(sqrt(K) dt/2)
-    const double real = -0.25 * dt * y.loss, imaginary = std::sqrt(std::max(0.0, 0.25 * dt * dt * y.stiffness - real * real));
-    const double omega = std::atan2(imaginary, 1 + real) + std::atan2(imaginary, 1 - real);
-    const double size = std::log(((1 + real) * (1 + real) + imaginary * imaginary) / ((1 - real) * (1 - real) + imaginary * imaginary));
-    return {omega / dt, -0.5 * size / dt};
-}
-}  // namespace
-
-GridMode midpoint_mode(const String& s, const LossFit& f, const Grid& g, double dt, int mode) {
-    return midpoint_mode(symbols(s, f, g, mode), dt);
-}
-
-GridMode midpoint_mode(const GridString& g, double dt, int mode) {
-    return midpoint_mode(symbols(g.c2, g.kappa2, g.loss, g.grid, mode), dt);
 }
 
 // ---- The grid.
@@ -352,6 +297,36 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
 
 double GridString::pluck_at(double t) const {
     return points.pluck ? force(*points.pluck, t) : 0;
+}
+
+// ---- Von Neumann relations.
+
+namespace {
+struct Symbols {
+    double lambda, stiffness, loss;  // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
+};
+Symbols symbols(const GridString& g, int mode) {
+    const double sine = std::sin(0.5 * pi * mode / g.grid.intervals) / (0.5 * g.grid.dx), lambda = sine * sine;
+    return {lambda, (g.c2 + g.kappa2 * lambda) * lambda, 2 * g.loss.at(lambda)};
+}
+}  // namespace
+
+// (M + dt R/2) z^2 - (2M - dt^2 K) z + (M - dt R/2) = 0, for |z| and arg z
+FreeMode three_point_mode(const GridString& g, double dt, double m, double m4, int mode) {
+    const Symbols y = symbols(g, mode);
+    const double M = 1 - (m - m4 * y.lambda) * y.lambda, over = M + 0.5 * dt * y.loss, under = M - 0.5 * dt * y.loss;
+    const double cosine = M - 0.5 * dt * dt * y.stiffness;  // both times |z|
+    const double square = dt * dt * (y.stiffness * M - 0.25 * (dt * dt * y.stiffness * y.stiffness + y.loss * y.loss));
+    return {std::atan2(std::sqrt(std::max(0.0, square)), cosine) / dt, -0.5 * std::log(under / over) / dt};
+}
+
+// z = (1 + p)/(1 - p), p = p_r + i p_i the scaled pole of y'' + R y' + K y = 0; without loss omega = 2/dt atan(sqrt(K) dt/2)
+FreeMode midpoint_mode(const GridString& g, double dt, int mode) {
+    const Symbols y = symbols(g, mode);
+    const double real = -0.25 * dt * y.loss, imaginary = std::sqrt(std::max(0.0, 0.25 * dt * dt * y.stiffness - real * real));
+    const double omega = std::atan2(imaginary, 1 + real) + std::atan2(imaginary, 1 - real);
+    const double size = std::log(((1 + real) * (1 + real) + imaginary * imaginary) / ((1 - real) * (1 - real) + imaginary * imaginary));
+    return {omega / dt, -0.5 * size / dt};
 }
 
 // ---- The band matrix.

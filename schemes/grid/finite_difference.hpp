@@ -58,17 +58,12 @@ struct LossFit {        // sigma(beta) ~ sigma0 + sigma1 beta^2 + sigma2 beta^4
 // Least squares of the relative error over the modes below 20 kHz, each octave of them weighing the same; no coefficient negative.
 LossFit fit_losses(const String&);
 
-// ---- Stability limits and von Neumann relations, dt [s], dx [m].
+// ---- Stability limits, dt [s], dx [m].
 
 double explicit_spacing_limit(const String&, const LossFit&, double dt);  // the smallest dx
 double theta_spacing_limit(const String&, double dt);                     // with the tuned theta
 double theta_spacing_limit(const String&, double dt, double theta);       // theta > 1/2
 double tuned_theta(const String&, double dt, double dx);
-
-using GridMode = FreeMode;
-GridMode explicit_mode(const String&, const LossFit&, const Grid&, double dt, int mode);
-GridMode theta_mode(const String&, const LossFit&, const Grid&, double dt, double theta, int mode);
-GridMode midpoint_mode(const String&, const LossFit&, const Grid&, double dt, int mode);
 
 // ---- The grid a scheme takes: option `grid`, or the finest that the limit allows, or `over_limit` times finer than the limit on purpose;
 // with both, `grid`, which may then be up to `over_limit` times finer than the limit.
@@ -103,9 +98,9 @@ struct GridString {
 
     double pluck_at(double t) const;  // [N]
 };
-// The same relations of a string on its grid; m and m4 as in three_point_string.hpp.
-GridMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);
-GridMode midpoint_mode(const GridString&, double dt, int mode);
+// Von Neumann relations; m and m4 as in three_point_string.hpp.
+FreeMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);
+FreeMode midpoint_mode(const GridString&, double dt, int mode);
 
 GridString on_grid(const Descriptor&, const Scene&, const Settings&, const Grid&, const LossFit&);
 

@@ -229,13 +229,8 @@ TEST(GridLoss, TheFitMovesTheNutForceOfC3ByLessThanHalfAPercent) {
 
 // ---- Von Neumann.
 
-GridMode predicted(const std::string& name, const String& s, const Run& r, double dt, int mode) {
-    const int N = static_cast<int>(fact(r, "grid_intervals"));
-    const Grid g{N, s.length / N};
-    const LossFit loss = fit_losses(s);
-    if (name == explicit_) return explicit_mode(s, loss, g, dt, mode);
-    if (name == theta_) return theta_mode(s, loss, g, dt, fact(r, "theta"), mode);
-    return midpoint_mode(s, loss, g, dt, mode);
+FreeMode predicted(const std::string& name, const Scene& scene, int mode, Options options = {}) {  // at 44100 Hz
+    return make_scheme(scheme(name), scene, {44100, 44100, 0, std::move(options)})->free_modes().at(mode - 1);
 }
 
 TEST(GridModes, FrequenciesAndDecayOfTracesFollowTheVonNeumannRelationOfEachScheme) {
@@ -248,7 +243,7 @@ TEST(GridModes, FrequenciesAndDecayOfTracesFollowTheVonNeumannRelationOfEachSche
             for (int mode = 1; mode <= 30; ++mode) {
                 scene.strings.front().initial = ModeInitial{mode, 1e-3};
                 const auto r = run_at(name, scene, 44100);
-                const GridMode want = predicted(name, scene.strings.front(), r, dt, mode);
+                const FreeMode want = predicted(name, scene, mode);
                 const auto y = r.trace.column(1);  // displacement at 0.3 m; a node of modes 10, 20, 30
                 if (mode % 10 == 0) continue;
                 long double a = 0, b = 0, c = 0, d = 0, e = 0;  // y_{n+1} = p y_n - q y_{n-1}, least squares
@@ -279,7 +274,7 @@ TEST(GridModes, ALosslessModeIsTheSchemesOwnCosineFromTheFirstSample) {
         for (int mode : {1, 7, 23}) {
             scene.strings.front().initial = ModeInitial{mode, 1e-3};
             const auto r = run_at(name, scene, 44100);
-            const double omega = predicted(name, scene.strings.front(), r, 1 / 44100.0, mode).omega;
+            const double omega = predicted(name, scene, mode).omega;
             const auto y = r.trace.column(1);
             for (std::size_t n = 0; n < y.size(); ++n)
                 ASSERT_NEAR(y[n], y[0] * std::cos(omega * n / 44100), 1e-9 * 1e-3) << name << " " << n;
@@ -288,26 +283,22 @@ TEST(GridModes, ALosslessModeIsTheSchemesOwnCosineFromTheFirstSample) {
 }
 
 TEST(GridModes, MidpointFrequenciesWarpByTheArcTangent) {
-    const String s = lossless(c3_free()).strings.front();
-    const Grid g{155, s.length / 155};
+    const Scene scene = lossless(c3_free());
+    const String& s = scene.strings.front();
     const double dt = 1 / 44100.0;
     for (int i : {1, 50, 154}) {
-        const double lambda = std::pow(2 / g.dx * std::sin(0.5 * pi * i / 155), 2);
+        const double lambda = std::pow(2 * 155 / s.length * std::sin(0.5 * pi * i / 155), 2);
         const double omega = std::sqrt((s.tension * lambda + s.bending_stiffness * lambda * lambda) / s.linear_density);
-        EXPECT_NEAR(midpoint_mode(s, {}, g, dt, i).omega, 2 / dt * std::atan(omega * dt / 2), 1e-9 * omega);
+        EXPECT_NEAR(predicted(hamiltonian_, scene, i, {{"grid", "155"}}).omega, 2 / dt * std::atan(omega * dt / 2), 1e-9 * omega);
     }
 }
 
 TEST(GridModes, TheTunedThetaLeavesFarLessDispersionThanTheExplicitScheme) {
-    const String s = lossless(c3_free()).strings.front();
-    const double dt = 1 / 44100.0;
-    const Modes exact = modes_of(s, 60);
-    const auto N = [&](double limit) { return static_cast<int>(s.length / limit); };
-    const Grid ge{N(explicit_spacing_limit(s, {}, dt)), s.length / N(explicit_spacing_limit(s, {}, dt))};
-    const Grid gt{N(theta_spacing_limit(s, dt)), s.length / N(theta_spacing_limit(s, dt))};
+    const Scene scene = lossless(c3_free());
+    const Modes exact = modes_of(scene.strings.front(), 60);
     for (int i : {20, 60}) {
-        const double of_explicit = 1200 * std::log2(explicit_mode(s, {}, ge, dt, i).omega / exact.omega0[i - 1]);
-        const double of_theta = 1200 * std::log2(theta_mode(s, {}, gt, dt, tuned_theta(s, dt, gt.dx), i).omega / exact.omega0[i - 1]);
+        const double of_explicit = 1200 * std::log2(predicted(explicit_, scene, i).omega / exact.omega0[i - 1]);
+        const double of_theta = 1200 * std::log2(predicted(theta_, scene, i).omega / exact.omega0[i - 1]);
         std::printf("[ measured ] mode %d: explicit %.2f cents, theta %.3f cents\n", i, of_explicit, of_theta);
         EXPECT_LT(std::abs(of_theta), std::abs(of_explicit) / (i < 50 ? 20 : 4));
     }

@@ -162,21 +162,12 @@ void nodes(const Pass& pass, int first, int count, int out, double sign) {
         if (k < count) p.free[out + k] = total(sum[k]);
 }
 
-template <int pushes>
-void chunk(const Pass& p, int first, int count, int out, double sign) {
-    if constexpr (most_sums > 8) {
-        if (count > 18) return nodes<20, pushes>(p, first, count, out, sign);
-        if (count > 16) return nodes<18, pushes>(p, first, count, out, sign);
-        if (count > 14) return nodes<16, pushes>(p, first, count, out, sign);
-        if (count > 12) return nodes<14, pushes>(p, first, count, out, sign);
-        if (count > 10) return nodes<12, pushes>(p, first, count, out, sign);
-        if (count > 8) return nodes<10, pushes>(p, first, count, out, sign);
-    }
-    if (count > 6) return nodes<8, pushes>(p, first, count, out, sign);
-    if (count > 4) return nodes<6, pushes>(p, first, count, out, sign);
-    if (count > 2) return nodes<4, pushes>(p, first, count, out, sign);
-    if (count > 1) return nodes<2, pushes>(p, first, count, out, sign);
-    nodes<1, pushes>(p, first, count, out, sign);
+template <int pushes, int K = most_sums>
+void chunk(const Pass& p, int first, int count, int out, double sign) {  // by the least K, even or 1, that has room
+    if constexpr (K > 2)
+        if (count <= K - 2) return chunk<pushes, K - 2>(p, first, count, out, sign);
+    if (count == 1) return nodes<1, pushes>(p, first, count, out, sign);
+    nodes<K, pushes>(p, first, count, out, sign);
 }
 
 // K reads from place `first`, by weights of their own on lo and hi.
