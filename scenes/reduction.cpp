@@ -49,15 +49,13 @@ public:
 private:
     static double& stiffness_of(LumpedBarrier& b) { return b.stiffness.k; }
     static double& stiffness_of(ProfileBarrier& b) { return b.stiffness.K; }
-    static bool gives_way(const LumpedBarrier& b) { return b.stiffness.k != rigid; }
-    static bool gives_way(const ProfileBarrier&) { return true; }
     static const char* stiffness_key(const LumpedBarrier&) { return "stiffness"; }
     static const char* stiffness_key(const ProfileBarrier&) { return "stiffness_density"; }
 
     template <class B>
     void contact(const std::string& key, const B& now, int s, int b) {
         const auto of = [s, b](Scene& x) -> B& { return std::get<B>(x.strings[s].barriers[b]); };
-        if (gives_way(now))
+        if (!is_rigid(now))
             for (const auto& [factor, text] : {std::pair{0.1, "a tenth"}, std::pair{0.01, "a hundredth"}})
                 all.push_back(
                     {Part::contact_stiffness, key + stiffness_key(now), text, [of, f = factor](Scene& x) { stiffness_of(of(x)) *= f; }});

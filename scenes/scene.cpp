@@ -108,9 +108,9 @@ Features needed_by(const Barrier& barrier) {
         [&f](const auto& b) {
             if (b.exponent != 1) f = f | Feature::power_law_contact;
             if (b.contact_loss != 0) f = f | Feature::contact_loss;
+            if (is_rigid(b)) f = f | Feature::rigid_barrier;
         },
         barrier);
-    if (const auto* b = std::get_if<LumpedBarrier>(&barrier); b && b->stiffness.k == rigid) f = f | Feature::rigid_barrier;
     return f;
 }
 }  // namespace

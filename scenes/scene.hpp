@@ -51,7 +51,7 @@ struct LumpedStiffness {
     bool operator==(const LumpedStiffness&) const = default;
 };
 struct StiffnessDensity {
-    double K = 0;  // [N/m^(exponent+1)]
+    double K = 0;  // [N/m^(exponent+1)], or rigid
     bool operator==(const StiffnessDensity&) const = default;
 };
 struct LumpedBarrier {    // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
@@ -88,6 +88,12 @@ struct ProfileBarrier {  // a force density along from <= x <= to (Issanchou et 
     double contact_loss = 0;  // [s/m]
     bool operator==(const ProfileBarrier&) const = default;
 };
+inline bool is_rigid(const LumpedBarrier& b) {
+    return b.stiffness.k == rigid;
+}
+inline bool is_rigid(const ProfileBarrier& b) {
+    return b.stiffness.K == rigid;
+}
 using Barrier = std::variant<LumpedBarrier, ProfileBarrier>;
 
 struct Thread {            // spring and damper, never detaches (van Walstijn et al. 2016, eq 7)

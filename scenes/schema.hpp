@@ -94,7 +94,7 @@ void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.one_of("curve", b.curve, curve_names);
     pass.number("from", b.from, any, "m");
     pass.number("to", b.to, any, "m");
-    pass.number("stiffness_density", b.stiffness.K, positive, "N/m^(exponent+1)");
+    pass.stiffness("stiffness_density", b.stiffness.K, "N/m^(exponent+1)");
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
 }

@@ -100,12 +100,16 @@ struct On {
     }
     void barrier(const std::string& part, const LumpedBarrier& b) const {
         footprint(part, b.position, b.width);
-        if (b.stiffness.k != rigid) return;
+        rigid_alone(part, b);
+    }
+    void rigid_alone(const std::string& part, const auto& b) const {
+        if (!is_rigid(b)) return;
         if (b.exponent != 1) throw BadScene(path + part + ".exponent", number_text(b.exponent), "none, as the barrier is rigid");
         if (b.contact_loss != 0)
             throw BadScene(path + part + ".contact_loss", number_text(b.contact_loss), "none, as the barrier is rigid");
     }
     void barrier(const std::string& part, const ProfileBarrier& b) const {
+        rigid_alone(part, b);
         if (b.from < 0 || b.from >= string.length) throw BadScene(path + part + ".from", number_text(b.from), between("<="));
         if (b.to < 0 || b.to > string.length + slack) throw BadScene(path + part + ".to", number_text(b.to), between("<="));
         if (b.from >= b.to) throw BadScene(path + part + ".to", number_text(b.to), "a number above from, " + number_text(b.from) + " [m]");

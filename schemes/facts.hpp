@@ -42,7 +42,8 @@ struct FactName {
     FACT(psi_out_of_contact, "", "the same where the string is clear of the barrier")                                                  \
     FACT(energy_gap, "J", "largest difference of the energy with psi from the true one")                                               \
     FACT(rigid_barrier, "", "1: the barrier is rigid, its stiffness and exponent play no part")                                        \
-    FACT(rigid_stiffness, "N/m", "stiffness of the spring that stands for the first rigid barrier")                                    \
+    FACT(rigid_stiffness, "N/m", "stiffness of the stiffest spring that stands for a rigid barrier")                                  \
+    FACT(law_misfit, "", "largest relative error of the contact's force by its pieces")                                               \
     FACT(bridge_nodes, "", "nodes under the bridge")                                                                                   \
     FACT(bridge_length_error, "m", "length of the bridge on the grid less the scene's")                                                \
     FACT(bridge_energy_added, "J", "energy that the bridge rule gave the string")                                                      \

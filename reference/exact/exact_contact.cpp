@@ -111,7 +111,7 @@ private:
     WindowEnergies::Sums energies_;  // of the interval that ends here
     int idle_ = 0;
     ContactSteps steps_;
-    double rigid_stiffness_ = 0;  // of the first spring that stands for a rigid barrier [N/m]
+    double rigid_stiffness_ = 0;  // of the stiffest spring that stands for a rigid barrier [N/m]
     double leaves_ = HUGE_VAL;    // when the first of the points in collocation lets go, perhaps
     Extremes extremes_;
 
@@ -151,8 +151,7 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
     amplitude_.assign(2 * contacts * contacts + 1, 0.0);
     if (needed_by(scene).has(Feature::rigid_barrier))
-        for (std::size_t a = law_.size(); a-- > 0;)
-            if (std::get<LumpedBarrier>(scene.strings.front().barriers[a]).stiffness.k == rigid) rigid_stiffness_ = law_[a].law.k;
+        for (const BarrierLaw& l : law_) rigid_stiffness_ = std::max(rigid_stiffness_, l.law.k);
     const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
     if (springs && contacts <= most_sets_of) {
         sets_.resize(1u << contacts);
@@ -502,8 +501,12 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     const double each = std::max(share * tolerance, std::min(tolerance, least_share));
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
+    Settings asked = settings;  // over a rigid barrier matched unasked, as nothing else will do
+    const auto says = [](const auto& o) { return o.first == compliance_option.name; };
+    if (needed_by(scene).has(Feature::rigid_barrier) && std::none_of(asked.options.begin(), asked.options.end(), says))
+        asked.options.emplace_back(compliance_option.name, "matched");
     Modes modes = modes_of(scene.strings.at(0), unsampled);
-    const auto series = in_series(descriptor, scene, modes, settings);
+    const auto series = in_series(descriptor, scene, modes, asked);
     const String s = with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)), descriptor, series);
     return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, each, series);
 }

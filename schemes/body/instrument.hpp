@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "schemes/body/body_step.hpp"
+#include "schemes/contact/gradient_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/scheme.hpp"
 #include "schemes/several_strings.hpp"
@@ -210,10 +212,14 @@ std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) 
 
 // The scheme of one string by a rule, or of all strings on a moving body. make as above, body() -> the body in the form of that scheme.
 template <class String, class Rule, class Make, class MakeBody>
-std::unique_ptr<Scheme> on_its_support(const Scene& scene, int steps_per_row, Make make, MakeBody body) {
-    if (!needed_by(scene).has(Feature::moving_body)) return std::make_unique<Driver<String, Rule>>(make(scene), steps_per_row);
-    using All = Instrument<String, decltype(body())>;
-    return std::make_unique<Driver<All, Rule>>(std::make_unique<All>(scene, each_string<String>(scene, make), body()), steps_per_row);
+std::unique_ptr<Scheme> on_its_support(const Descriptor& scheme, const Scene& scene, const Settings& settings, Make make,
+                                       [[maybe_unused]] MakeBody body) {
+    if constexpr (std::is_same_v<Rule, GradientRule>) {  // no other pairing takes a body (pairings.cpp)
+        using All = Instrument<String, decltype(body())>;
+        if (needed_by(scene).has(Feature::moving_body))
+            return driven<Rule>(std::make_unique<All>(scene, each_string<String>(scene, make), body()), scheme, settings);
+    }
+    return driven<Rule>(make(scene), scheme, settings);
 }
 
 }  // namespace jvari

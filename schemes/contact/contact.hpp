@@ -17,7 +17,8 @@ struct ContactLaw {
     double k = 0;      // [N/m^alpha]
     double alpha = 1;  // exponent
 
-    double potential(double eta) const {  // V [J]
+    bool rigid() const { return std::isinf(k); }  // the barrier does not give way
+    double potential(double eta) const {          // V [J]
         if (eta <= 0) return 0;
         return alpha == 1 ? 0.5 * k * eta * eta : k * std::pow(eta, alpha + 1) / (alpha + 1);
     }
@@ -37,6 +38,9 @@ struct Contacts {  // of a string
     std::vector<double> loss;     // Hunt-Crossley beta [s/m]
 
     int count() const { return static_cast<int>(laws.size()); }
+    bool any_rigid() const {
+        return std::any_of(laws.begin(), laws.end(), [](const ContactLaw& l) { return l.rigid(); });
+    }
     void add(const ContactLaw& law, double height, double beta) {
         laws.push_back(law);
         heights.push_back(height);

@@ -6,13 +6,14 @@
 // form with exponent 1 (contact.hpp), several that Theta couples take Newton steps (contact_gram.hpp).
 #pragma once
 
-#include "schemes/contact/obstacle_rule.hpp"
+#include "schemes/contact/rigid_rule.hpp"
 
 namespace jvari {
 
 class GradientRule {
 public:
     static constexpr bool conserves = true, iterates = true, centred = false;
+    using Rigid = RigidRule;
 
     GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
         : laws_(laws.begin(), laws.end()), gram_(laws, theta) {}

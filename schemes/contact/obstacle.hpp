@@ -108,6 +108,7 @@ public:
     int points() const { return contacts() + threads_.count(); }
     int dofs() const { return rule_.dofs(); }
     const Rule& rule() const { return rule_; }
+    Rule& rule() { return rule_; }
 
     void clear() { tally_ = {}; }
     void begin(const double* reading) {  // at rest at t = 0
@@ -129,6 +130,7 @@ public:
 
     // Forces on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
     bool solve(const ReadingsBeforeStep& at, double* force) noexcept {
+        lost_by_rule_ = 0;
         return !series_ ? solve_points<false>(at, force) : known_before ? solve_at_the_instant(at, force) : solve_in_series(at, force);
     }
     bool start(const ReadingsBeforeStep& at, double* force) noexcept { return series_ ? solve(at, force) : solve_points<true>(at, force); }
@@ -142,8 +144,9 @@ public:
         for (int t = 0; t < threads_.count(); ++t) sum += threads_.stored(t, at(contacts() + t));
         return sum;
     }
-    double loss() const {  // of the last step [W]: of threads, of lossy contacts, of what is in series
+    double loss() const {  // of the last step [W]: of threads, of lossy contacts, of what is in series, of the rule
         double power = ((series_ ? series_->lost : 0) + loss_.lost()) / span_;
+        power += levels_ * lost_by_rule_ / span_;
         for (int t = 0; t < threads_.count(); ++t)
             power += threads_.lost(t, series_ && known_before ? series_->thread_moved : threads_.moved(t, from_[t], pull_[t]));
         return power;
@@ -261,6 +264,7 @@ private:
     }
 
     void note(const GramSolution& s) noexcept {
+        if constexpr (requires { rule_.lost(); }) lost_by_rule_ = rule_.lost();
         ++tally_.solves;
         tally_.iterations += s.iterations;
         tally_.most_iterations = std::max(tally_.most_iterations, s.iterations);
@@ -351,8 +355,8 @@ private:
     EliminatedThreads threads_;
     Rule rule_ = Rule({}, {}, 1);
     ContactLoss loss_;
-    std::vector<double> theta_;  // of all points [m/N]
-    double span_ = 1;
+    std::vector<double> theta_;           // of all points [m/N]
+    double span_ = 1, lost_by_rule_ = 0;  // in the last step [J]
     int levels_ = 1, series_levels_ = 1;
     bool one_ = false, threaded_ = false;
     std::optional<Series> series_;

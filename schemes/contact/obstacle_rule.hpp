@@ -9,7 +9,8 @@
 //
 //     sum_a F_a r_a/levels = P(older) - P(newer),     P = sum_a potential(a, eta_a), levels = 1 in two-point steps, 2 in three-point ones
 //
-// of which the energy balance of every scheme is made (van Walstijn et al. 2016, eqs 30, 49; Issanchou et al. 2016, eqs 20-21).
+// less `lost()` [J] of the step, of a rule that has it. Of this the energy balance of every scheme is made (van Walstijn et al. 2016, eqs
+// 30, 49; Issanchou et al. 2016, eqs 20-21).
 #pragma once
 
 #include <concepts>
@@ -45,5 +46,34 @@ concept ObstacleRule = requires(Rule rule, const Rule known, const BeforeStep& a
     { known.potential(1, 0.0) } -> std::same_as<double>;         // of a contact at a penetration [J]
     { known.facts() } -> std::same_as<std::vector<Fact>>;        // beside those of obstacle.hpp
 };
+
+// What a rule may have beside that: `Rigid`, the rule for barriers that do not give way; options, which it reads by choose(settings);
+// features that it approximates, or leaves out.
+template <class Rule>
+concept TakesRigid = requires {
+    typename Rule::Rigid;
+};
+template <class Rule>
+concept RigidInSeriesOnly = requires {
+    Rule::rigid_in_series_only;
+};
+
+template <class Rule>
+constexpr std::span<const Option> options_of() {
+    if constexpr (requires { Rule::options; }) return Rule::options;
+    else return {};
+}
+template <class Rule>
+constexpr std::span<const Approximation> approximations_of() {
+    if constexpr (requires { Rule::approximates; }) return Rule::approximates;
+    else return {};
+}
+template <class Rule>
+constexpr Features left_out_by() {
+    Features none;
+    if constexpr (requires { Rule::leaves_out; }) none = none | Rule::leaves_out;
+    if constexpr (!TakesRigid<Rule>) none = none | Feature::rigid_barrier;
+    return none;
+}
 
 }  // namespace jvari

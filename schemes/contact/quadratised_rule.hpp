@@ -16,8 +16,11 @@
 
 #include "schemes/contact/obstacle_rule.hpp"
 #include "schemes/contact/quadratised_contact.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
+
+inline constexpr Option lambda0_option{"lambda0", "1e4", "of the controlled variant: rate at which psi is drawn to sqrt(2V) [1/s]"};
 
 class QuadratisedContacts {
 public:
@@ -25,14 +28,17 @@ public:
 
     int dofs() const { return static_cast<int>(laws_.size()); }  // psi
     void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
+    void choose(const Settings&);  // lambda0
     void begin(const double* eta);
     bool acts(const BeforeStep&) const;
     GramSolution solve(const BeforeStep&, double* r, double* force) noexcept;
     GramSolution start(const BeforeStep&, double* r, double* force) noexcept;
     double potential(int a, double) const { return 0.5 * psi_[a] * psi_[a]; }  // of the half step after, in three-point steps
     std::vector<Fact> facts() const { return seen_.list(); }
+    double lost() const { return lost_; }  // by relaxation in the last step [J]
 
 private:
+    double control(int a) const noexcept;  // what it adds to gamma [sqrt(J)/m]
     bool solve_linearly() noexcept;
     bool release() noexcept;
     bool factor() noexcept { return system_.factor(theta_.data(), contacts(), set_.data(), many_, scale_.data()); }
@@ -45,8 +51,9 @@ private:
     int levels_;
     double c_;
     std::vector<double> theta_;
-    std::vector<double> psi_, next_;      // [sqrt(J)]
-    std::vector<double> eta_, free_, f_;  // of the step in hand
+    std::vector<double> psi_, next_;              // [sqrt(J)]
+    std::vector<double> eta_, older_, free_, f_;  // of the step in hand
+    double drawn_ = 0, lost_ = 0;                 // lambda0 dt
     std::vector<double> gamma_, scale_, df_, work_;
     ScaledSystem system_;  // I + G Theta G over set_, G = scale_
     std::vector<int> set_;

@@ -12,6 +12,7 @@
 
 #include "scenes/excitation.hpp"
 #include "schemes/driver/string_step.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 
@@ -91,6 +92,13 @@ public:
             }
         }
         return status_;
+    }
+
+    template <class Tell>
+    void tell(Tell tell) {  // its rule, before the first step
+        tell(obstacle_.rule());
+        tell(start_.rule());
+        reset();
     }
 
     int dofs() const override { return string_->dofs() + obstacle_.dofs(); }
@@ -178,5 +186,29 @@ private:
     double supplied_ = 0, dissipated_ = 0;  // since the last row [J]
     Status status_;
 };
+
+template <ObstacleRule Rule, StringStep String, class Tell>
+std::unique_ptr<Scheme> driven_as_told(std::unique_ptr<String> string, const Settings& settings, Tell tell) {
+    auto made = std::make_unique<Driver<String, Rule>>(std::move(string), steps_per_row(settings));
+    made->tell(tell);
+    return made;
+}
+
+// The scheme of a string and a rule, which reads its options. Where the barriers do not give way, by the rule that is the limit of it.
+template <ObstacleRule Rule, StringStep String>
+std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor& scheme, const Settings& settings) {
+    const auto choose = [&settings](auto& rule) {
+        if constexpr (requires { rule.choose(settings); }) rule.choose(settings);
+    };
+    if constexpr (TakesRigid<Rule>)
+        if (string->points().contacts.any_rigid()) {
+            std::vector<double> start(string->points().count());
+            string->reset();
+            string->reading(0, start.data());
+            refuse_rigid(scheme, string->points(), start.data(), RigidInSeriesOnly<Rule>);
+            return driven_as_told<typename Rule::Rigid>(std::move(string), settings, choose);
+        }
+    return driven_as_told<Rule>(std::move(string), settings, choose);
+}
 
 }  // namespace jvari

@@ -13,9 +13,12 @@ namespace {
 struct Column {
     const char *name, *source;
     bool conserves;
+    std::span<const Option> options;
+    std::span<const Approximation> approximates;
+    Features leaves_out;
 };
-#define JVARI_ROW(name, Rule, source) {#name, source, Rule::conserves},
-constexpr Column columns[] = {JVARI_RULES(JVARI_ROW)};
+#define JVARI_ROW(name, Rule, source) {#name, source, Rule::conserves, options_of<Rule>(), approximations_of<Rule>(), left_out_by<Rule>()},
+const Column columns[] = {JVARI_RULES(JVARI_ROW)};
 #undef JVARI_ROW
 
 const std::vector<const StringRow*>& rows() {
@@ -35,6 +38,14 @@ const Descriptor* known_cell(const StringRow& row, const Column& column) {
 std::string name_of(const StringRow& row, const Column& column) {
     const Descriptor* known = known_cell(row, column);
     return known ? known->name : std::string(row.scheme->name) + "_" + column.name;
+}
+template <class T>
+std::span<const T> both(std::span<const T> one, std::span<const T> other) {  // kept for good
+    static std::list<std::vector<T>> kept;
+    if (other.empty()) return one;
+    kept.emplace_back(one.begin(), one.end());
+    kept.back().insert(kept.back().end(), other.begin(), other.end());
+    return kept.back();
 }
 }  // namespace
 
@@ -57,7 +68,9 @@ const std::vector<Descriptor>& schemes_of_pairings() {
                 Descriptor d = *row->scheme;
                 d.name = names.emplace_back(name_of(*row, columns[c])).c_str();
                 d.source = columns[c].source;
-                d.represents = d.represents - (Feature::moving_body | Feature::rigid_barrier);
+                d.represents = d.represents - Feature::moving_body - columns[c].leaves_out;
+                d.options = both(d.options, columns[c].options);
+                d.approximates = both(d.approximates, columns[c].approximates);
                 d.balance = columns[c].conserves ? Balance::exact : Balance::none;
                 d.make = row->makers[c];
                 d.stand_in_rank = 0;

@@ -22,4 +22,16 @@ void add_lumped(StringPoints& p, const String& s) {
     if (s.thread) p.positions.push_back(s.thread->position);
 }
 
+void refuse_rigid(const Descriptor& scheme, const StringPoints& p, const double* start, bool in_series_only) {
+    const auto refuse = [&](const std::string& why) { throw Refusal(std::string(scheme.name) + ": " + why); };
+    if (in_series_only && !p.series)
+        refuse("a rigid barrier needs compliance=matched, for a force that is known before the step needs something that gives way");
+    for (int a = 0; a < p.contacts.count(); ++a) {
+        if (!p.contacts.laws[a].rigid())
+            refuse("a rigid barrier beside one that gives way; make all of them rigid, or give each a stiffness");
+        if (const double inside = p.contacts.heights[a] - start[a]; inside > 1e-12 * p.length)
+            refuse("the string starts " + std::to_string(inside * 1e6) + " um inside a rigid barrier; lower the barrier or start above it");
+    }
+}
+
 }  // namespace jvari

@@ -31,7 +31,7 @@ constexpr Option options[] = {compliance_option, profile_points_option, grid_opt
 template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     using OfOne = ThreePointString<ExplicitUpdate>;
-    return on_three_point_support<OfOne, Rule>(scene, settings, [&](const Scene& one) {
+    return on_three_point_support<OfOne, Rule>(descriptor, scene, settings, [&](const Scene& one) {
         const double dt = 1 / settings.sample_rate;
         const String& s = one.strings.front();
         const LossFit loss = fit_losses(s);

@@ -34,14 +34,12 @@ struct AtTheMiddle<QuadratisedRule<variant>> {
 
 template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    const int rows = steps_per_row(settings);
     const double dt = 1 / settings.sample_rate;
     const String& s = scene.strings.front();
     const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
     const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
     const GridString g = on_grid(descriptor, scene, settings, grid, fit_losses(s));
-    return std::make_unique<Driver<MidpointString<GridSolve>, typename AtTheMiddle<Rule>::type>>(
-        std::make_unique<MidpointString<GridSolve>>(g, dt), rows);
+    return driven<typename AtTheMiddle<Rule>::type>(std::make_unique<MidpointString<GridSolve>>(g, dt), descriptor, settings);
 }
 }  // namespace
 

@@ -46,7 +46,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     using OfOne = ThreePointString<ThetaUpdate>;
     const double dt = 1 / settings.sample_rate, asked = number_option(settings, theta_option, 0);
     if (asked != 0 && !(asked > 0.5)) throw Refusal("option theta: found " + std::to_string(asked) + ", expected more than 0.5");
-    return on_three_point_support<OfOne, Rule>(scene, settings, [&](const Scene& one) {
+    return on_three_point_support<OfOne, Rule>(descriptor, scene, settings, [&](const Scene& one) {
         const String& s = one.strings.front();
         const double limit = spacing_limit(s, dt, asked);
         const Grid grid = grid_for(descriptor, s, settings, limit);

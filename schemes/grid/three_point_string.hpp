@@ -216,8 +216,8 @@ private:
 
 // A string on its grid as a scheme, or all strings of a scene on a moving body. make(scene of one string) -> unique_ptr<String>.
 template <class String, class Rule, class Make>
-std::unique_ptr<Scheme> on_three_point_support(const Scene& scene, const Settings& settings, Make make) {
-    return on_its_support<String, Rule>(scene, steps_per_row(settings), make,
+std::unique_ptr<Scheme> on_three_point_support(const Descriptor& scheme, const Scene& scene, const Settings& settings, Make make) {
+    return on_its_support<String, Rule>(scheme, scene, settings, make,
                                         [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
 }
 

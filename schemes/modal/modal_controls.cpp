@@ -81,7 +81,7 @@ constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::cont
 
 extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalty",
                                                   .source = "exact modes, contact force of the last step (conditionally stable control)",
-                                                  .represents = of_several_points,
+                                                  .represents = of_several_points | Feature::rigid_barrier,
                                                   .balance = Balance::none,
                                                   .clock = Clock::stepped,
                                                   .make = made_explicit,

@@ -16,26 +16,26 @@ using Made = std::unique_ptr<Scheme>;
 template <Quadratisation variant>
 Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels) {
     matched_without_loss(descriptor, scene, settings);
-    const int rows = steps_per_row(settings);
+    using Rule = QuadratisedRule<variant>;
     if (levels == 2)
-        return std::make_unique<Driver<TwoPointModes, QuadratisedRule<variant>>>(
-            std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), rows);
-    return std::make_unique<Driver<ThreePointModes, QuadratisedRule<variant>>>(
-        std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), rows);
+        return driven<Rule>(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), descriptor, settings);
+    return driven<Rule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
 }
 
 constexpr Option levels_option{"levels", "2", "time levels of the recursion", {"2", "3"}};
 constexpr Option variant_option{"variant",
                                 "released",
-                                "psi out of contact: kept, driven to 0, or released in full where it would pull",
-                                {"raw", "constrained", "released"}};
-constexpr Option chosen_options[] = {levels_option, variant_option, compliance_option, profile_points_option};
+                                "what is done about psi and the potential drifting apart: the header of quadratised_contact.hpp",
+                                {"raw", "constrained", "released", "relaxed", "controlled"}};
+constexpr Option chosen_options[] = {levels_option, variant_option, lambda0_option, compliance_option, profile_points_option};
 constexpr Option fixed_options[] = {compliance_option, profile_points_option};
 
 Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const std::string variant = choice_option(settings, variant_option);
     const int levels = choice_option(settings, levels_option) == "2" ? 2 : 3;
     return variant == "raw"           ? made<Quadratisation::raw>(descriptor, scene, settings, levels)
+           : variant == "relaxed"     ? made<Quadratisation::relaxed>(descriptor, scene, settings, levels)
+           : variant == "controlled"  ? made<Quadratisation::controlled>(descriptor, scene, settings, levels)
            : variant == "constrained" ? made<Quadratisation::constrained>(descriptor, scene, settings, levels)
                                       : made<Quadratisation::released>(descriptor, scene, settings, levels);
 }

@@ -31,7 +31,7 @@ double margin(const Scene& scene, const Settings& settings) {
 extern const Descriptor modal_strang = {
     .name = "modal_strang",
     .source = "Strang 1968, with the residual compliance of the cut modes (MacNeal 1971) in series",
-    .represents = modal_features,
+    .represents = modal_features | Feature::rigid_barrier,
     .balance = Balance::none,
     .clock = Clock::stepped,
     .make = made,

@@ -12,8 +12,7 @@ namespace {
 template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
-    return std::make_unique<Driver<ThreePointModes, Rule>>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
-                                                           steps_per_row(settings));
+    return driven<Rule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
 }
 constexpr Option options[] = {compliance_option, profile_points_option};
 constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
@@ -23,7 +22,8 @@ extern const Descriptor modal_three_point, modal_quadratised_three_point, modal_
 const Descriptor modal_three_point = {.name = "modal_three_point",
                                       .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
                                       .represents = modal_features | Features(Feature::profile_barrier) |
-                                                    Features(Feature::several_barriers) | Features(Feature::contact_loss),
+                                                    Features(Feature::several_barriers) | Features(Feature::contact_loss) |
+                                                    Feature::rigid_barrier,
                                       .balance = Balance::exact,
                                       .clock = Clock::stepped,
                                       .make = made<GradientRule>,

@@ -12,7 +12,6 @@
 #include "schemes/body/body_modes.hpp"
 #include "schemes/body/instrument.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
-#include "schemes/contact/rigid_rule.hpp"
 #include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal/two_point_modes.hpp"
@@ -143,41 +142,21 @@ private:
     TwoPointRow row_ = nullptr;
 };
 
-// All barriers rigid, none of them moved by a body, and none above the string at its start.
-std::unique_ptr<Scheme> made_rigid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, TwoPointLaw law) {
-    const auto refuse = [&](const std::string& why) { throw Refusal(std::string(descriptor.name) + ": " + why); };
-    for (const Barrier& b : scene.strings.front().barriers)
-        if (const auto* lumped = std::get_if<LumpedBarrier>(&b); !lumped || lumped->stiffness.k != rigid)
-            refuse("a rigid barrier beside one that gives way; make all of them rigid, or give each a stiffness");
-    if (needed_by(scene).has(Feature::moving_body)) refuse("leaves out a rigid barrier of a string on a moving body");
-    matched_without_loss(descriptor, scene, settings);
-    auto string = std::make_unique<TwoPointModes>(descriptor, scene, settings, law);
-    string->reset();
-    const StringPoints& p = string->points();
-    std::vector<double> start(p.count());
-    string->reading(0, start.data());
-    for (int a = 0; a < p.contacts.count(); ++a)
-        if (const double inside = p.contacts.heights[a] - start[a]; inside > 1e-12 * p.length)
-            refuse("the string starts " + std::to_string(inside * 1e6) + " um inside a rigid barrier; lower the barrier or start above it");
-    return std::make_unique<Driver<TwoPointModes, RigidRule>>(std::move(string), steps_per_row(settings));
-}
-
 template <TwoPointLaw law>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    if (needed_by(scene).has(Feature::rigid_barrier)) return made_rigid(descriptor, scene, settings, law);
-    if (!needed_by(scene).has(Feature::moving_body) && touches_once_without_loss(scene.strings.front()))
+    const Features needed = needed_by(scene);
+    if (!needed.has(Feature::moving_body) && !needed.has(Feature::rigid_barrier) && touches_once_without_loss(scene.strings.front()))
         return std::make_unique<ModalTwoPoint>(std::make_unique<TwoPointModes>(descriptor, scene, settings, law), steps_per_row(settings));
     matched_without_loss(descriptor, scene, settings);
     return on_its_support<TwoPointModes, GradientRule>(
-        scene, steps_per_row(settings), [&](const Scene& one) { return std::make_unique<TwoPointModes>(descriptor, one, settings, law); },
+        descriptor, scene, settings, [&](const Scene& one) { return std::make_unique<TwoPointModes>(descriptor, one, settings, law); },
         [&] { return TwoPointBody(scene.body->modes, 1 / settings.sample_rate, law); });
 }
 
 template <class Rule>
 std::unique_ptr<Scheme> made_by(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
-    return std::make_unique<Driver<TwoPointModes, Rule>>(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point),
-                                                         steps_per_row(settings));
+    return driven<Rule>(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), descriptor, settings);
 }
 
 constexpr Features two_point_features = modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) |

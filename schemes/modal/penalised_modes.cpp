@@ -6,7 +6,7 @@
 
 namespace jvari {
 
-PenalisedModes::Sides PenalisedModes::sides() const {
+PenalisedModes::Sides PenalisedModes::sides(double k_b) const {
     const int n = points().count();
     std::vector<double> G;
     for (int a = 0; a < n; ++a)
@@ -19,7 +19,7 @@ PenalisedModes::Sides PenalisedModes::sides() const {
     const Residual yields =
         points().series ? Residual(*points().series, 0.5 * points().dt) : Residual();  // whose K is 2 C (1 + 4 R C/dt)^-1
     const auto C = [&yields, n](int a, int b) { return yields.K.empty() ? 0 : 0.5 * yields.K[a * n + b]; };
-    Sides of{1 / points().contacts.laws[0].k + C(0, 0), G[0]};
+    Sides of{1 / k_b + C(0, 0), G[0]};
     if (!points().threads.empty()) {
         const Thread& thread = points().threads.front();
         const double k = thread.stiffness, kappa = k + (points().series ? 4 * thread.damping / points().dt : 0);
@@ -31,20 +31,32 @@ PenalisedModes::Sides PenalisedModes::sides() const {
 }
 
 double PenalisedModes::margin() const {
-    if (points().contacts.count() != 1 || points().contacts.laws[0].alpha != 1) return std::numeric_limits<double>::quiet_NaN();
-    const Sides of = sides();
+    if (points().contacts.count() != 1) return std::numeric_limits<double>::quiet_NaN();
+    const Sides of = sides(stiffest());
     return of.contact / of.string - 1;
+}
+
+double PenalisedModes::stiffest() const {
+    const ContactLaw& law = points().contacts.laws[0];
+    if (law.alpha == 1) return law.k;
+    if (points().pluck) return std::numeric_limits<double>::quiet_NaN();
+    double E = 0;
+    for (int j = 0; j < p_.modes.count(); ++j) {
+        const double w = p_.modes.omega0[j] * p_.initial[j];
+        E += 0.5 * p_.modes.mass * w * w;
+    }
+    return law.slope(std::pow((law.alpha + 1) * E / law.k, 1 / (law.alpha + 1)));
 }
 
 std::vector<Fact> PenalisedModes::facts() const {
     std::vector<Fact> f = ThreePointModes::facts();
-    if (points().contacts.count() == 1) f.push_back({facts::stable_stiffness_limit, 1 / sides().string});
+    if (points().contacts.count() == 1) f.push_back({facts::stable_stiffness_limit, 1 / sides(points().contacts.laws[0].k).string});
     return f;
 }
 
 std::unique_ptr<Scheme> penalised(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const ModalGain& gain) {
-    return std::make_unique<Driver<PenalisedModes, ExplicitRule>>(
-        std::make_unique<PenalisedModes>(problem_of_modes(descriptor, scene, settings, gain)), steps_per_row(settings));
+    return driven<ExplicitRule>(std::make_unique<PenalisedModes>(problem_of_modes(descriptor, scene, settings, gain)), descriptor,
+                                settings);
 }
 
 double penalty_margin(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const ModalGain& gain) try {

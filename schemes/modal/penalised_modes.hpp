@@ -7,6 +7,9 @@
 //
 // It is the limit of lasting contact, necessary and not sufficient: impacts gain energy below it too (C3 released without losses: still
 // where the limit is 1.4 k, no longer where it is 11 k).
+// Of another exponent the contact is as stiff as V'' where it is deepest. That is nowhere deeper than where V holds all that the string had
+// at its start, so that stiffness bounds the critical step from below (Feng 2026, arXiv 2604.02533, of one mass): in lasting contact the
+// scheme is stable on this side of the line, and may be so beyond it. Of a pluck, whose work is not known before, nothing is said.
 #pragma once
 
 #include "schemes/contact/explicit_rule.hpp"
@@ -18,14 +21,15 @@ namespace jvari {
 class PenalisedModes : public ThreePointModes {
 public:
     using ThreePointModes::ThreePointModes;
-    double margin() const;  // the sides of the limit, the left over the right, less 1; NaN unless one contact has exponent 1
+    double margin() const;  // the sides of the limit, the left over the right, less 1; NaN unless there is one contact
     std::vector<Fact> facts() const;
 
 private:
     struct Sides {
         double contact, string;  // [m/N]
     };
-    Sides sides() const;
+    Sides sides(double k_b) const;  // of a contact of that stiffness
+    double stiffest() const;        // that the contact can be in this run [N/m]; NaN where that is not known
 };
 
 std::unique_ptr<Scheme> penalised(const Descriptor&, const Scene&, const Settings&, const ModalGain&);

@@ -54,16 +54,16 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     if (scene.strings.empty()) throw Refusal("modal_spatial_newton: scene " + scene.name + " has no string");
     if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
     return on_its_support<ThreePointModes, Rule>(
-        scene, steps_per_row(settings),
+        descriptor, scene, settings,
         [&](const Scene& one) { return std::make_unique<ThreePointModes>(spatial_problem(descriptor, one, settings)); },
         [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
 }
 
-constexpr Features represented = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                                 Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                                 Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                                 Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) |
-                                 Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body);
+constexpr Features represented =
+    Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
+    Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+    Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) | Features(Feature::initial_shape) |
+    Features(Feature::pluck) | Features(Feature::moving_body) | Features(Feature::rigid_barrier);
 
 }  // namespace
 

@@ -336,6 +336,9 @@ TEST(Barriers, ThatAreRigidAreReadWrittenAndNeededByName) {
     };
     for (const auto& [overrides, expected] : rows) EXPECT_EQ(message(lumped, overrides), expected);
     EXPECT_NE(message(lumped, {"string.0.barrier.0.stiffness=inf"}), "(read without an error)");
+    const Scene profile = read_scene("sitar_parabola", {"string.0.barrier.0.stiffness_density=rigid", "string.0.barrier.0.exponent=1"});
+    EXPECT_TRUE(needed_by(profile).has(Feature::rigid_barrier));
+    EXPECT_TRUE(parse_scene(write_scene(profile), "again.toml") == profile);
 }
 
 TEST(Overrides, ErrorsNameTheOverride) {
