@@ -55,7 +55,7 @@ std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
         throw Refusal("no reference and no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
     if (!able.empty()) {
         jobs.push_back({able.front(), {}, false, "modes"});
-        if (needed_by(scene).has(Feature::profile_barrier))
+        if (needed_by(scene).any(any_profile))
             jobs.push_back({able.front(), {{nodes_option.name, std::to_string(2 * std::stoi(nodes_option.fallback))}}, false, "points"});
     }
     return jobs;

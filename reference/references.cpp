@@ -5,6 +5,7 @@ namespace jvari {
 std::span<const Descriptor> references() {
     static const Descriptor table[] = {
         exact_linear,
+        characteristic_lattice,
         exact_contact,
 #if !defined(JVARI_WITHOUT_SUNDIALS)  // the page's module
         sundials,

@@ -7,7 +7,7 @@
 
 namespace jvari {
 
-extern const Descriptor exact_linear, exact_contact, sundials;
+extern const Descriptor exact_linear, characteristic_lattice, exact_contact, sundials;
 
 std::span<const Descriptor> references();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reference/partial_sums.hpp"
 #include "scenes/excitation.hpp"
@@ -41,7 +42,7 @@ void add(const double* d, double F, double* dv, int n) {
 }  // namespace
 
 StringEquations::StringEquations(const Modes& modes, const String& s, const std::optional<InSeries>& series)
-    : mass_(modes.mass), modes_(modes.count()) {
+    : mass_(modes.mass), EA_(s.axial_stiffness), length_(s.length), modes_(modes.count()) {
     if (series) series_ = SeriesStates(*series, mass_);
     padded = (modes_ + series_.count + lanes - 1) / lanes * lanes;
     const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
@@ -51,7 +52,8 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
         pad(damping_, 2 * modes.sigma[i]);
         pad(loss_, 2 * modes.mass * modes.sigma[i]);
     }
-    for (auto* rows : {&omega_, &damping_, &loss_}) fill(*rows);
+    for (int i = 0; i < modes.count() && EA_ > 0; ++i) pad(reach_, std::pow((i + 1) * std::numbers::pi / (length_ * modes.omega0[i]), 2));
+    for (auto* rows : {&omega_, &damping_, &loss_, &reach_}) fill(*rows);
     const auto add_point = [&](const std::vector<double>& g) {
         for (int i = 0; i < modes.count(); ++i) {
             pad(reads_, g[i] / modes.omega0[i]);
@@ -129,6 +131,10 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
     std::fill_n(sum, sums, 0.0);
     oscillate(omega_.data(), damping_.data(), p, v, dp, dv, padded);
     sum[dissipated] = square(loss_.data(), v, padded);
+    if (!reach_.empty()) {
+        const double pull = 0.125 * EA_ * length_ * square(reach_.data(), p, padded) / mass_;
+        for (int i = 0; i < padded; ++i) dv[i] -= pull * reach_[i] * omega_[i] * p[i];
+    }
     std::fill(acting_.begin(), acting_.end(), 0.0);
     for (int a = 0; a < points; ++a) {
         if (!acts(a)) continue;

@@ -2,6 +2,9 @@
 // Issanchou et al. 2016, eq 24). With p = omega0 y, so that every component is a velocity and energy is m/2 times their squares,
 //
 //     p_i' = omega0_i v_i,    v_i' = -omega0_i p_i - 2 sigma_i v_i + sum_a d_ai F_a,      d_ai = g_ai/m
+// and where the string stretches, less EA L/8 beta_i^2/m sum (beta_j/omega0_j)^2 p_j^2 p_i/omega0_i (Kirchhoff, Carrier), which no Jacobian
+// here has: for explicit methods.
+//
 //     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c) - r_c v_c of the thread, F_e(t) of the pluck.
 //
 // Which barriers are touched is given, not decided here: between two events the equations are smooth, and odd beyond the barrier's surface
@@ -33,10 +36,12 @@ struct StringEquations final : Equations {
     void read_series(const double* z, double* series) const noexcept;  // the states in series, in their own units
     void put_series(const double* series, double* z) const noexcept;
     void slope(double t, const double* z, double* dz) const noexcept override;
-    double penetration(int contact, const double* z) const noexcept override;        // eta [m]
-    double penetration_speed(int contact, const double* z) const noexcept override;  // [m/s]
-    double contact_force(int contact, const double* z) const noexcept override;      // [N], whether touched or not
-    double potential(int point, double y) const noexcept;                            // [J], of a barrier or the thread
+    double penetration(int contact, const double* z) const noexcept override;                // eta [m]
+    double penetration_speed(int contact, const double* z) const noexcept override;          // [m/s]
+    double contact_force(int contact, const double* z) const noexcept override;              // [N], whether touched or not
+    double potential(int point, double y) const noexcept;                                    // [J], of a barrier or the thread
+    double reach(int mode) const noexcept { return reach_.empty() ? 0 : reach_[mode]; }      // (beta/omega0)^2
+    double stretching(double sum) const noexcept { return EA_ * length_ / 32 * sum * sum; }  // of sum reach p^2 [J]
     double scale_squared(
         const double* z) const noexcept override;  // sum of p^2 + v^2, or what barriers and thread press, 2 potential/m, where that is more
     // Of the motion in contacts that are this deep and this fast, a bound [1/s]; decays: of a point without mass as well.
@@ -64,12 +69,13 @@ private:
     const double* states(const double* z) const noexcept { return z + padded + modes_; }  // w z, in series
     double* states(double* z) const noexcept { return z + padded + modes_; }
 
-    double mass_;
+    double mass_, EA_, length_;
     int modes_;
     SeriesStates series_;
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                     // none or one
     std::vector<double> omega_, damping_, loss_;   // omega0, 2 sigma, 2 m sigma
+    std::vector<double> reach_;                    // (beta/omega0)^2; empty where the string does not stretch
     std::vector<double> reads_, weights_, gains_;  // g/omega0, g, g/m [point, then the pluck][mode]
 
     double gamma_ = 0;                          // of what follows

@@ -75,6 +75,8 @@ const char* name_of(Feature f) {
         case Feature::polarisation: return "two polarisations";
         case Feature::moving_body: return "moving body";
         case Feature::rigid_barrier: return "rigid barrier";
+        case Feature::rigid_profile: return "rigid profile";
+        case Feature::tension_modulation: return "tension modulation";
     }
     return "?";
 }
@@ -86,6 +88,11 @@ std::string names_of(Features features) {
         if (features.has(f)) text += (text.empty() ? "" : ", ") + std::string(name_of(f));
     }
     return text;
+}
+
+bool is_rigid(const Barrier& barrier) {
+    const auto* lumped = std::get_if<LumpedBarrier>(&barrier);
+    return (lumped ? lumped->stiffness.k : std::get<ProfileBarrier>(barrier).stiffness.K) == rigid;
 }
 
 namespace {
@@ -103,12 +110,13 @@ struct DampingNeeds {
 };
 
 Features needed_by(const Barrier& barrier) {
-    Features f = std::holds_alternative<LumpedBarrier>(barrier) ? Feature::lumped_barrier : Feature::profile_barrier;
+    const bool lumped = std::holds_alternative<LumpedBarrier>(barrier);
+    if (is_rigid(barrier)) return lumped ? Feature::lumped_barrier | Feature::rigid_barrier : Features(Feature::rigid_profile);
+    Features f = lumped ? Feature::lumped_barrier : Feature::profile_barrier;
     std::visit(
         [&f](const auto& b) {
             if (b.exponent != 1) f = f | Feature::power_law_contact;
             if (b.contact_loss != 0) f = f | Feature::contact_loss;
-            if (is_rigid(b)) f = f | Feature::rigid_barrier;
         },
         barrier);
     return f;
@@ -119,6 +127,7 @@ Features needed_by(const Scene& scene) {
     Features f;
     for (const String& s : scene.strings) {
         if (s.bending_stiffness != 0) f = f | Feature::bending_stiffness;
+        if (s.axial_stiffness != 0) f = f | Feature::tension_modulation;
         f = f | std::visit(DampingNeeds{}, s.damping);
         for (const Barrier& b : s.barriers) f = f | needed_by(b);
         if (s.barriers.size() > 1) f = f | Feature::several_barriers;

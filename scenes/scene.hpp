@@ -95,6 +95,7 @@ inline bool is_rigid(const ProfileBarrier& b) {
     return b.stiffness.K == rigid;
 }
 using Barrier = std::variant<LumpedBarrier, ProfileBarrier>;
+bool is_rigid(const Barrier&);
 
 struct Thread {            // spring and damper, never detaches (van Walstijn et al. 2016, eq 7)
     double position = 0;   // [m]
@@ -140,6 +141,7 @@ struct String {
     double linear_density = 0;     // mu [kg/m]
     double tension = 0;            // T [N]
     double bending_stiffness = 0;  // EI [N m^2]
+    double axial_stiffness = 0;    // EA [N]: the tension grows as the string stretches (Kirchhoff, Carrier); 0: it stays as it is
     Damping damping;
     std::vector<Barrier> barriers;
     std::optional<Thread> thread;
@@ -211,8 +213,10 @@ enum class Feature : unsigned {
     polarisation = 1u << 12,
     moving_body = 1u << 13,  // the strings' end at x = 0 moves with it
     rigid_barrier = 1u << 14,
+    rigid_profile = 1u << 15,  // in place of profile_barrier
+    tension_modulation = 1u << 16,
 };
-constexpr int feature_count = 15;
+constexpr int feature_count = 17;
 const char* name_of(Feature);
 
 struct Features {
@@ -221,6 +225,7 @@ struct Features {
     constexpr Features(Feature f) : bits(static_cast<unsigned>(f)) {}  // NOLINT: a feature is a set of one
     constexpr explicit Features(unsigned b) : bits(b) {}
     constexpr bool has(Feature f) const { return (bits & static_cast<unsigned>(f)) != 0; }
+    constexpr bool any(Features f) const { return (bits & f.bits) != 0; }
     constexpr bool empty() const { return bits == 0; }
     friend constexpr bool operator==(Features, Features) = default;
 };
@@ -234,6 +239,8 @@ constexpr Features operator-(Features a, Features b) {
     return Features(a.bits & ~b.bits);
 }  // in a and not in b
 std::string names_of(Features);  // "thread, pluck"
+constexpr Features any_rigid = Feature::rigid_barrier | Feature::rigid_profile,
+                   any_profile = Feature::profile_barrier | Feature::rigid_profile;
 
 Features needed_by(const Scene&);
 

@@ -144,6 +144,7 @@ void fields(auto& pass, Is<String> auto& s) {
     pass.number("linear_density", s.linear_density, positive, "kg/m");
     pass.tension(s);
     pass.number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);
+    pass.number("axial_stiffness", s.axial_stiffness, not_negative, "N", 0.0);
     pass.part("damping", s.damping);
     pass.parts("barrier", s.barriers);
     pass.part("thread", s.thread);

@@ -98,26 +98,24 @@ struct On {
             throw BadScene(path + part + ".file", "heights from " + number_text(c.x.front()) + " to " + number_text(c.x.back()) + " m",
                            "them from " + number_text(b.from) + " to " + number_text(b.to) + " m");
     }
-    void barrier(const std::string& part, const LumpedBarrier& b) const {
-        footprint(part, b.position, b.width);
-        rigid_alone(part, b);
-    }
-    void rigid_alone(const std::string& part, const auto& b) const {
-        if (!is_rigid(b)) return;
+    void barrier(const std::string& part, const LumpedBarrier& b) const { footprint(part, b.position, b.width); }
+    void without_law(const std::string& part, const auto& b) const {
         if (b.exponent != 1) throw BadScene(path + part + ".exponent", number_text(b.exponent), "none, as the barrier is rigid");
         if (b.contact_loss != 0)
             throw BadScene(path + part + ".contact_loss", number_text(b.contact_loss), "none, as the barrier is rigid");
     }
     void barrier(const std::string& part, const ProfileBarrier& b) const {
-        rigid_alone(part, b);
         if (b.from < 0 || b.from >= string.length) throw BadScene(path + part + ".from", number_text(b.from), between("<="));
         if (b.to < 0 || b.to > string.length + slack) throw BadScene(path + part + ".to", number_text(b.to), between("<="));
         if (b.from >= b.to) throw BadScene(path + part + ".to", number_text(b.to), "a number above from, " + number_text(b.from) + " [m]");
         if (const auto* table = std::get_if<TableCurve>(&b.curve)) curve(part, b, *table);
     }
     void all() const {
-        for (std::size_t i = 0; i < string.barriers.size(); ++i)
-            std::visit([&](const auto& b) { barrier("barrier." + std::to_string(i), b); }, string.barriers[i]);
+        for (std::size_t i = 0; i < string.barriers.size(); ++i) {
+            const std::string part = "barrier." + std::to_string(i);
+            std::visit([&](const auto& b) { barrier(part, b); }, string.barriers[i]);
+            if (is_rigid(string.barriers[i])) std::visit([&](const auto& b) { without_law(part, b); }, string.barriers[i]);
+        }
         if (string.thread) footprint("thread", string.thread->position, string.thread->width);
         if (string.pluck) footprint("pluck", string.pluck->position, string.pluck->width);
         if (!string.initial) return;

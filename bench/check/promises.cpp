@@ -78,8 +78,9 @@ const char* name_of(Verdict::Answer a) {
 
 Settings settings_for(const Descriptor& d, const Scene& scene) {
     Settings s{4 * contract_tap_rate, contract_tap_rate, contract_modes, {}};
-    if (d.clock == Clock::continuous && needed_by(scene).has(Feature::profile_barrier) && declares(d, "nodes"))
-        s.options = {{"nodes", "6"}};  // points on the profile: what is owed does not depend on them
+    if (d.clock == Clock::continuous && needed_by(scene).any(any_profile) && declares(d, "nodes"))
+        s.options = {{"nodes", "6"}};                         // points on the profile: what is owed does not depend on them
+    if (declares(d, "cells")) s.options = {{"cells", "64"}};  // of a lattice of its own
     return s;
 }
 

@@ -125,7 +125,8 @@ Verdict stores_no_negative_energy(const Case& c) {
     const Ledger l = ledger_of(c);
     const double bound = row_bound(c) * l.scale, least = *std::min_element(l.stored.begin(), l.stored.end());
     if (!(least >= -bound)) return broken(fmt::format("stores {:.2g} J", least));
-    if (needed_by(c.scene).has(Feature::profile_barrier) && c.scheme.balance == Balance::to_tolerance)
+    const Features needed = needed_by(c.scene);
+    if (needed.any(any_profile) && c.scheme.balance == Balance::to_tolerance)
         return kept("a rigid-profile rule may give energy; its scheme reports how much");
     const double loss = *std::min_element(l.dissipated.begin(), l.dissipated.end());
     return loss >= -bound ? kept() : broken(fmt::format("dissipates {:.2g} J in a row", loss));

@@ -67,6 +67,8 @@ Scene with(Feature feature, Scene scene) {
         case Feature::initial_shape: s.initial = ModeInitial{1, 1.9e-3 * s.length}; break;
         case Feature::pluck: s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5 * s.length, 0.1 * s.length}; break;
         case Feature::rigid_barrier: s.barriers = {bridge_at(s, 1)}, std::get<LumpedBarrier>(s.barriers[0]).stiffness.k = rigid; break;
+        case Feature::rigid_profile: s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {rigid}, 1, 0}); break;
+        case Feature::tension_modulation: s.axial_stiffness = 5e3; break;
         case Feature::moving_body: scene.body = Body{"", "", 0, {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}}; break;
     }
     return scene;
@@ -111,6 +113,7 @@ std::vector<Scene> read_contract_scenes() {
     scenes.push_back(named(lossless(string_at_rest()), "lossless_free"));
     scenes.back().strings.front().initial = ModeInitial{2, 1e-3};
     scenes.push_back(named(with(Feature::rigid_barrier, released()), "rigid_release"));
+    scenes.push_back(named(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}), "rigid_wall"));
     scenes.push_back(named(released(), "pluck_that_starts_and_ends_between_rows"));
     scenes.back().strings.front().initial.reset();
     scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
@@ -159,6 +162,11 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::measured_modes: add(with_other_frequencies); break;
         case Feature::lumped_barrier: add(rid_of<LumpedBarrier>); break;
         case Feature::profile_barrier: add(rid_of<ProfileBarrier>); break;
+        case Feature::rigid_profile:
+            each_barrier([](auto& b) {
+                if constexpr (requires { b.to; }) b.to = 0.5 * (b.from + b.to);
+            });
+            break;
         case Feature::several_barriers:
             for (const bool first : {false, true})
                 add([first](String& s) {
@@ -176,6 +184,7 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
             add([](String& s) { return s.polarisation && (s.polarisation->rotation += 0.2, s.polarisation->pluck_angle += 0.2, true); });
             break;
         case Feature::rigid_barrier: each_barrier([](auto& b) { b.stiffness = {1e5}; }); break;
+        case Feature::tension_modulation: add([](String& s) { return s.axial_stiffness *= 3, true; }); break;
         case Feature::moving_body:
             all.push_back(scene);
             for (BodyMode& m : all.back().body->modes) m.stiffness *= 2;

@@ -120,8 +120,8 @@ std::optional<int> dofs_of(const Case& c) {  // none where it refuses
 }
 
 // Displacement and velocity of each mode, or of each node of a grid, whose spacing no wave passes within a step; then a value for each
-// contact, and a few for a filter at an end. A second plane has as many again. A profile has a contact at each node on it, or at the points
-// of its own that a scheme says it has.
+// contact at two levels, and a few for a filter at an end. A second plane has as many again. A profile has a contact at each node on it, or
+// at the points of its own that a scheme says it has.
 double contacts_on(const ProfileBarrier& profile, double length, double nodes, const Case& c) {
     const bool own =
         std::ranges::any_of(c.scheme.options, [](const Option& o) { return o.name == std::string(profile_points_option.name); });
@@ -139,7 +139,7 @@ int most_state(const Case& c, bool sized_by_modes) {
             contacts += profile ? contacts_on(*profile, s.length, nodes, c) : 1;
         }
         constexpr int at_an_end = 6;
-        most += (2 * nodes + contacts + at_an_end) * (s.polarisation ? 2 : 1);
+        most += (2 * (nodes + contacts) + at_an_end) * (s.polarisation ? 2 : 1);
     }
     return static_cast<int>(most);
 }

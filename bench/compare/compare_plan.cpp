@@ -96,7 +96,7 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     }
     if (!r.schemes.empty()) return chosen;
     for (const Descriptor* d : catalogue.schemes)
-        if (represents(*d, scene) && (r.controls || !is_control(*d))) chosen.push_back(d);
+        if (represents(*d, scene) && (r.controls || !left_out_unasked(*d, scene))) chosen.push_back(d);
     if (chosen.empty()) throw Refusal("no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
     return chosen;
 }

@@ -45,7 +45,7 @@ bool within_budget(const Descriptor& reference, const Scene& scene, const Size& 
 // Modes below 20 kHz, and the points that a reference takes unasked.
 Size first_size(const Scene& scene, const OptionValues& options) {
     const bool asked = std::any_of(options.begin(), options.end(), [](const auto& o) { return o.first == std::string(nodes_option.name); });
-    const bool profile = needed_by(scene).has(Feature::profile_barrier);
+    const bool profile = needed_by(scene).any(any_profile);
     return {modes_for(scene, {}), profile && !asked ? std::stoi(nodes_option.fallback) : 0};
 }
 

@@ -33,7 +33,7 @@ std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene, const 
         Variant matched = all.back();
         matched.options.emplace_back(compliance_option.name, "matched");
         all.push_back(matched);
-        const bool profile = declares(d, profile_points_option.name) && needed_by(scene).has(Feature::profile_barrier);
+        const bool profile = declares(d, profile_points_option.name) && needed_by(scene).any(any_profile);
         if (!profile || compare::sets(asked, profile_points_option)) continue;
         for (const char* points : {"8", "4"}) all.emplace_back(matched).options.emplace_back(profile_points_option.name, points);
     }

@@ -13,10 +13,10 @@ namespace jvari::bench::trim {
 namespace {
 constexpr int rounds = 7;
 
-std::vector<const Descriptor*> schemes_of(const Request& r, const compare::Catalogue& catalogue) {
+std::vector<const Descriptor*> schemes_of(const Request& r, const Scene& scene, const compare::Catalogue& catalogue) {
     if (r.scheme != "any") return {&catalogue.find(r.scheme)};
     std::vector<const Descriptor*> sound = catalogue.schemes;
-    std::erase_if(sound, [](const Descriptor* d) { return is_control(*d); });
+    std::erase_if(sound, [&scene](const Descriptor* d) { return left_out_unasked(*d, scene); });
     return sound;
 }
 
@@ -103,7 +103,7 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
                         "--duration or more --reference-modes may help",
                         text_of(measure, judge.target().most), judge.truth(0).reference, judge.truth(0).said,
                         certainty_text(measure, judge.truth(0).certificate)));
-    const std::vector<const Descriptor*> schemes = schemes_of(r, catalogue);
+    const std::vector<const Descriptor*> schemes = schemes_of(r, judge.scene(), catalogue);
     std::vector<bool> used(r.options.size());
     for (const Descriptor* d : schemes) compare::asked_of(r.options, *d, used);
     compare::must_be_used(r.options, used);

@@ -201,12 +201,13 @@ double IntegratedContact::pace(bool decays) noexcept {
 }
 
 double IntegratedContact::stored() const noexcept {
-    double kinetic = 0, energy = 0;
+    double kinetic = 0, energy = 0, reach = 0;
     for (int i = 0; i < modes_.count(); ++i) {
         const double v = flight_.window.osc.rate * u_[i], p = modes_.omega0[i] * y_[i];
         kinetic += v * v + p * p;
+        reach += equations_.reach(i) * p * p;
     }
-    energy = 0.5 * modes_.mass * kinetic;
+    energy = 0.5 * modes_.mass * kinetic + equations_.stretching(reach);
     if (series()) energy += series()->stored(flight_.z.data());
     for (int a = 0; a < equations_.points; ++a) {
         const double* g = flight_.window.springs.weights.data() + static_cast<long>(a) * flight_.window.osc.padded;
@@ -256,7 +257,10 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     const std::string method = choice_option(settings, method_option);
     i.method = method == "bdf" ? Method::bdf : method == "adams" ? Method::adams : method == "erk" ? Method::erk : Method::esdirk;
     i.solver = choice_option(settings, linear_solver_option) == "dense" ? LinearSolver::dense : LinearSolver::woodbury;
-    choice.exact_flight = choice_option(settings, flight_option) == "exact";
+    const bool stretches = needed_by(scene).has(Feature::tension_modulation);
+    choice.exact_flight = choice_option(settings, flight_option) == "exact" && !stretches;
+    if (stretches && (i.method != Method::erk || needed_by(scene).has(Feature::moving_body)))
+        throw Refusal(std::string(descriptor.name) + ": a string that stretches takes method=erk, and ends at rest");
     // A force like eta^alpha is smooth on the surface for alpha = 1 alone. Elsewhere a lower order errs as it estimates, from a small step
     // on.
     const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
@@ -288,25 +292,28 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
 // An integrator of another kind is there for scenes that nothing else can confirm.
 Confirmation confirmation(const Scene& scene) {
     const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
-    if (needed_by(scene).has(Feature::moving_body))  // explicit methods alone: another one, of shorter steps
+    const Features needed = needed_by(scene);
+    if (needed.has(Feature::moving_body) ||
+        needed.has(Feature::tension_modulation))  // explicit methods alone: another one, of shorter steps
         return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}},
                 {{{order_option.name, smooth ? "6" : "8"}, {rtol_option.name, "1e-12"}, {longest_step_option.name, "0.5"}}}};
     return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}}, {{{method_option.name, "adams"}, {rtol_option.name, "1e-12"}}}};
 }
 }  // namespace
 
-const Descriptor sundials = {
-    .name = "sundials",
-    .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
-    .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
-                  Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body),
-    .balance = Balance::to_tolerance,
-    .clock = Clock::continuous,
-    .make = made,
-    .options = options,
-    .approximates = points_for_a_profile,
-    .confirmation = confirmation};
+const Descriptor sundials = {.name = "sundials",
+                             .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
+                             .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                                           Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
+                                           Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+                                           Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                                           Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) |
+                                           Features(Feature::moving_body) | Features(Feature::tension_modulation),
+                             .balance = Balance::to_tolerance,
+                             .clock = Clock::continuous,
+                             .make = made,
+                             .options = options,
+                             .approximates = points_for_a_profile,
+                             .confirmation = confirmation};
 
 }  // namespace jvari

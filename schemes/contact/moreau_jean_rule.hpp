@@ -24,7 +24,8 @@ public:
     static constexpr Approximation approximates[] = {{Feature::lumped_barrier, facts::rigid_barrier},
                                                      {Feature::profile_barrier, facts::rigid_barrier},
                                                      {Feature::power_law_contact, facts::rigid_barrier},
-                                                     {Feature::rigid_barrier, facts::rigid_barrier}};  // beside one that gives way
+                                                     {Feature::rigid_barrier, facts::rigid_barrier},
+                                                     {Feature::rigid_profile, facts::rigid_barrier}};  // beside one that gives way
     static constexpr Features leaves_out = Feature::contact_loss;
     using Rigid = MoreauJeanRule;
 

@@ -116,8 +116,9 @@ public:
         rule_.begin(eta_.data());
         if (series_) series_->rest();
     }
-    void follow(const Obstacle& first) {                   // after `first` made the first half step
-        if constexpr (!known_before) rule_ = first.rule_;  // with its state, and other compliances
+    void set(std::span<const double> theta) noexcept { rule_.set(theta); }  // of a step; without thread, contact loss and series
+    void follow(const Obstacle& first) {                                    // after `first` made the first half step
+        if constexpr (!known_before) rule_ = first.rule_;                   // with its state, and other compliances
         rule_.set(loss_.undamped());
         if (!series_) return;
         series_->rest();

@@ -72,7 +72,7 @@ template <class Rule>
 constexpr Features left_out_by() {
     Features none;
     if constexpr (requires { Rule::leaves_out; }) none = none | Rule::leaves_out;
-    if constexpr (!TakesRigid<Rule>) none = none | Feature::rigid_barrier;
+    if constexpr (!TakesRigid<Rule>) none = none | any_rigid;
     return none;
 }
 

@@ -108,7 +108,7 @@ GridString on_grid(const Descriptor&, const Scene&, const Settings&, const Grid&
 constexpr Features grid_features = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
                                    Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
                                    Feature::power_law_contact | Feature::contact_loss | Feature::thread | Feature::initial_shape |
-                                   Feature::pluck | Feature::rigid_barrier;
+                                   Feature::pluck | any_rigid;
 inline constexpr Approximation grid_approximates[] = {{Feature::frequency_dependent_damping, facts::loss_fit_misfit}};
 
 // ---- The symmetric band matrix a0 I + a2 D2 + a4 D4 over the interior nodes, factored L D L'.

@@ -77,11 +77,12 @@ double shares_margin(const Scene& scene, const Settings& settings) {
 
 constexpr Features of_several_points =
     modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss);
-constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
+constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points},
+                                          {Feature::rigid_profile, facts::contact_points}};
 
 extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalty",
                                                   .source = "exact modes, contact force of the last step (conditionally stable control)",
-                                                  .represents = of_several_points | Feature::rigid_barrier,
+                                                  .represents = of_several_points | any_rigid,
                                                   .balance = Balance::none,
                                                   .clock = Clock::stepped,
                                                   .make = made_explicit,

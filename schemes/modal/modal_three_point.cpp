@@ -15,15 +15,15 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     return driven<Rule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
 }
 constexpr Option options[] = {compliance_option, profile_points_option};
-constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
+constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points},
+                                          {Feature::rigid_profile, facts::contact_points}};
 }  // namespace
 
 extern const Descriptor modal_three_point, modal_quadratised_three_point, modal_explicit_penalty;
 const Descriptor modal_three_point = {.name = "modal_three_point",
                                       .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
                                       .represents = modal_features | Features(Feature::profile_barrier) |
-                                                    Features(Feature::several_barriers) | Features(Feature::contact_loss) |
-                                                    Feature::rigid_barrier,
+                                                    Features(Feature::several_barriers) | Features(Feature::contact_loss) | any_rigid,
                                       .balance = Balance::exact,
                                       .clock = Clock::stepped,
                                       .make = made<GradientRule>,

@@ -145,7 +145,7 @@ private:
 template <TwoPointLaw law>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const Features needed = needed_by(scene);
-    if (!needed.has(Feature::moving_body) && !needed.has(Feature::rigid_barrier) && touches_once_without_loss(scene.strings.front()))
+    if (!needed.has(Feature::moving_body) && !needed.any(any_rigid) && touches_once_without_loss(scene.strings.front()))
         return std::make_unique<ModalTwoPoint>(std::make_unique<TwoPointModes>(descriptor, scene, settings, law), steps_per_row(settings));
     matched_without_loss(descriptor, scene, settings);
     return on_its_support<TwoPointModes, GradientRule>(
@@ -160,8 +160,9 @@ std::unique_ptr<Scheme> made_by(const Descriptor& descriptor, const Scene& scene
 }
 
 constexpr Features two_point_features = modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                                        Features(Feature::contact_loss) | Feature::moving_body | Feature::rigid_barrier;
-constexpr Approximation two_point_approximates[] = {{Feature::profile_barrier, facts::contact_points}};
+                                        Features(Feature::contact_loss) | Feature::moving_body | any_rigid;
+constexpr Approximation two_point_approximates[] = {{Feature::profile_barrier, facts::contact_points},
+                                                    {Feature::rigid_profile, facts::contact_points}};
 }  // namespace
 
 extern const Descriptor modal_two_point = {.name = "modal_two_point",

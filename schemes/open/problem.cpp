@@ -125,11 +125,12 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
 
 void refuse_beyond_arrays(const Scene& scene) {
     const Features needed = needed_by(scene);
-    const char* beyond = scene.strings.size() != 1            ? "several strings"
-                         : needed.has(Feature::moving_body)   ? "a moving body"
-                         : needed.has(Feature::polarisation)  ? "two polarisations"
-                         : needed.has(Feature::rigid_barrier) ? "a rigid barrier"
-                                                              : nullptr;
+    const char* beyond = scene.strings.size() != 1                                                  ? "several strings"
+                         : needed.has(Feature::moving_body)                                         ? "a moving body"
+                         : needed.has(Feature::polarisation)                                        ? "two polarisations"
+                         : needed.any(any_rigid) ? "a rigid barrier"
+                         : needed.has(Feature::tension_modulation) ? "a tension that grows as the string stretches"
+                                                                   : nullptr;
     if (beyond)
         throw Refusal("scene " + scene.name + " has " + beyond +
                       ": the problem as arrays is of one string that moves in one plane between ends at rest, over barriers that give way");

@@ -62,8 +62,7 @@ void lay_bridge(SitarString& s, const String& string, double plucked) {
     if (barrier.from != 0)
         throw Refusal("the bridge rule sets the wave that leaves the bridge end: the profile has to start at x = 0, not at " +
                       std::to_string(barrier.from) + " m");
-    const int nodes = static_cast<int>(std::floor(barrier.to / s.dx * (1 + 1e-12)));
-    if (nodes > s.cells - 2) throw Refusal("the bridge leaves no free string before the peg");
+    const int nodes = std::min(static_cast<int>(std::floor(barrier.to / s.dx * (1 + 1e-12))), s.cells - 1);
     if (nodes < 1) throw Refusal("the bridge is shorter than one cell of " + std::to_string(s.dx) + " m: raise the sample rate");
     std::vector<double> x;
     for (int m = 1; m <= nodes; ++m) x.push_back(m * s.dx);

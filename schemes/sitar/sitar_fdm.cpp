@@ -2,8 +2,19 @@
 // dt, y(n+1, m) = y(n, m+1) + y(n, m-1) - y(n-1, m)  (9), rigid ends, a bridge below which no node may pass.
 //
 // Loss: every wave decays by step_loss per step, so (9) becomes y+ = loss (y_{m+1} + y_{m-1}) - loss^2 y-: the same string as
-// sitar_waveguide's, sample by sample, where there is no bridge. Under the bridge they differ: here a node is put back on the profile, an
-// impulse upwards that leaves to both sides and never pulls; there the returning wave alone is set.
+// sitar_waveguide's, sample by sample, where there is no bridge. Under the bridge they differ: here a node that would pass is moved up by
+// some d >= 0, an impulse Z d that leaves to both sides and never pulls; there the returning wave alone is set. With `old` for loss^2 y-,
+//
+//   sitar_fdm (12)              y+ = profile, the node is put back on it                           loses energy
+//   waveguide_passive           y+ = profile, F = 2 Z v of the wave that comes in; what that took  none is lost or won
+//                               is given back at the node's next turn, two steps later
+//   waveguide_reversing         y+ = old                                                           none is lost or won, a wrong motion
+//   characteristic_lattice (reference/)  y+ + old = max(2 profile, loss (y_{m+1} + y_{m-1}))       tends to the motion on a flat wall
+//
+// The last is of Schatzman & Bercovier, "Numerical approximation of a wave equation with unilateral constraints", Math. Comp. 53, 1989.
+// Where a whole stretch meets the barrier at once the second throws it back as it came, as a rigid wall does, without a law of impact.
+// Where the contact runs along a flat wall faster than the waves, as after a pluck off the middle, its waves leave exchanged, to the right
+// what should leave to the left, however fine it is: points at rest push along the string as well, and a wall does not.
 //
 // Left out: any stiffness of the contact, a fractional length, the second polarisation (the paper's FDM has one).
 #include <algorithm>
@@ -23,12 +34,17 @@ struct Grid {
     String scene_string;
 };
 
+template <BridgeRule rule>
 class SitarFdm final : public Scheme {
 public:
-    explicit SitarFdm(Grid g) : g_(std::move(g)), s_(g_.string), now_(s_.cells + 1), before_(s_.cells + 1) { reset(); }
+    explicit SitarFdm(Grid g) : g_(std::move(g)), s_(g_.string), now_(s_.cells + 1), before_(s_.cells + 1) {
+        if (rule == BridgeRule::giving_back)
+            for (auto& taken : taken_) taken.resize(s_.profile.size());
+        reset();
+    }
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
-    int dofs() const override { return static_cast<int>(now_.size() + before_.size()); }
+    int dofs() const override { return static_cast<int>(now_.size() + before_.size() + 2 * taken_[0].size()); }
     std::vector<Fact> facts() const override {
         std::vector<Fact> facts = s_.facts;
         if (!s_.profile.empty()) ledger_.report(facts);
@@ -40,29 +56,35 @@ private:
     double read(const SitarTap&) const;
     double velocity(int m) const;
     double slopes() const;
+    double lent() const;  // what the barrier will give back [m^2]
     void step() noexcept;
+    double lift(int m, double y, double old) noexcept;
     void meet_bridge() noexcept;
 
     Grid g_;
     const SitarString& s_;
     std::vector<double> now_, before_;  // y at the nodes [m]
+    std::vector<double> taken_[2];      // what the barrier owes the nodes 1, 2, ... of this step, and of the next [m^2]
     double slopes_ = 0;                 // slopes() as it should be
     double slopes_dissipated_ = 0;      // since the last row [m^2]
     long steps_ = 0;
     BridgeLedger ledger_;
 };
 
-void SitarFdm::reset() noexcept {
+template <BridgeRule rule>
+void SitarFdm<rule>::reset() noexcept {
     steps_ = 0;
     ledger_ = {};
     slopes_dissipated_ = 0;
+    for (auto& taken : taken_) std::fill(taken.begin(), taken.end(), 0.0);
     for (int m = 0; m <= s_.cells; ++m) now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(g_.scene_string, m * s_.dx);
     before_.front() = before_.back() = 0;
     for (int m = 1; m < s_.cells; ++m) before_[m] = 0.5 / s_.step_loss * (now_[m - 1] + now_[m + 1]);  // y_r = y_l = y/2
     slopes_ = slopes();
 }
 
-void SitarFdm::step() noexcept {
+template <BridgeRule rule>
+void SitarFdm<rule>::step() noexcept {
     const double loss = s_.step_loss, loss2 = loss * loss;
     double* __restrict next = before_.data();
     const double* __restrict y = now_.data();
@@ -73,26 +95,49 @@ void SitarFdm::step() noexcept {
     ++steps_;
 }
 
-// A node below the profile is put back on it: impulse Z d at that node. Nodes do not see one another.
-void SitarFdm::meet_bridge() noexcept {
+// By how much the rule moves node m up, which would be at y [m].
+template <BridgeRule rule>
+inline double SitarFdm<rule>::lift(int m, double y, double old) noexcept {
+    const double profile = s_.profile[m - 1], d = profile - y;
+    if constexpr (rule == BridgeRule::clamping) return std::max(0.0, d);
+    if constexpr (rule == BridgeRule::reversing) return d > 0 ? old - y : 0;
+    if constexpr (rule == BridgeRule::characteristic) return std::max(0.0, 2 * profile - (y + old));
+    double& taken = taken_[steps_ % 2][m - 1];
+    if (taken > 0) {  // 2 d (y + d - old) = taken
+        const double half = 0.5 * (y - old), root = std::sqrt(half * half + 0.5 * taken), back = 0.5 * taken;
+        taken = 0;
+        return half > 0 ? back / (root + half) : root - half;
+    }
+    if (d <= 0) return 0;
+    taken = std::max(0.0, 2 * d * (old - profile));
+    return d;
+}
+
+// An impulse Z d at the node. Nodes do not see one another.
+template <BridgeRule rule>
+void SitarFdm<rule>::meet_bridge() noexcept {
     const double loss = s_.step_loss;
-    double moved = 0, change = 0;
+    double moved = 0, change = 0, lent = 0;
     for (int m = 1; m <= static_cast<int>(s_.profile.size()); ++m) {
-        const double d = s_.profile[m - 1] - now_[m];
+        const double left = loss * before_[m - 1], right = loss * before_[m + 1];
+        const double owed = rule == BridgeRule::giving_back ? taken_[steps_ % 2][m - 1] : 0;
+        const double d = lift(m, now_[m], left + right - now_[m]);
         if (d <= 0) continue;
-        change += 2 * d * (now_[m] - loss * before_[m + 1] + now_[m] - loss * before_[m - 1] + d);
-        now_[m] = s_.profile[m - 1];
+        change += 2 * d * (now_[m] - right + now_[m] - left + d);
+        if constexpr (rule == BridgeRule::giving_back) lent += taken_[steps_ % 2][m - 1] - owed;
+        now_[m] = rule == BridgeRule::clamping ? s_.profile[m - 1] : now_[m] + d;
         moved += d;
     }
     slopes_ += change;
-    ledger_.exchange(s_.wave_energy(change));
+    ledger_.exchange(s_.wave_energy(change + lent));
     ledger_.impulse += s_.impedance() * moved;
     ledger_.force.note(s_.impedance() * moved / s_.dt);
 }
 
 // Differences of the two travelling waves over two cells, squared: y(n+1, m) - loss y(n, m+1) is one of y_r, with m and m + 1 exchanged one
 // of y_l. With loss = 1 it is the energy that the leapfrog conserves, kinetic plus the product of slopes now and before.
-double SitarFdm::slopes() const {
+template <BridgeRule rule>
+double SitarFdm<rule>::slopes() const {
     double sum = 0;
     for (int m = 0; m < s_.cells; ++m) {
         const double r = now_[m] - s_.step_loss * before_[m + 1], l = now_[m + 1] - s_.step_loss * before_[m];
@@ -101,12 +146,22 @@ double SitarFdm::slopes() const {
     return sum;
 }
 
-double SitarFdm::velocity(int m) const {
+template <BridgeRule rule>
+double SitarFdm<rule>::lent() const {
+    double sum = 0;
+    for (const auto& taken : taken_)
+        for (const double t : taken) sum += t;
+    return sum;
+}
+
+template <BridgeRule rule>
+double SitarFdm<rule>::velocity(int m) const {
     if (m == 0 || m == s_.cells) return 0;
     return 0.5 / s_.dt * (now_[m + 1] + now_[m - 1] - 2 * s_.step_loss * before_[m]) - s_.sigma * now_[m];
 }
 
-double SitarFdm::read(const SitarTap& t) const {
+template <BridgeRule rule>
+double SitarFdm<rule>::read(const SitarTap& t) const {
     switch (t.quantity) {
         case Quantity::displacement: return t.weight == 0 ? now_[t.node] : now_[t.node] + t.weight * (now_[t.node + 1] - now_[t.node]);
         case Quantity::velocity: {
@@ -121,13 +176,15 @@ double SitarFdm::read(const SitarTap& t) const {
     return 0;
 }
 
-Status SitarFdm::advance(const Block& out) noexcept {
+template <BridgeRule rule>
+Status SitarFdm<rule>::advance(const Block& out) noexcept {
     const bool bridge = !s_.profile.empty();
     for (int row = 0; row < out.rows; ++row) {
         double finite = 0;
         for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(g_.taps[k]);
         if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
-        if (out.energy) write_energy(out, row, s_.wave_energy(slopes()), 0, s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
+        if (out.energy)
+            write_energy(out, row, s_.wave_energy(slopes() + lent()), 0, s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
         slopes_dissipated_ = 0;
         ledger_.next_row();
         for (int k = 0; k < g_.steps_per_row; ++k) {
@@ -143,6 +200,7 @@ constexpr Option stiffness_option{"stiffness", "refuse", "what becomes of bendin
 constexpr Option options[] = {stiffness_option};
 constexpr Approximation approximates[] = {sitar_damping, sitar_ignored_stiffness, sitar_profile, sitar_power_law};
 
+template <BridgeRule rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     Grid g;
     g.steps_per_row = steps_per_row(settings);
@@ -151,24 +209,51 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     set_integer_length(g.string);
     lay_bridge(g.string, g.scene_string, 1);
     g.taps = sitar_taps(scene, g.string);
-    return std::make_unique<SitarFdm>(std::move(g));
+    return std::make_unique<SitarFdm<rule>>(std::move(g));
 }
+
+constexpr Features represented = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) |
+                                 Feature::power_law_contact | Features(Feature::initial_shape) | Feature::rigid_profile;
+constexpr const char* note =
+    "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so.";
 }  // namespace
+
+std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    return made<BridgeRule::characteristic>(descriptor, scene, settings);
+}
 
 extern const Descriptor sitar_fdm = {
     .name = "sitar_fdm",
     .source = "Deshmukh & Rayavarapu, eqs 6-12",
-    .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
-                  Features(Feature::initial_shape),
+    .represents = represented,
     .balance = Balance::to_tolerance,
     .clock = Clock::stepped,
-    .make = made,
+    .make = made<BridgeRule::clamping>,
     .options = options,
     .approximates = approximates,
-    .note =
-        "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so. One decay "
-        "factor per period leaves no room for losses by frequency or measured modes. The bridge clamps nodes at the string's end: no "
-        "lumped barrier, no second one, no contact loss. The paper starts it from a shape, without thread or pluck, in one plane.",
+    .note = note,
+};
+extern const Descriptor waveguide_passive = {
+    .name = "waveguide_passive",
+    .source = "Krishnaswamy & Smith 2003 on the lattice of Deshmukh & Rayavarapu, eq 9: F = 2 Z v where it touches",
+    .represents = represented,
+    .balance = Balance::exact,
+    .clock = Clock::stepped,
+    .make = made<BridgeRule::giving_back>,
+    .options = options,
+    .approximates = approximates,
+    .note = note,
+};
+extern const Descriptor waveguide_reversing = {
+    .name = "waveguide_reversing",
+    .source = "y+ = y- where a node would pass: keeps the energy, and tends to a wrong motion (control)",
+    .represents = represented,
+    .balance = Balance::exact,
+    .clock = Clock::stepped,
+    .make = made<BridgeRule::reversing>,
+    .options = options,
+    .approximates = approximates,
+    .note = note,
 };
 
 }  // namespace jvari

@@ -366,6 +366,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
         w.tap_plane = 1;
     }
     lay_bridge(w.string, string, w.share[0]);
+    if (static_cast<int>(w.string.profile.size()) > w.string.cells - 2) throw Refusal("the bridge leaves no free string before the peg");
     w.taps = sitar_taps(scene, w.string);
     w.scene_string = string;
     if (string.polarisation) return std::make_unique<SitarWaveguide<2>>(std::move(w));
@@ -377,16 +378,13 @@ extern const Descriptor sitar_waveguide = {
     .name = "sitar_waveguide",
     .source = "Deshmukh & Rayavarapu, eqs 3-5 and 10-14",
     .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
-                  Features(Feature::initial_shape) | Feature::polarisation,
+                  Features(Feature::initial_shape) | Feature::polarisation | Feature::rigid_profile,
     .balance = Balance::to_tolerance,
     .clock = Clock::stepped,
     .make = made,
     .options = options,
     .approximates = approximates,
-    .note =
-        "The barrier is rigid and begins at x = 0; with bending stiffness it runs where the option stiffness says what becomes of it. One "
-        "decay factor per period leaves no room for losses by frequency or measured modes. The bridge reflects waves at the string's "
-        "end: no lumped barrier, no second one, no contact loss. The paper starts it from a shape, without thread or pluck.",
+    .note = "The barrier is rigid and begins at x = 0; with bending stiffness it runs where the option stiffness says what becomes of it.",
 };
 
 }  // namespace jvari

@@ -59,11 +59,11 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
         [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
 }
 
-constexpr Features represented =
-    Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
-    Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-    Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) | Features(Feature::initial_shape) |
-    Features(Feature::pluck) | Features(Feature::moving_body) | Features(Feature::rigid_barrier);
+constexpr Features represented = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                                 Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
+                                 Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+                                 Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) |
+                                 Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body) | any_rigid;
 
 }  // namespace
 

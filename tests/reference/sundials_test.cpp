@@ -361,12 +361,14 @@ TEST(References, CanBeEndedWithinARow) {  // of 2^20 s
             scene = c3_free();
             scene.strings.front().pluck = Pluck{-0.4, 1e9, 0, 0, 0.5, 0};
         }
+        const bool lattice = d.name == std::string("characteristic_lattice");  // of 2^31 steps a row at most
+        if (lattice) scene = read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"});
         scene.duration = 1e7;
         int words = 0;
         const RunOptions until_enough{.progress = [&](long, long) {
             if (++words == 2) throw Enough{};
         }};
-        EXPECT_THROW(run(d, scene, {0, 1.0 / (1 << 20), 20, {}}, until_enough), Enough) << d.name;
+        EXPECT_THROW(run(d, scene, {0, 1.0 / (lattice ? 1 << 7 : 1 << 20), 20, {}}, until_enough), Enough) << d.name;
     }
 }
 

@@ -337,8 +337,11 @@ TEST(Barriers, ThatAreRigidAreReadWrittenAndNeededByName) {
     for (const auto& [overrides, expected] : rows) EXPECT_EQ(message(lumped, overrides), expected);
     EXPECT_NE(message(lumped, {"string.0.barrier.0.stiffness=inf"}), "(read without an error)");
     const Scene profile = read_scene("sitar_parabola", {"string.0.barrier.0.stiffness_density=rigid", "string.0.barrier.0.exponent=1"});
-    EXPECT_TRUE(needed_by(profile).has(Feature::rigid_barrier));
+    EXPECT_TRUE(needed_by(profile).has(Feature::rigid_profile));
     EXPECT_TRUE(parse_scene(write_scene(profile), "again.toml") == profile);
+    const Scene wall = read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"});
+    EXPECT_TRUE(needed_by(wall).has(Feature::rigid_profile) && is_rigid(wall.strings[0].barriers[0]));
+    EXPECT_NE(write_scene(wall).find("stiffness_density = \"rigid\""), std::string::npos);
 }
 
 TEST(Overrides, ErrorsNameTheOverride) {
@@ -494,7 +497,7 @@ const std::vector<Bad> bad_scenes{
     {one + "\"a\\nb\" = 1\n",
      "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"material\", \"diameter\", \"linear_density\", "
      "\"tension\", \"frequency\", \"note\", "
-     "\"bending_stiffness\", "
+     "\"bending_stiffness\", \"axial_stiffness\", "
      "\"damping\", "
      "\"barrier\", \"thread\", \"initial\", \"pluck\", \"polarisation\""},
     {head + "[[string]]\nlength = 1.0\nlinear_density = 1e-3\n",

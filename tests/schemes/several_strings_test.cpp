@@ -41,6 +41,7 @@ Scene scene_for(const Descriptor& d) {
     std::get<LumpedBarrier>(bridge.strings.front().barriers.front()).stiffness.k = 1e5;  // so that explicit schemes stand it
     std::vector<Scene> candidates{bridge};
     for (const char* name : {"sitar_c5_flat", "free_string"}) candidates.push_back(read_scene(name));
+    candidates.push_back(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}));
     for (const Scene& s : candidates) {
         if (!(needed_by(s) - d.represents).empty()) continue;
         try {

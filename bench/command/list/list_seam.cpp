@@ -99,7 +99,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
         body += fmt::format("| `{}` |", d->name);
         for (int i = 0; i < feature_count; ++i) {
             const auto feature = static_cast<Feature>(1u << i);
-            body += not_quite.has(feature) ? " ◐ |" : d->represents.has(feature) ? " ● |" : "  |";
+            body += not_quite.has(feature) ? "◐|" : d->represents.has(feature) ? "●|" : "|";
         }
         body += fmt::format(" {} |\n", name_of(d->balance));
         if (not_quite.empty() && note.empty()) continue;

@@ -1,0 +1,311 @@
+// A string whose tension grows as it stretches (Kirchhoff 1883, Carrier 1945): T + EA l/(2L), l = int y'^2 dx = L/2 sum beta_i^2 q_i^2, by
+// the potential V = EA l^2/(8L). Between the points it is the string of two_point_modes.hpp or three_point_modes.hpp, whose coefficients
+// are exact at the tension T. In each form the stretching is one force lambda along a direction d of the modes,
+//
+//     lambda = -(A + kappa r),   r = d.(q+ - q) or d.(q+ - q-): of the whole step
+//
+//   modal_tension              two-point, discrete gradient of V: d = beta^2 (q+ + q)/2, A = EA l/4, kappa = EA L/8. As d turns with what
+//                              the step finds, the step is made again until it stays, contacts and all
+//   modal_tension_quadratised  two-point, psi = sqrt(2V): d = sqrt(EA L/4) beta^2 (q+ + q)/2 with q+ of the string alone; A = psi,
+//                              kappa = 1/2 (invariant energy quadratisation); no iteration
+//   modal_tension_three_point  d = beta^2 q, A = EA L/8 d.q-, kappa = EA L/16: linear (Bilbao 2009, ch. 8)
+//
+// lambda is eliminated before the contacts are solved for, so they see a string that yields less: Theta - kappa D D'/(1 + kappa d.e), D_p =
+// d.e_p. Energy is kept to rounding with V, psi^2/2 or EA L/32 (d.q+)^2 in it. Second order.
+// Leaves out: thread, contact loss, profiles, compliance=matched, polarisation, a body that moves.
+#include <cmath>
+#include <numbers>
+
+#include "schemes/contact/gradient_rule.hpp"
+#include "schemes/driver/driver.hpp"
+#include "schemes/making.hpp"
+#include "schemes/modal/three_point_modes.hpp"
+#include "schemes/modal/two_point_modes.hpp"
+
+namespace jvari {
+
+namespace {
+
+// The one force, and what the points see of it.
+struct Stretching {
+    double A = 0, kappa = 0;
+    double free = 0, own = 0;        // r without forces [m^2/N at the scale of d]; d.e
+    std::vector<double> on, theta_;  // D_p; Theta between the points that yield less
+
+    explicit Stretching(const StringPoints& p) : on(p.count(), 0.0), theta_(p.theta) {}
+    double force(const double* F) const {
+        double r = free;
+        for (std::size_t p = 0; p < on.size(); ++p) r += on[p] * F[p];
+        return -(A + kappa * r) / (1 + kappa * own);
+    }
+    void apply(const std::vector<double>& theta, double share, double* free_of_points) noexcept {
+        const double alone = -(A + kappa * free) / (1 + kappa * own), less = kappa / (1 + kappa * own);
+        for (std::size_t p = 0; p < on.size(); ++p) {
+            free_of_points[p] += on[p] * alone;
+            for (std::size_t q = 0; q < on.size(); ++q) theta_[p * on.size() + q] = share * theta[p * on.size() + q] - less * on[p] * on[q];
+        }
+    }
+};
+double square_of_beta(int i, double length) {
+    const double beta = (i + 1) * std::numbers::pi / length;
+    return beta * beta;
+}
+
+template <bool quadratised>
+class StretchingTwoPoint : public TwoPointModes {
+public:
+    StretchingTwoPoint(const Descriptor& descriptor, const Scene& scene, const Settings& settings)
+        : TwoPointModes(descriptor, scene, settings, exact_two_point), one_(points()), EA_(scene.strings.front().axial_stiffness) {
+        unplucked_ = nullptr;  // no pass of a kernel
+        for (AlignedVector* a : {&reach_, &stretching_}) a->assign(m_.size, 0.0);
+        for (int i = 0; i < m_.modes; ++i)  // of a mode in its scale, sqrt(J/xi)
+            reach_[i] = square_of_beta(i, p_.length) * dt_ * dt_ / (p_.mass * J_[i]);
+        alone_ = free_;
+        reset();
+    }
+    void reset() noexcept {
+        TwoPointModes::reset();
+        psi_ = std::sqrt(2 * potential());
+        gap_ = largest_ = 0;
+        turns_ = 0;
+    }
+    const std::vector<double>& theta() const { return one_.theta_; }
+    void approach(bool last) noexcept {
+        TwoPointModes::approach(last);
+        std::copy(free_.begin(), free_.end(), alone_.begin());
+        turns_ = 0;
+        one_.A = quadratised ? psi_ : 0.25 * EA_ * stretch();
+        one_.kappa = quadratised ? 0.5 : 0.125 * EA_ * p_.length;
+        const double scale = quadratised ? std::sqrt(0.25 * EA_ * p_.length) : 1;
+        for (int i = 0; i < m_.modes; ++i) stretching_[i] = scale * reach_[i] * (y(i) + 0.5 * u(i));
+        eliminate();
+    }
+    // Whether d, with the forces found, is another than the one that they were found with.
+    bool turns(const double* force) noexcept {
+        if (quadratised || turns_ >= most_turns) return false;
+        ++turns_;
+        stretching_force_ = one_.force(force);
+        push(force, 0);
+        double change = 0, size = 0;
+        for (int i = 0; i < m_.modes; ++i) {
+            const double d = reach_[i] * (y(i) + 0.5 * (u(i) + push_[i]));
+            change = std::max(change, std::abs(d - stretching_[i]));
+            size = std::max(size, std::abs(d));
+            stretching_[i] = d;
+        }
+        eliminate();
+        return change > 1e-14 * size;
+    }
+    Spent pass(const double* force, double a, bool probed) noexcept {
+        stretching_force_ = one_.force(force);
+        if constexpr (quadratised) {
+            psi_ += one_.free + one_.own * stretching_force_;
+            for (std::size_t p = 0; p < g_.size(); ++p) psi_ += one_.on[p] * force[p];
+        }
+        const Spent spent = TwoPointModes::pass(force, a, probed);
+        if (quadratised && probed) {
+            const double root = std::sqrt(2 * potential());
+            gap_ = std::max(gap_, std::abs(psi_ - root));
+            largest_ = std::max(largest_, root);
+        }
+        return spent;
+    }
+    double stored() const noexcept { return TwoPointModes::stored() + (quadratised ? 0.5 * psi_ * psi_ : potential()); }
+    bool settled() const { return turns_ < most_turns; }
+    int dofs() const { return TwoPointModes::dofs() + quadratised; }
+    std::vector<Fact> facts() const {
+        std::vector<Fact> f = TwoPointModes::facts();
+        if (quadratised && largest_ > 0) f.push_back({facts::psi_gap, gap_ / largest_});
+        return f;
+    }
+
+private:
+    static constexpr int most_turns = 100;
+    double y(int i) const { return at(TwoPointColumn::y, i); }
+    double u(int i) const { return at(TwoPointColumn::u, i); }
+    double stretch() const {  // l [m]
+        double sum = 0;
+        for (int i = 0; i < m_.modes; ++i) sum += reach_[i] * y(i) * y(i);
+        return 0.5 * p_.length * sum;
+    }
+    double potential() const { return 0.125 * EA_ / p_.length * stretch() * stretch(); }
+    void eliminate() noexcept {
+        one_.free = two_point_dot(stretching_.data(), m_, TwoPointColumn::u) + (F_e_ != 0 ? F_e_ * modal_dot(stretching_, g_e_) : 0);
+        one_.own = modal_dot(stretching_, stretching_);
+        for (std::size_t p = 0; p < g_.size(); ++p) one_.on[p] = modal_dot(stretching_, g_[p]);
+        std::copy(alone_.begin(), alone_.end(), free_.begin());
+        one_.apply(p_.theta, 1, free_.data());
+    }
+
+    Stretching one_;
+    double EA_;
+    AlignedVector reach_;        // beta^2
+    std::vector<double> alone_;  // free_ without the stretching
+    double psi_ = 0, gap_ = 0, largest_ = 0;
+    int turns_ = 0;
+};
+
+class StretchingThreePoint {
+public:
+    static constexpr int levels = 2;
+    static constexpr long steps_between_looks = 64;
+
+    explicit StretchingThreePoint(ThreePointProblem problem)
+        : p_(std::move(problem)), one_(p_.points), kappa_(p_.string().axial_stiffness * p_.points.length / 16) {
+        const int n = p_.modes.count();
+        for (auto* v : {&y_, &last_, &coming_, &d_}) v->assign(n, 0.0);
+        for (auto* v : {&older_, &now_, &free_}) v->assign(p_.points.count(), 0.0);
+        for (const Tap& tap : p_.scene.taps) {
+            const bool at_end = tap.quantity == Quantity::nut_force;
+            const bool heard = at_end || tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
+            taps_.push_back({tap.quantity, !heard   ? std::vector<double>()
+                                           : at_end ? nut_force_weights(p_.modes, p_.string())
+                                                    : displacement_weights(p_.modes, tap.position)});
+        }
+    }
+    const StringPoints& points() const { return p_.points; }
+    ThreadStart thread_start() const { return ThreadStart::plain; }
+    ReadingsBeforeStep readings() const { return {older_.data(), now_.data(), free_.data()}; }
+    const std::vector<double>& theta() const { return one_.theta_; }
+
+    void reset() noexcept {
+        step_ = 0;
+        std::copy(p_.initial.begin(), p_.initial.end(), y_.begin());
+        std::fill(last_.begin(), last_.end(), 0.0);
+        for (std::size_t i = 0; i < y_.size(); ++i) coming_[i] = p_.three_point.start[i] * y_[i];
+        prepare(0.5);
+        one_.kappa *= 2;  // the outer levels are one: lambda = -2 kappa (d.q + r), r of the half step
+        settle(0.5);
+    }
+    void start(const double* force, double) noexcept { put(force, 0.5); }
+    void approach(bool) noexcept {
+        ++step_;
+        for (std::size_t i = 0; i < y_.size(); ++i) {
+            y_[i] += coming_[i];
+            last_[i] = coming_[i];
+            coming_[i] = p_.update.Ct[i] * last_[i] - p_.update.kappa[i] * y_[i];
+        }
+        prepare(1);
+        settle(1);
+    }
+    Spent pass(const double* force, double, bool probed) noexcept {
+        put(force, 1);
+        Spent spent;
+        for (std::size_t i = 0; probed && i < y_.size(); ++i) {
+            const double r = coming_[i] + last_[i];
+            spent.dissipated += p_.W[i] * p_.three_point.loss[i] * r * r / (4 * p_.dt * p_.dt);
+            if (F_e_ != 0) spent.supplied += 0.5 * F_e_ * port(p_.update.ports.size() - 1)[i] * r;
+        }
+        return spent;
+    }
+    bool failed() const { return !(std::abs(sum_) < modal_overflow); }
+    void reading(int level, double* out) const noexcept {
+        for (int p = 0; p < p_.points.count(); ++p) out[p] = dot(port(p), y_) + (level == 1 ? dot(port(p), coming_) : 0);
+    }
+    double stored() const noexcept {
+        double H = 0, s = 0;
+        for (std::size_t i = 0; i < y_.size(); ++i) {
+            const double y = y_[i], d = coming_[i];
+            H += p_.W[i] * (0.5 * (1 + p_.update.Ct[i]) * d * d + p_.update.kappa[i] * y * (y + d));
+            s += square_of_beta(static_cast<int>(i), p_.points.length) * y * (y + d);
+        }
+        return 0.5 * H / (p_.dt * p_.dt) + 0.5 * kappa_ * s * s;
+    }
+    double tap(int k, const double* mean) const noexcept {
+        const auto& [quantity, w] = taps_[k];
+        if (w.empty()) return heard_force(quantity, p_.points, mean);
+        if (quantity != Quantity::velocity) return dot(w, y_);
+        return step_ == 0 ? 0 : 0.5 / p_.dt * (dot(w, coming_) + dot(w, last_));
+    }
+    int dofs() const { return 2 * p_.update.modes(); }
+    std::vector<Fact> facts() const { return p_.facts; }
+    std::vector<FreeMode> free_modes() const {
+        std::vector<FreeMode> all;
+        for (int j = 0; j < p_.modes.count(); ++j) all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
+        return all;
+    }
+
+private:
+    const std::vector<double>& port(std::size_t p) const { return p_.update.ports[p].weights; }
+    static double dot(const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < b.size(); ++i) sum += a[i] * b[i];
+        return sum;
+    }
+    // The direction at y, and what it and the points do without their forces. share: of its force that the step applies.
+    void prepare(double share) noexcept {
+        const double gain = p_.update.gain;
+        F_e_ = p_.points.pluck ? jvari::force(*p_.points.pluck, static_cast<double>(step_) * p_.dt) : 0;
+        for (std::size_t i = 0; F_e_ != 0 && i < y_.size(); ++i) coming_[i] += share * gain * F_e_ * port(p_.update.ports.size() - 1)[i];
+        for (std::size_t i = 0; i < y_.size(); ++i) d_[i] = square_of_beta(static_cast<int>(i), p_.points.length) * y_[i];
+        one_.A = 2 * kappa_ * (dot(d_, y_) - dot(d_, last_));
+        one_.kappa = kappa_;
+        one_.free = dot(d_, coming_) + dot(d_, last_);
+        one_.own = share * gain * dot(d_, d_);
+        for (int p = 0; p < p_.points.count(); ++p) one_.on[p] = share * gain * dot(d_, port(p));
+    }
+    void settle(double share) noexcept {
+        sum_ = 0;
+        for (int p = 0; p < p_.points.count(); ++p) {
+            now_[p] = dot(port(p), y_);
+            older_[p] = now_[p] - dot(port(p), last_);
+            free_[p] = dot(port(p), coming_) + dot(port(p), last_);
+        }
+        for (const double y : y_) sum_ += y;
+        one_.apply(p_.points.theta, share, free_.data());
+    }
+    void put(const double* force, double share) noexcept {
+        const double lambda = one_.force(force), gain = share * p_.update.gain;
+        for (std::size_t i = 0; i < y_.size(); ++i) coming_[i] += gain * lambda * d_[i];
+        for (int p = 0; p < p_.points.count(); ++p)
+            for (std::size_t i = 0; force[p] != 0 && i < y_.size(); ++i) coming_[i] += gain * force[p] * port(p)[i];
+    }
+
+    ThreePointProblem p_;
+    Stretching one_;
+    double kappa_;  // EA L/16
+    std::vector<std::pair<Quantity, std::vector<double>>> taps_;
+    std::vector<double> y_, last_, coming_, d_;  // y^n, y^n - y^{n-1}, y^{n+1} - y^n; beta^2 y
+    std::vector<double> older_, now_, free_;
+    double F_e_ = 0, sum_ = 0;
+    long step_ = 0;
+};
+
+template <class String>
+std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Settings& settings) {
+    return std::make_unique<Driver<String, GradientRule>>(std::move(string), steps_per_row(settings));
+}
+template <bool quadratised>
+std::unique_ptr<Scheme> made_two_point(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    return driven(std::make_unique<StretchingTwoPoint<quadratised>>(descriptor, scene, settings), settings);
+}
+std::unique_ptr<Scheme> made_three_point(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    return driven(std::make_unique<StretchingThreePoint>(problem_of_modes(descriptor, scene, settings)), settings);
+}
+
+constexpr Features represented = (modal_features - Feature::thread) | Features(Feature::several_barriers) | Feature::tension_modulation;
+}  // namespace
+
+extern const Descriptor modal_tension = {.name = "modal_tension",
+                                         .source = "Kirchhoff 1883, Carrier 1945; discrete gradient of the stretching's energy",
+                                         .represents = represented,
+                                         .balance = Balance::exact,
+                                         .clock = Clock::stepped,
+                                         .make = made_two_point<false>,
+                                         .stand_in_rank = 0};
+extern const Descriptor modal_tension_quadratised = {.name = "modal_tension_quadratised",
+                                                     .source = "Kirchhoff 1883, Carrier 1945; invariant energy quadratisation",
+                                                     .represents = represented,
+                                                     .balance = Balance::exact,
+                                                     .clock = Clock::stepped,
+                                                     .make = made_two_point<true>,
+                                                     .stand_in_rank = 0};
+extern const Descriptor modal_tension_three_point = {.name = "modal_tension_three_point",
+                                                     .source = "Bilbao 2009, ch. 8: linear in each step",
+                                                     .represents = represented,
+                                                     .balance = Balance::exact,
+                                                     .clock = Clock::stepped,
+                                                     .make = made_three_point,
+                                                     .stand_in_rank = 0};
+
+}  // namespace jvari
