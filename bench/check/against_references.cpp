@@ -8,8 +8,9 @@
 // owed of each tap is a third of its error at 8 times the rate, and of the worst tap less at 8 than at 4 times. An error of 1e-6 is as good
 // as none, and 5e-5 against the whole string, of which 100 modes leave out 1e-5; of a thread at a point they leave out 6e-4 with the
 // missing compliance put back, and there 1e-3 is good enough. On a profile a scheme keeps the error of its nodes at any rate: 4e-3 of the
-// force with 100 of them, so 1e-2 is good enough there. The point thread is heard by its displacements alone, since no grid converges to
-// the force of a point. Leaves out scenes that need a feature which the scheme calls approximated: its limit there is not the scene.
+// force with 100 of them, so 1e-2 is good enough there. The point thread is heard by its displacements alone, and on modes: no grid
+// converges to the force of a point. Leaves out scenes that need a feature which the scheme calls approximated: its limit there is not the
+// scene.
 //
 // Instants: on mode 1 alone, and on the string between a soft bridge that it never leaves and a soft thread. A wrong frequency makes an
 // error that grows with time, and a wrong instant one that is there at the start. The fit tells them apart. Of a step the schemes of this
@@ -107,9 +108,11 @@ std::vector<Smooth> smooth_scenes(const Descriptor& d) {
     all.push_back(smooth("plucked"));
     all.back().scene.strings.front().initial.reset();
     all.back().scene.strings.front().pluck = Pluck{-0.4, 6e-3, 3.0, 0.0, 0.5, 0.5};
-    all.push_back(smooth("threaded", {}, Thread{node, 0, soft, 0.1, 0}));
-    all.back().scene.taps.resize(2);
-    all.back().whole = at_a_point;
+    if (has(d, Feature::frequency_dependent_damping)) {  // modes: a grid nears a point at first order
+        all.push_back(smooth("threaded", {}, Thread{node, 0, soft, 0.1, 0}));
+        all.back().scene.taps.resize(2);
+        all.back().whole = at_a_point;
+    }
     all.push_back(smooth("free"));
     all.back().scene.strings.front().damping = string_at_rest().strings.front().damping;
     all.push_back(smooth("free_evenly_damped"));

@@ -150,7 +150,7 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     touched_.reserve(contacts);
     for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
     amplitude_.assign(2 * contacts * contacts + 1, 0.0);
-    if (needed_by(scene).any(any_rigid))
+    if (needed_by(scene).has(Feature::rigid_barrier))
         for (const BarrierLaw& l : law_) rigid_stiffness_ = std::max(rigid_stiffness_, l.law.k);
     const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
     if (springs && contacts <= most_sets_of) {
@@ -503,15 +503,14 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     unsampled.sample_rate = 0;
     Settings asked = settings;  // over a rigid barrier matched unasked, as nothing else will do
     const auto says = [](const auto& o) { return o.first == compliance_option.name; };
-    if (needed_by(scene).any(any_rigid) && std::none_of(asked.options.begin(), asked.options.end(), says))
+    if (needed_by(scene).has(Feature::rigid_barrier) && std::none_of(asked.options.begin(), asked.options.end(), says))
         asked.options.emplace_back(compliance_option.name, "matched");
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, asked);
     const String s = with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)), descriptor, series);
     return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, each, series);
 }
-constexpr Approximation approximates[] = {
-    points_for_a_profile[0], {Feature::rigid_profile, facts::contact_points}, {Feature::rigid_barrier, facts::rigid_stiffness}};
+constexpr Approximation approximates[] = {points_for_a_profile[0], {Feature::rigid_barrier, facts::rigid_stiffness}};
 }  // namespace
 
 const Descriptor exact_contact = {
@@ -520,7 +519,8 @@ const Descriptor exact_contact = {
     .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
                   Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
                   Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) | any_rigid,
+                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) |
+                  Features(Feature::rigid_barrier),
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = made,

@@ -97,7 +97,7 @@ extern const Descriptor modal_impulse_invariant = {
     .clock = Clock::stepped,
     .make = made_impulse_invariant,
     .options = impulse_invariant_options,
-    .approximates = approximates,
+    .approximates = std::span(approximates).first(1),
     .limit = {"equal_shares", shares_margin}};
 
 }  // namespace jvari

@@ -125,10 +125,10 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
 
 void refuse_beyond_arrays(const Scene& scene) {
     const Features needed = needed_by(scene);
-    const char* beyond = scene.strings.size() != 1                                                  ? "several strings"
-                         : needed.has(Feature::moving_body)                                         ? "a moving body"
-                         : needed.has(Feature::polarisation)                                        ? "two polarisations"
-                         : needed.any(any_rigid) ? "a rigid barrier"
+    const char* beyond = scene.strings.size() != 1                 ? "several strings"
+                         : needed.has(Feature::moving_body)        ? "a moving body"
+                         : needed.has(Feature::polarisation)       ? "two polarisations"
+                         : needed.any(any_rigid)                   ? "a rigid barrier"
                          : needed.has(Feature::tension_modulation) ? "a tension that grows as the string stretches"
                                                                    : nullptr;
     if (beyond)

@@ -8,7 +8,8 @@ const families = [  // name, how its schemes' names begin, colour on a light pag
   ["spatial", "modal_spatial", "#0a722e", "#25ff90"], ["grid", "finite_difference", "#c07c00", "#e0a326"], ["sitar", "sitar_", "#610a2d", "#da0a42"],
   ["control", null, "#767676", "#8d959c"], ["other", null, "#81347f", "#994195"]];
 const control_family = families.length - 2, other_family = families.length - 1;
-const shapes = ["circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "triangle-right", "triangle-left"];
+const shapes = ["circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "triangle-right", "triangle-left", "wedge", "arrow",
+  "M0,-.5L.12,-.16L.48,-.16L.19,.06L.3,.4L0,.2L-.3,.4L-.19,.06L-.48,-.16L-.12,-.16Z"];  // a star
 // A difference is in ink, the front a track with edges. The edges have a contrast of 3 or more to the page, what lies between them leaves the lines
 // on it seen.
 const ink = ["#1d2329", "#e6eaee"], front_edge = ["#868c92", "#6f7780"], front_track = ["#f0f2f4", "#20272d"];

@@ -1,11 +1,11 @@
 // plot.py beside the tables: the first chart by matplotlib, with the looks that schemes have everywhere, from the rows of cells.csv.
 function plot_program() {
-  const marks = {circle: "o", diamond: "D", square: "s", "triangle-up": "^", "triangle-down": "v", cross: "P", "triangle-right": ">", "triangle-left": "<"};
+  const marks = {circle: "o", diamond: "D", square: "s", "triangle-up": "^", "triangle-down": "v", cross: "P", "triangle-right": ">", "triangle-left": "<", wedge: "1", arrow: "2"};
   const scenes = scenes_of_cells().filter(scene => errors_in(of_scene(cells(), scene)).length && has_finite(of_scene(cells(), scene), "cost_s_per_s")).map(scene => {
     const {column, title} = errors_in(of_scene(cells(), scene))[0], all = points_of(of_scene(cells(), scene), column, "cost_s_per_s", "line").filter(is_sound), names = in_order(all.map(p => p.series)), looks = looks_of(names);
     const lines = names.map(name => {
       const own = all.filter(p => p.series === name).sort((a, b) => a.order - b.order), look = looks.get(name);
-      return [spoken(name), look.colour, marks[look.shape], look.dash, own.map(p => p.n)];
+      return [spoken(name), look.colour, marks[look.shape] ?? "*", look.dash, own.map(p => p.n)];
     });
     return [scene, column, title, bands_of(of_scene(cells(), scene), column), Object.fromEntries(all.filter(p => cells()[p.n].bounds[column]).map(p => [p.n, p.y])), lines];
   });
