@@ -172,8 +172,8 @@ CutModes cut_modes(const String& s, std::span<const Footprint> points, int kept,
                 }
             }
             // Of the modes beyond `all` those above the half rate have C as 1/omega.
-            const double share = table ? 1 : std::min(1.0, modes.omega0[all - 1] / nyquist);
-            cut.C.push_back(C), cut.E.push_back(E), cut.folded.push_back((C - below) * share);
+            const double part = table ? 1 : std::min(1.0, modes.omega0[all - 1] / nyquist);
+            cut.C.push_back(C), cut.E.push_back(E), cut.folded.push_back((C - below) * part);
         }
     for (std::size_t a = 0; a < n; ++a)
         cut.resistance.push_back(

@@ -97,7 +97,8 @@ const parts = {
             expect(meets(page_cells) === meets(theirs) && meets(theirs) !== "", `within ${target}: here ${meets(page_cells)}\n    there ${meets(theirs)}`);
             const found = await see(`verdict(chart.points, ${target})`), c = told.cheapest.find(c => c.measure === "error_l2_50ms" && c.target === target);
             console.log(`  within ${100 * target} %: ${[found.best, ...found.ties].map(p => `${p.scheme} at ${p.rate / 1e3} kHz`).join(", a tie with ")} here; ${c.run}${c.ties && `, a tie with ${c.ties}`} in jvari compare`);
-            if (timed) expect(found.best.scheme === c.scheme, `within ${target} the page names ${found.best.scheme}, jvari compare ${c.scheme}`);
+            const cost_of = scheme => Math.min(...page_cells.filter(p => p.scheme === scheme && p.error + p.uncertainty <= target).map(p => p.cost));
+            if (timed) expect(cost_of(c.scheme) <= 1.5 * found.best.cost, `within ${target} the scheme that jvari compare names costs ${cost_of(c.scheme)} here, the cheapest ${found.best.cost}`);
         }
     },
     async "browsers that lack something"() {
