@@ -38,15 +38,17 @@ public:
         if (barrier_) {
             m_.barrier = p.contacts.laws.front();
             m_.h_b = p.contacts.heights.front();
-            m_.theta = p.theta.front() + m_.series.K_bb;
+            m_.own_bb = p.theta.front();
+            m_.theta = m_.own_bb + m_.series.K_bb;
         }
         if (thread_) {
             const Thread& thread = p.threads.front();
             m_.k_c = thread.stiffness;
             m_.r_c = thread.damping;
             m_.h_c = thread.height;
-            m_.theta_cc = p.theta.back() + m_.series.K_cc;
-            if (barrier_) m_.theta_bc = p.theta[1] + m_.series.K_bc;
+            m_.own_cc = p.theta.back();
+            m_.theta_cc = m_.own_cc + m_.series.K_cc;
+            if (barrier_) m_.own_bc = p.theta[1], m_.theta_bc = m_.own_bc + m_.series.K_bc;
             const double theta[] = {m_.theta, m_.theta_bc, m_.theta_bc, m_.theta_cc};
             const EliminatedThreads eliminated({thread}, 1, theta, p.dt);
             m_.phi_c = eliminated.one().phi;

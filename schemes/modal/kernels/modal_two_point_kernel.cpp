@@ -79,7 +79,12 @@ HWY_INLINE void step(TwoPoint& m) {
         if constexpr (matched && pluck) m.supplied -= (F_b * z.C_be + F_c * z.C_ce) * change;
     }
     if constexpr (matched) z.take<barrier, thread>(F_b, F_c);
-    pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
+    if (m.step % two_point_summed_again == 0) pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
+    else {
+        if constexpr (barrier) m.y_b += m.u_b + m.own_bb * F_b + (thread ? m.own_bc * F_c : 0) + (pluck ? m.theta_be * F_e : 0);
+        if constexpr (thread) m.y_c += m.u_c + m.own_cc * F_c + (barrier ? m.own_bc * F_b : 0) + (pluck ? m.theta_ce * F_e : 0);
+        pass<barrier, thread, pluck, false>(m, F_b, F_c, F_e);
+    }
     ++m.step;
 }
 

@@ -4,7 +4,8 @@
 // (e = g), and is carried as (y, u), u the free increment of the step to come. One step is one pass over the modes:
 //     f = sum_z g_z F_z,   s = u + f,   y <- y + s,   u <- s + f - loss s - c y,      c = 4A/J, loss = 2B/J
 // (van Walstijn et al. 2016, eqs 40-42 with q eliminated), which also gathers the dots g_z.y and g_z.u that the next step's contact forces
-// need. The small numbers c = 1 - 2 R Omega + R^2 and loss = 1 - R^2 carry frequency and decay to full relative precision at any rate.
+// need. g_z.y follows without a sum, y_z <- y_z + u_z + sum_w theta_zw F_w (40, 41): whole steps sum it only now and then, against
+// roundings. The small numbers c = 1 - 2 R Omega + R^2 and loss = 1 - R^2 carry frequency and decay to full relative precision at any rate.
 //
 // Whoever drives the string calls the pass. One contact by the discrete gradient, with a thread, has whole steps in one kernel, points and
 // pass. With what the string lacks in series (contact/residual.hpp) they are the same: theta counts its K in.
@@ -41,6 +42,8 @@ double two_point_dot(const double* w, const TwoPointStream&, TwoPointColumn);
 
 // ---- Rows of one contact at most, and a thread.
 
+constexpr long two_point_summed_again = 16;  // steps from one sum of g_z.y to the next
+
 struct TwoPointTap {                                // what a tap hears of a row:
     const double *on_y = nullptr, *on_u = nullptr;  // weights on the modes; nullptr: none
     double on_b = 0, on_c = 0;                      // of the means of the forces of contact and thread since the last row
@@ -53,6 +56,7 @@ struct TwoPoint : TwoPointStream {
     double k_c = 0, r_c = 0, h_c = 0;
     double dt = 0;
     double theta = 0, theta_bc = 0, theta_cc = 0, theta_be = 0, theta_ce = 0;  // theta_ze = g_z.g_e
+    double own_bb = 0, own_bc = 0, own_cc = 0;                                 // theta_zw = g_z.g_w, of the modes alone
     double phi_c = 0, inverse_c = 1, beta_c = 0;                               // 1/(1 + phi_c theta_cc)  (47)
 
     const double* pluck = nullptr;      // mean force of step pluck_first + n, n < pluck_steps [N]

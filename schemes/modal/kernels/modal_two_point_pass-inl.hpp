@@ -62,7 +62,7 @@ HWY_INLINE V held(V v) {
 
 // One pass: the update and the next dots. Presence of contact, thread and pluck is a template argument: an absent part costs nothing. Two
 // accumulators per dot hide the latency of adding.
-template <bool barrier, bool thread, bool pluck>
+template <bool barrier, bool thread, bool pluck, bool dots_of_y = true>
 HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
@@ -93,11 +93,11 @@ HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
         hn::Store(u1, d, of(Column::u));
         hn::Store(y1, d, of(Column::y));
         if constexpr (barrier) {
-            yb[k] = hn::MulAdd(g_b, y1, yb[k]);
+            if constexpr (dots_of_y) yb[k] = hn::MulAdd(g_b, y1, yb[k]);
             ub[k] = hn::MulAdd(g_b, u1, ub[k]);
         }
         if constexpr (thread) {
-            yc[k] = hn::MulAdd(g_c, y1, yc[k]);
+            if constexpr (dots_of_y) yc[k] = hn::MulAdd(g_c, y1, yc[k]);
             uc[k] = hn::MulAdd(g_c, u1, uc[k]);
         }
     };
@@ -110,9 +110,8 @@ HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
     const auto both = [](const V(&v)[2]) { return hn::Add(v[0], v[1]); };
     alignas(64) double sum[4];
     sums(both(yb), both(ub), both(yc), both(uc), sum);
-    m.y_b = sum[0];
+    if constexpr (dots_of_y) m.y_b = sum[0], m.y_c = sum[2];
     m.u_b = sum[1];
-    m.y_c = sum[2];
     m.u_c = sum[3];
 }
 
