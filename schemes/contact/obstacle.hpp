@@ -80,7 +80,7 @@ public:
     }
     void put_in_series(const MissingMatrix& missing, int levels) {  // levels: how many of them a step spans
         const double dt = span_ / levels;
-        Series z{Residual(missing, known_before ? 4 * dt / 3 : span_), {}, {}, {}, {}, {}, {}, {}};
+        Series z(Residual(missing, known_before ? 4 * dt / 3 : span_));
         for (const Ladder& l : z.ladder) z.in_step.emplace_back(l, z.span);
         std::vector<double> theta = theta_;
         for (std::size_t i = 0; i < theta.size(); ++i) {
@@ -97,8 +97,10 @@ public:
         *this = Obstacle(Contacts(contacts_), std::vector(threads_.laws()), theta, span_, levels_);
         if constexpr (known_before) rule_.put_in_series(yield_alone(z));
         z.span = known_before ? dt : span_;
+        z.rate = 1 / z.span;
+        if (known_before && threaded_) z.lags = law().damping / threads_.phi(0);
         series_levels_ = levels;
-        for (auto* v : {&z.P[0], &z.P[1], &z.v[0], &z.v[1], &z.older, &z.now, &z.free, &z.q}) v->assign(z.points, 0.0);
+        for (auto* v : {&z.P[0], &z.P[1], &z.v[0], &z.v[1], &z.older, &z.now, &z.free, &z.q, &z.past, &z.alone}) v->assign(z.points, 0.0);
         series_ = std::move(z);
     }
 
@@ -132,7 +134,10 @@ public:
     // Forces on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
     bool solve(const ReadingsBeforeStep& at, double* force) noexcept {
         lost_by_rule_ = 0;
-        return !series_ ? solve_points<false>(at, force) : known_before ? solve_at_the_instant(at, force) : solve_in_series(at, force);
+        if (!series_) return solve_touching(at, force);
+        return points() == 1   ? solve_beside_series<1>(at, force)
+               : points() == 2 ? solve_beside_series<2>(at, force)
+                               : solve_beside_series<0>(at, force);
     }
     bool start(const ReadingsBeforeStep& at, double* force) noexcept { return series_ ? solve(at, force) : solve_points<true>(at, force); }
 
@@ -226,9 +231,11 @@ private:
         from_[t] = at.older[p], pull_[t] = F;
     }
 
+    bool solve_touching(const ReadingsBeforeStep& at, double* force) noexcept {
+        return one_ ? solve_one(at, force) : solve_points<false>(at, force);
+    }
     template <bool at_start>
     bool solve_points(const ReadingsBeforeStep& at, double* force) noexcept {
-        if (!at_start && one_) return solve_one(at, force);
         const int n = contacts(), m = threads_.count();
         threads_.alone(at.older, at.free, pull_.data());
         for (int a = 0; a < n; ++a) {
@@ -243,7 +250,7 @@ private:
         if (damped || rule_.acts(before)) {
             if (damped) rule_.set(loss_.damped());
             GramSolution s;
-            if constexpr (at_start) s = rule_.start(before, r_.data(), force);
+            if constexpr (at_start && requires { rule_.start(before, force, force); }) s = rule_.start(before, r_.data(), force);
             else s = rule_.solve(before, r_.data(), force);
             converged = s.converged;
             if (damped) {
@@ -272,65 +279,88 @@ private:
         tally_.residual = std::max(tally_.residual, s.residual);
     }
 
+    // Of so many points, and of any number where 0: few stay in registers.
+    template <std::size_t few>
+    class Numbers {
+    public:
+        explicit Numbers(std::vector<double>& many) : many_(many.data()) {}
+        double* data() { return few > 0 ? few_.data() : many_; }
+        double& operator[](std::size_t a) { return data()[a]; }
+
+    private:
+        std::array<double, std::max<std::size_t>(few, 1)> few_{};
+        double* many_;
+    };
+
+    template <std::size_t few>
     bool solve_in_series(const ReadingsBeforeStep& at, double* force) noexcept {
         Series& z = *series_;
-        const std::size_t n = z.points;
-        std::vector<double>& P = z.P[0];
+        const std::size_t n = few > 0 ? few : z.points;
+        double *P = z.P[0].data(), *v = z.v[0].data();
         const double* P_now = z.P[series_levels_ - 1].data();
+        Numbers<few> older(z.older), now(z.now), free(z.free), q(z.q);
         for (std::size_t a = 0; a < n; ++a) {
-            z.older[a] = at.older[a] + z.yield(a, P.data());
-            z.now[a] = at.now[a] + z.yield(a, P_now);
-            z.q[a] = P[a] - z.in_step[a].branch * z.v[0][a];
+            older[a] = at.older[a] + Residual::times(z.C, a, P, n);
+            now[a] = series_levels_ == 1 ? older[a] : at.now[a] + Residual::times(z.C, a, P_now, n);
+            q[a] = P[a] - z.in_step[a].branch * v[a];
         }
-        for (std::size_t a = 0; a < n; ++a) z.free[a] = at.free[a] - Residual::times(z.K, a, z.q.data(), n);
-        const bool converged = solve_points<false>({z.older.data(), z.now.data(), z.free.data()}, force);
-        for (std::size_t a = 0; a < n; ++a) z.free[a] = force[a] - z.q[a];
-        z.lost = 0;
+        for (std::size_t a = 0; a < n; ++a) free[a] = at.free[a] - Residual::times(z.K, a, q.data(), n);
+        const bool converged = solve_touching({older.data(), now.data(), free.data()}, force);
+        for (std::size_t a = 0; a < n; ++a) q[a] = force[a] - q[a];
+        double lost = 0;
         for (std::size_t a = 0; a < n; ++a) {
-            const double moved = Residual::times(z.K, a, z.free.data(), n);
-            z.lost += z.in_step[a].lost(moved, z.v[0][a]);
-            z.in_step[a].follow(moved, z.v[0][a]);
-            P[a] += Residual::times(z.W, a, z.free.data(), n);
+            const double moved = Residual::times(z.K, a, q.data(), n);
+            lost += z.in_step[a].lost(moved, v[a]);
+            z.in_step[a].follow(moved, v[a]);
+            P[a] += Residual::times(z.W, a, q.data(), n);
         }
+        z.lost = lost;
         if (series_levels_ == 2) z.P[0].swap(z.P[1]), z.v[0].swap(z.v[1]);
         return converged;
     }
 
+    template <std::size_t few>
     bool solve_at_the_instant(const ReadingsBeforeStep& at, double* force) noexcept {
         Series& z = *series_;
-        const std::size_t n = z.points;
-        const auto speed = [&](double D, std::size_t a) {
-            return (1.5 * D - 2 * z.yield(a, z.P[0].data()) + 0.5 * z.yield(a, z.P[1].data())) / z.span;
-        };
-        const auto mass_alone = [&](std::size_t a) { return (4 * z.v[0][a] - z.v[1][a]) / 3; };
+        const std::size_t n = few > 0 ? few : z.points;
+        double *P = z.P[1].data(), *v = z.v[1].data();  // of the level before, and then of the new one
+        const double *P_now = z.P[0].data(), *v_now = z.v[0].data();
+        Numbers<few> older(z.older), now(z.now), free(z.free), q(z.q), past(z.past), alone(z.alone);
         for (std::size_t a = 0; a < n; ++a) {
             const LadderStep& l = z.in_step[a];
-            z.q[a] = l.branch * mass_alone(a) - (l.damper + l.branch) * speed(0, a);
+            past[a] = 2 * Residual::times(z.C, a, P_now, n) - 0.5 * Residual::times(z.C, a, P, n);  // D' = (3/2 D - that)/dt
+            alone[a] = v_now[a] + (v_now[a] - v[a]) * (1.0 / 3);
+            q[a] = l.branch * alone[a] + (l.damper + l.branch) * past[a] * z.rate;
         }
+        const auto speed = [&](double D, std::size_t a) { return (1.5 * D - past[a]) * z.rate; };
         for (std::size_t a = 0; a < n; ++a) {  // without forces D = S q
-            const double D = Residual::times(z.K, a, z.q.data(), n);
-            z.now[a] = at.now[a] + D + (levels_ == 1 ? 0.5 * at.free[a] : 0);
-            z.older[a] = at.older[a] + D;
-            z.free[a] = at.free[a] + (threaded_ && a + 1 == n ? law().damping / threads_.phi(0) * speed(D, a) : 0);
+            const double D = Residual::times(z.K, a, q.data(), n);
+            now[a] = at.now[a] + D + (levels_ == 1 ? 0.5 * at.free[a] : 0);
+            older[a] = at.older[a] + D;
+            free[a] = at.free[a] + (threaded_ && a + 1 == n ? z.lags * speed(D, a) : 0);
         }
-        const bool converged = solve_points<false>({z.older.data(), z.now.data(), z.free.data()}, force);
-        for (std::size_t a = 0; a < n; ++a) z.q[a] += force[a];
-        z.lost = 0;
+        const bool converged = solve_touching({older.data(), now.data(), free.data()}, force);
+        for (std::size_t a = 0; a < n; ++a) q[a] += force[a];
+        double lost = 0;
         for (std::size_t a = 0; a < n; ++a) {
-            const double v = speed(Residual::times(z.K, a, z.q.data(), n), a);
             const LadderStep& l = z.in_step[a];
-            const double behind = v - mass_alone(a), pulls = l.branch * behind;
-            z.lost += span_ * (l.damper * v * v + (l.mass > 0 ? pulls * pulls / z.ladder[a].resistance : 0));
-            z.v[1][a] = mass_alone(a) + 0.5 * l.share * behind;
+            const double moves = speed(Residual::times(z.K, a, q.data(), n), a), behind = moves - alone[a], pulls = l.branch * behind;
+            lost += span_ * (l.damper * moves * moves + pulls * pulls * l.eases);
+            v[a] = alone[a] + 0.5 * l.share * behind;
             if (threaded_ && a + 1 == n) {
-                z.thread_moved = at.free[a] + span_ * v;
+                z.thread_moved = at.free[a] + span_ * moves;
                 for (std::size_t c = 0; c < n; ++c) z.thread_moved += (theta_[a * n + c] - z.on_thread * z.K[a * n + c]) * force[c];
             }
         }
-        z.v[0].swap(z.v[1]);
-        z.P[0].swap(z.P[1]);
-        for (std::size_t a = 0; a < n; ++a) z.P[0][a] = Residual::times(z.W, a, z.q.data(), n);
+        for (std::size_t a = 0; a < n; ++a) P[a] = Residual::times(z.W, a, q.data(), n);
+        z.lost = lost;
+        z.P[0].swap(z.P[1]), z.v[0].swap(z.v[1]);
         return converged;
+    }
+    template <std::size_t few>
+    bool solve_beside_series(const ReadingsBeforeStep& at, double* force) noexcept {
+        if constexpr (known_before) return solve_at_the_instant<few>(at, force);
+        else return solve_in_series<few>(at, force);
     }
 
     struct Tally {  // over the solves since clear()
@@ -340,13 +370,15 @@ private:
         int most_iterations = 0;
     };
     struct Series : Residual {
+        explicit Series(Residual r) : Residual(std::move(r)) {}
         std::array<std::vector<double>, 2> P, v;  // at the two levels [N], [m/s]
         std::vector<LadderStep> in_step;
         std::vector<double> older, now, free;  // of the points where they touch [m]
-        std::vector<double> q;                 // [N]
-        double on_thread = 1;
-        double lost = 0;          // in the last step [J]
-        double thread_moved = 0;  // in it, of what is known before [m]
+        std::vector<double> q, past, alone;    // workspaces [N], [m], [m/s]
+        double rate = 1;                       // of its levels [1/s]
+        double on_thread = 1, lags = 0;        // lags: r_c/phi [s]
+        double lost = 0;                       // in the last step [J]
+        double thread_moved = 0;               // in it, of what is known before [m]
         void rest() {
             for (auto* levels : {&P, &v})
                 for (auto& x : *levels) std::fill(x.begin(), x.end(), 0.0);
