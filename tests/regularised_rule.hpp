@@ -18,7 +18,6 @@ public:
             smooth_[a] = at.now[a] > -1e-6 ? 0.5 * (at.now[a] + std::sqrt(at.now[a] * at.now[a] + 1e-18)) : 0;
         return ExplicitRule::solve({at.older, smooth_.data(), at.b}, r, force);
     }
-    GramSolution start(const BeforeStep& at, double* r, double* force) noexcept { return solve(at, r, force); }
 
 private:
     std::vector<double> smooth_;  // [m]

@@ -13,34 +13,54 @@ namespace jvari {
 // Throws Refusal: above half the rate it would alias.
 void must_be_below_half_the_rate(const BodyMode&, double dt);
 
+template <class Mode>
+class BodyOf {
+public:
+    int modes() const { return static_cast<int>(modes_.size()); }
+    void begin() noexcept {
+        for (Mode& m : modes_) m.rest();
+    }
+
+protected:
+    explicit BodyOf(double dt) : dt_(dt) {}
+    template <class Make>  // of its angular frequency and decay rate
+    void add(const std::vector<BodyMode>& modes, Make make) {
+        for (const BodyMode& m : modes) {
+            must_be_below_half_the_rate(m, dt_);
+            modes_.push_back(make(m, std::sqrt(m.stiffness / m.mass), 0.5 * m.damping / m.mass));
+        }
+    }
+    template <class Of>
+    double sum(Of of) const {
+        double all = 0;
+        for (const Mode& m : modes_) all += of(m);
+        return all;
+    }
+    double dt_;
+    std::vector<Mode> modes_;
+};
+
 struct BodyMode2 {       // van Walstijn et al. 2016, eqs 38-43: zeta = dt/2 z'
     double A, B, J, xi;  // xi = dt^2/2M [s^2/kg]
     double z = 0, zeta = 0;
     double free() const { return 2 * (zeta - A * z) / J; }
+    void rest() { z = zeta = 0; }
 };
-class TwoPointBody {
+class TwoPointBody : public BodyOf<BodyMode2> {
 public:
     static constexpr int levels = 1;  // from the older to the newer
     template <class Law>              // A, B of a mode: (omega0, sigma, dt)
-    TwoPointBody(const std::vector<BodyMode>& modes, double dt, Law law) : dt_(dt) {
-        for (const BodyMode& m : modes) {
-            must_be_below_half_the_rate(m, dt);
-            const auto [A, B] = law(std::sqrt(m.stiffness / m.mass), 0.5 * m.damping / m.mass, dt);
-            modes_.push_back({A, B, 1 + A + B, 0.5 * dt * dt / m.mass});
-        }
+    TwoPointBody(const std::vector<BodyMode>& modes, double dt, Law law) : BodyOf(dt) {
+        add(modes, [&](const BodyMode& m, double omega0, double sigma) {
+            const auto [A, B] = law(omega0, sigma, dt);
+            return BodyMode2{A, B, 1 + A + B, 0.5 * dt * dt / m.mass};
+        });
     }
     double beta() const {
-        double sum = 0;
-        for (const auto& m : modes_) sum += m.xi / m.J;
-        return sum;
+        return sum([](const BodyMode2& m) { return m.xi / m.J; });
     }
     double kappa() const { return 0.5 * dt_ * dt_; }
-    double span() const { return dt_; }
-    int modes() const { return static_cast<int>(modes_.size()); }
 
-    void begin() noexcept {
-        for (auto& m : modes_) m.z = m.zeta = 0;
-    }
     BodyMotion coming() const noexcept {
         BodyMotion b;
         for (const auto& m : modes_) {
@@ -64,58 +84,38 @@ public:
         return moved;
     }
     double displacement(int) const noexcept {
-        double sum = 0;
-        for (const auto& m : modes_) sum += m.z;
-        return sum;
+        return sum([](const BodyMode2& m) { return m.z; });
     }
     double velocity() const noexcept {  // at the instant of the row
-        double sum = 0;
-        for (const auto& m : modes_) sum += m.zeta;
-        return 2 / dt_ * sum;
+        return 2 / dt_ * sum([](const BodyMode2& m) { return m.zeta; });
     }
     double velocity_stored() const noexcept { return velocity(); }  // at that of the energy
     double stored() const noexcept {
-        double sum = 0;
-        for (const auto& m : modes_) sum += (m.zeta * m.zeta + m.A * m.z * m.z) / m.xi;
-        return sum;
+        return sum([](const BodyMode2& m) { return (m.zeta * m.zeta + m.A * m.z * m.z) / m.xi; });
     }
-
-private:
-    double dt_;
-    std::vector<BodyMode2> modes_;
 };
 
 struct BodyMode3 {                                                    // Issanchou et al. 2016, eq 14, as displacement and increments
     double mass, loss, kappa;                                         // [kg]; 1 - C~, 1 + C~ - C
     double z = 0, d = 0, last = 0;                                    // z^n, z^{n+1} - z^n, z^n - z^{n-1}
     double free() const { return (1 - loss) * d - kappa * (z + d); }  // of the increment after d
+    void rest() { z = d = last = 0; }
 };
-class ThreePointBody {
+class ThreePointBody : public BodyOf<BodyMode3> {
 public:
     static constexpr int levels = 2;
-    ThreePointBody(const std::vector<BodyMode>& modes, double dt) : dt_(dt) {
-        for (const BodyMode& m : modes) {
-            must_be_below_half_the_rate(m, dt);
-            const ModeStep s = exact_step(std::sqrt(m.stiffness / m.mass), 0.5 * m.damping / m.mass, dt);
-            modes_.push_back({m.mass, s.loss, s.num});
-        }
+    ThreePointBody(const std::vector<BodyMode>& modes, double dt) : BodyOf(dt) {
+        add(modes, [&](const BodyMode& m, double omega0, double sigma) {
+            const ModeStep s = exact_step(omega0, sigma, dt);
+            return BodyMode3{m.mass, s.loss, s.num};
+        });
     }
     double beta() const {
-        double sum = 0;
-        for (const auto& m : modes_) sum += dt_ * dt_ / m.mass;
-        return sum;
+        return sum([this](const BodyMode3& m) { return dt_ * dt_ / m.mass; });
     }
     double kappa() const { return dt_ * dt_; }
     double least_mass() const {  // that its energy shows against a velocity of w [kg]
-        double sum = 0;
-        for (const auto& m : modes_) sum += 1 / (m.mass * (1 - 0.5 * m.loss - 0.25 * m.kappa));
-        return 1 / sum;
-    }
-    double span() const { return 2 * dt_; }
-    int modes() const { return static_cast<int>(modes_.size()); }
-
-    void begin() noexcept {
-        for (auto& m : modes_) m.z = m.d = m.last = 0;
+        return 1 / sum([](const BodyMode3& m) { return 1 / (m.mass * (1 - 0.5 * m.loss - 0.25 * m.kappa)); });
     }
     void start(double f) noexcept {  // level 1 from rest: z^{-1} = z^1
         for (auto& m : modes_) {
@@ -148,29 +148,18 @@ public:
         return moved;
     }
     double displacement(int level) const noexcept {  // 0: of the row; 1: after it
-        double sum = 0;
-        for (const auto& m : modes_) sum += m.z + (level == 1 ? m.d : 0);
-        return sum;
+        return sum([level](const BodyMode3& m) { return m.z + (level == 1 ? m.d : 0); });
     }
     double velocity() const noexcept {
-        double sum = 0;
-        for (const auto& m : modes_) sum += m.d + m.last;
-        return 0.5 * sum / dt_;
+        return 0.5 * sum([](const BodyMode3& m) { return m.d + m.last; }) / dt_;
     }
     double velocity_stored() const noexcept {
-        double sum = 0;
-        for (const auto& m : modes_) sum += m.d;
-        return sum / dt_;
+        return sum([](const BodyMode3& m) { return m.d; }) / dt_;
     }
     double stored() const noexcept {
-        double sum = 0;
-        for (const auto& m : modes_) sum += 0.5 * m.mass * (0.5 * (2 - m.loss) * m.d * m.d + m.kappa * m.z * (m.z + m.d));
-        return sum / (dt_ * dt_);
+        return sum([](const BodyMode3& m) { return 0.5 * m.mass * (0.5 * (2 - m.loss) * m.d * m.d + m.kappa * m.z * (m.z + m.d)); }) /
+               (dt_ * dt_);
     }
-
-private:
-    double dt_;
-    std::vector<BodyMode3> modes_;
 };
 
 }  // namespace jvari

@@ -11,21 +11,17 @@
 
 namespace jvari {
 
-class ExplicitRule {
+class ExplicitRule : public PlainRule {
 public:
     static constexpr bool conserves = false, iterates = false, centred = true, rigid_in_series_only = true;
     using Rigid = ExplicitRule;
 
-    ExplicitRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
-        : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {}
+    ExplicitRule(std::span<const ContactLaw> laws, std::span<const double> theta, int) : PlainRule(laws, theta) {}
     void put_in_series(std::span<const double> S) {  // row-major between the contacts
         yielding_ = ContactGram(laws_, S, ContactGram::Force::at_the_end);
         if (!laws_.empty() && laws_.front().rigid()) rigid_.emplace(laws_, S, 1);
         none_.assign(laws_.size(), 0.0);
     }
-    int dofs() const { return 0; }
-    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
-    void begin(const double*) {}
     bool acts(const BeforeStep& at) const {
         bool touching = false;
         for (std::size_t a = 0; a < laws_.size(); ++a) touching = touching || at.now[a] > 0;
@@ -40,19 +36,12 @@ public:
             return s;
         }
         for (std::size_t a = 0; a < n; ++a) force[a] = laws_[a].force(at.now[a]);
-        for (std::size_t a = 0; a < n; ++a) {
-            r[a] = -at.b[a];
-            for (std::size_t c = 0; c < n; ++c) r[a] += theta_[a * n + c] * force[c];
-        }
+        move(at.b, force, r);
         return {};
     }
-    GramSolution start(const BeforeStep& at, double* r, double* force) noexcept { return solve(at, r, force); }
     double potential(int a, double eta) const { return rigid_ ? 0 : laws_[a].potential(eta); }
-    std::vector<Fact> facts() const { return {}; }
 
 private:
-    std::vector<ContactLaw> laws_;
-    std::vector<double> theta_;
     ContactGram yielding_;
     std::optional<RigidRule> rigid_;
     std::vector<double> none_;  // of nothing in series

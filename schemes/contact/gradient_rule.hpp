@@ -10,21 +10,13 @@
 
 namespace jvari {
 
-class GradientRule {
+class GradientRule : public PlainRule {
 public:
-    static constexpr bool conserves = true, iterates = true, centred = false;
+    static constexpr bool conserves = true;
     using Rigid = RigidRule;
 
-    GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
-        : laws_(laws.begin(), laws.end()), gram_(laws, theta) {}
-    int dofs() const { return 0; }
+    GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int) : PlainRule(laws, theta), gram_(laws, theta) {}
     void set(std::span<const double> theta) noexcept { gram_.set(theta); }
-    void begin(const double*) {}
-    bool acts(const BeforeStep& at) const {
-        bool touching = false;
-        for (std::size_t a = 0; a < laws_.size(); ++a) touching = touching || at.older[a] > 0 || at.older[a] + at.b[a] > 0;
-        return touching;
-    }
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
         if (laws_.size() != 1) return gram_.solve(at.older, at.b, r, force);
         const ContactSolution s = solve_contact(laws_[0], at.older[0], at.b[0], gram_.theta()[0]);
@@ -32,15 +24,12 @@ public:
         *force = s.force;
         return {s.iterations, s.residual, s.converged};
     }
-    GramSolution start(const BeforeStep& at, double* r, double* force) noexcept { return solve(at, r, force); }
-    double potential(int a, double eta) const { return laws_[a].potential(eta); }
     std::vector<Fact> facts() const {
         if (gram_.coupled() <= 1) return {};
         return {{facts::coupled_contact_points, static_cast<double>(gram_.coupled())}};
     }
 
 private:
-    std::vector<ContactLaw> laws_;
     ContactGram gram_;
 };
 

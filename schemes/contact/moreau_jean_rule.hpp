@@ -17,9 +17,9 @@ namespace jvari {
 
 inline constexpr Option restitution_option{"restitution", "1", "coefficient of restitution e, 0 to 1"};
 
-class MoreauJeanRule {
+class MoreauJeanRule : public PlainRule {
 public:
-    static constexpr bool conserves = false, iterates = true, centred = false;
+    static constexpr bool conserves = false;
     static constexpr Option options[] = {restitution_option};
     static constexpr Approximation approximates[] = {{Feature::lumped_barrier, facts::rigid_barrier},
                                                      {Feature::profile_barrier, facts::rigid_barrier},
@@ -30,13 +30,12 @@ public:
     using Rigid = MoreauJeanRule;
 
     MoreauJeanRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
-        : theta_(theta.begin(), theta.end()), w_(laws.size(), 0.0), levels_(levels) {}
+        : PlainRule(laws, theta), w_(laws.size(), 0.0), levels_(levels) {}
     void choose(const Settings& settings) {
         e_ = number_option(settings, restitution_option);
         if (!(e_ >= 0 && e_ <= 1)) throw Refusal("option restitution: expected a number from 0 to 1");
     }
     int dofs() const { return levels_ == 1 ? static_cast<int>(w_.size()) : 0; }
-    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
     void begin(const double*) {
         std::fill(w_.begin(), w_.end(), 0.0);
         lost_ = 0;
@@ -66,7 +65,7 @@ private:
         return s;
     }
 
-    std::vector<double> theta_, w_;  // w_: v dt/2 in two-point steps, v dt in three-point ones [m]
+    std::vector<double> w_;  // v dt/2 in two-point steps, v dt in three-point ones [m]
     int levels_;
     double e_ = 1, lost_ = 0;
 };

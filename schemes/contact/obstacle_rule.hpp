@@ -42,12 +42,41 @@ concept ObstacleRule = requires(Rule rule, const Rule known, const BeforeStep& a
     rule.begin(eta);                                             // at rest at t = 0
     { known.acts(at) } -> std::same_as<bool>;                    // false: no force, and nothing to be solved
     { rule.solve(at, out, out) } -> std::same_as<GramSolution>;  // r [m], and F on the string [N]. Allocates nothing
-    { rule.start(at, out, out) } -> std::same_as<GramSolution>;  // the first half of a three-point step, from rest: Theta is half as large
     { known.potential(1, 0.0) } -> std::same_as<double>;         // of a contact at a penetration [J]
     { known.facts() } -> std::same_as<std::vector<Fact>>;        // beside those of obstacle.hpp
 };
 
-// What a rule may have beside that: `Rigid`, the rule for barriers that do not give way; options, which it reads by choose(settings);
+// What most rules are: without state, with the laws and compliances that they were made with, and acting where a contact is closed before
+// the step or would be after it.
+struct PlainRule {
+    static constexpr bool iterates = true, centred = false;
+    PlainRule(std::span<const ContactLaw> laws, std::span<const double> theta)
+        : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {}
+    int dofs() const { return 0; }
+    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
+    void begin(const double*) {}
+    bool acts(const BeforeStep& at) const {
+        bool touching = false;
+        for (std::size_t a = 0; a < laws_.size(); ++a) touching = touching || at.older[a] > 0 || at.older[a] + at.b[a] > 0;
+        return touching;
+    }
+    double potential(int a, double eta) const { return laws_[a].potential(eta); }
+    std::vector<Fact> facts() const { return {}; }
+
+protected:
+    void move(const double* b, const double* force, double* r) const noexcept {  // r = -b + Theta F
+        const std::size_t n = laws_.size();
+        for (std::size_t a = 0; a < n; ++a) {
+            r[a] = -b[a];
+            for (std::size_t c = 0; c < n; ++c) r[a] += theta_[a * n + c] * force[c];
+        }
+    }
+    std::vector<ContactLaw> laws_;
+    std::vector<double> theta_;
+};
+
+// What a rule may have beside that: start(at, r, force), the first half of a three-point step, from rest, with half of Theta, where that is
+// not solve(); `Rigid`, the rule for barriers that do not give way; options, which it reads by choose(settings);
 // features that it approximates, or leaves out.
 template <class Rule>
 concept TakesRigid = requires {

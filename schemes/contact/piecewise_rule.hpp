@@ -40,52 +40,38 @@ private:
     std::vector<Piece> pieces_;  // from depth 0 on; the last goes on for ever
 };
 
-class PiecewiseRule {
+class PiecewiseRule : public PlainRule {
 public:
-    static constexpr bool conserves = true, iterates = true, centred = false;
+    static constexpr bool conserves = true;
     static constexpr Option options[] = {law_tolerance_option};
     using Rigid = RigidRule;
 
-    PiecewiseRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
-        : given_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {
-        by(1e-3);
-    }
+    PiecewiseRule(std::span<const ContactLaw> laws, std::span<const double> theta, int) : PlainRule(laws, theta) { by(1e-3); }
     void choose(const Settings& settings) {
         const double tolerance = number_option(settings, law_tolerance_option);
         if (!(tolerance >= 1e-6 && tolerance <= 1)) throw Refusal("option law_tolerance: expected a number from 1e-6 to 1");
         by(tolerance);
     }
-    int dofs() const { return 0; }
-    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
-    void begin(const double*) {}
-    bool acts(const BeforeStep& at) const {
-        bool touching = false;
-        for (std::size_t a = 0; a < laws_.size(); ++a) touching = touching || at.older[a] > 0 || at.older[a] + at.b[a] > 0;
-        return touching;
-    }
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
-        const std::size_t n = laws_.size();
+        const std::size_t n = pieces_.size();
         if (n == 1) {
-            const ContactSolution s = laws_[0].solve(at.older[0], at.b[0], theta_[0]);
+            const ContactSolution s = pieces_[0].solve(at.older[0], at.b[0], theta_[0]);
             *r = s.r;
             *force = s.force;
             return {};
         }
         return solve_in_turn(theta_, at.b, n, r, force,
-                             [&](std::size_t a, double b) { return laws_[a].solve(at.older[a], b, theta_[a * n + a]).force; });
+                             [&](std::size_t a, double b) { return pieces_[a].solve(at.older[a], b, theta_[a * n + a]).force; });
     }
-    GramSolution start(const BeforeStep& at, double* r, double* force) noexcept { return solve(at, r, force); }
-    double potential(int a, double eta) const { return laws_[a].potential(eta); }
-    std::vector<Fact> facts() const { return {{facts::law_misfit, laws_.empty() ? 0 : laws_.front().misfit()}}; }
+    double potential(int a, double eta) const { return pieces_[a].potential(eta); }
+    std::vector<Fact> facts() const { return {{facts::law_misfit, pieces_.empty() ? 0 : pieces_.front().misfit()}}; }
 
 private:
     void by(double tolerance) {
-        laws_.clear();
-        for (const ContactLaw& law : given_) laws_.emplace_back(law, tolerance);
+        pieces_.clear();
+        for (const ContactLaw& law : laws_) pieces_.emplace_back(law, tolerance);
     }
-    std::vector<ContactLaw> given_;
-    std::vector<PiecewiseLaw> laws_;
-    std::vector<double> theta_;
+    std::vector<PiecewiseLaw> pieces_;
 };
 
 }  // namespace jvari

@@ -23,14 +23,13 @@
 
 namespace jvari {
 
-class RigidRule {
+class RigidRule : public PlainRule {
 public:
-    static constexpr bool conserves = true, iterates = true, centred = false;
+    static constexpr bool conserves = true;
 
     RigidRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
-        : theta_(theta.begin(), theta.end()), stored_(laws.size()), levels_(levels) {}
+        : PlainRule(laws, theta), stored_(laws.size()), levels_(levels) {}
     int dofs() const { return levels_ * static_cast<int>(stored_.size()); }
-    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
     void begin(const double*) { std::fill(stored_.begin(), stored_.end(), Levels{}); }
     bool acts(const BeforeStep& at) const {
         bool touching = false;
@@ -39,9 +38,7 @@ public:
         return touching;
     }
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept;
-    GramSolution start(const BeforeStep& at, double* r, double* force) noexcept { return solve(at, r, force); }
     double potential(int a, double) const { return levels_ == 1 ? stored_[a].older : 0.5 * (stored_[a].older + stored_[a].now); }
-    std::vector<Fact> facts() const { return {}; }
 
 private:
     struct Levels {                 // V [J]
@@ -54,7 +51,6 @@ private:
         return b > 0 ? 0.5 * (b + root) / theta : 2 * V / (root - b);
     }
 
-    std::vector<double> theta_;
     std::vector<Levels> stored_;
     int levels_;
 };

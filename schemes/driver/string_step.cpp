@@ -1,5 +1,7 @@
 #include "schemes/driver/string_step.hpp"
 
+#include "scenes/barrier.hpp"
+
 namespace jvari {
 
 StringPoints points_of(const String& s, double dt) {
@@ -13,12 +15,33 @@ StringPoints points_of(const String& s, double dt) {
     return p;
 }
 
-void add_lumped(StringPoints& p, const String& s) {
+std::vector<Place> add_contacts(StringPoints& p, const String& s, int intervals) {
+    std::vector<Place> all;
+    const auto add = [&](const Place& place, const ContactLaw& law, double height, double loss) {
+        all.push_back(place);
+        p.positions.push_back(place.at.position);
+        p.contacts.add(law, height, loss);
+    };
     for (const Barrier& barrier : s.barriers) {
-        const auto& b = std::get<LumpedBarrier>(barrier);
-        p.contacts.add({b.stiffness.k, b.exponent}, b.height, b.contact_loss);
-        p.positions.push_back(b.position);
+        if (const auto* b = std::get_if<LumpedBarrier>(&barrier)) {
+            add({{b->position, b->width}}, {b->stiffness.k, b->exponent}, b->height, b->contact_loss);
+            continue;
+        }
+        const auto& b = std::get<ProfileBarrier>(barrier);
+        const double dx = s.length / intervals;
+        const auto [first, x] = nodes_on(b, s.length, intervals);
+        if (x.empty())
+            throw Refusal("no node of the grid lies on the barrier from " + std::to_string(b.from) + " m to " + std::to_string(b.to) +
+                          " m: the spacing is " + std::to_string(dx) + " m");
+        const std::vector<double> height = heights(b.curve, x);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            add({{x[i], 0}, first + static_cast<int>(i)}, {b.stiffness.K * dx, b.exponent}, height[i], b.contact_loss);
     }
+    return all;
+}
+
+void add_lumped(StringPoints& p, const String& s) {
+    add_contacts(p, s);
     if (s.thread) p.positions.push_back(s.thread->position);
 }
 

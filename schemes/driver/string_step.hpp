@@ -40,7 +40,14 @@ struct StringPoints {  // what a string is to whatever solves for its points
     int count() const { return static_cast<int>(positions.size()); }
 };
 StringPoints points_of(const String&, double dt);  // without positions, contacts and theta
-void add_lumped(StringPoints&, const String&);     // its barriers, which all are lumped, and its thread
+
+struct Place {  // of a contact: a node of a grid, or a footprint
+    Footprint at;
+    int node = 0;  // 0: none
+};
+// Adds the string's barriers as contacts; of a profile each node of a grid of so many intervals is one, which stands for a spacing of it.
+std::vector<Place> add_contacts(StringPoints&, const String&, int intervals = 0);  // Refusal where no node lies on a profile
+void add_lumped(StringPoints&, const String&);                                     // its barriers, which all are lumped, and its thread
 
 // What a tap of contact forces hears of their means since the last row [N]; 0 of any other quantity.
 inline double heard_force(Quantity quantity, const StringPoints& p, const double* mean) {

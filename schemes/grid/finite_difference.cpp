@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/barrier.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
@@ -180,28 +179,6 @@ Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, do
 namespace {
 constexpr std::size_t most_contacts = 1 << 13;  // per string: half a gigabyte of compliances
 
-struct PlaceBarrier {
-    GridString& g;
-    double length;  // of the string [m]
-    void operator()(const LumpedBarrier& b) const {
-        g.stencils.push_back(footprint_stencil(g.grid, b.position, b.width));
-        g.points.positions.push_back(b.position);
-        g.points.contacts.add({b.stiffness.k, b.exponent}, b.height, b.contact_loss);
-    }
-    void operator()(const ProfileBarrier& b) const {
-        const auto [first, x] = nodes_on(b, length, g.grid.intervals);
-        if (x.empty())
-            throw Refusal("no node of the grid lies on the barrier from " + std::to_string(b.from) + " m to " + std::to_string(b.to) +
-                          " m: the spacing is " + std::to_string(g.grid.dx) + " m");
-        const std::vector<double> height = heights(b.curve, x);
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            g.stencils.push_back({first + static_cast<int>(i), {1.0}});
-            g.points.positions.push_back(x[i]);
-            g.points.contacts.add({b.stiffness.K * g.grid.dx, b.exponent}, height[i], b.contact_loss);  // lumped: a node stands for dx
-        }
-    }
-};
-
 // K u = g/(mu dx) against the series of the string's modes, as many as leave less than 1e-4 out.
 double relative_compliance(const GridString& g, const String& s, const LumpedBarrier& b) {
     const Modes modes = modes_of(s, 20000);
@@ -226,9 +203,7 @@ std::vector<double> initial_shape(const String& s, const Grid& g) {
             if (a[i - 1] != 0) u[l] += a[i - 1] * sine[i * l % (2 * g.intervals)];
     return u;
 }
-}  // namespace
 
-namespace {
 // What the grid takes from the string's compliance (contact/compliance.hpp); its steps take none under a steady force.
 void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const String& s) {
     const Sites sites = sites_of(scene, footprints_of(s));
@@ -266,10 +241,13 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     g.loss = loss;
     g.initial = initial_shape(s, grid);
     g.points = points_of(s, dt);
-    for (const Barrier& b : s.barriers) {
-        std::visit(PlaceBarrier{g, s.length}, b);
-        if (const auto* lumped = std::get_if<LumpedBarrier>(&b))
-            g.narrowest = g.narrowest == 0 ? lumped->width / grid.dx : std::min(g.narrowest, lumped->width / grid.dx);
+    const auto lump = [&](const Footprint& f) {
+        g.stencils.push_back(footprint_stencil(grid, f.position, f.width));
+        g.narrowest = g.narrowest == 0 ? f.width / grid.dx : std::min(g.narrowest, f.width / grid.dx);
+    };
+    for (const Place& place : add_contacts(g.points, s, grid.intervals)) {
+        if (place.node != 0) g.stencils.push_back({place.node, {1.0}});
+        else lump(place.at);
     }
     if (g.stencils.size() > most_contacts)
         throw Refusal("the grid has " + std::to_string(g.stencils.size()) +
@@ -278,9 +256,8 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     if (s.barriers.size() == 1)
         if (const auto* b = std::get_if<LumpedBarrier>(&s.barriers.front())) g.compliance = relative_compliance(g, s, *b);
     if (s.thread) {
-        g.stencils.push_back(footprint_stencil(grid, s.thread->position, s.thread->width));
+        lump({s.thread->position, s.thread->width});
         g.points.positions.push_back(s.thread->position);
-        g.narrowest = g.narrowest == 0 ? s.thread->width / grid.dx : std::min(g.narrowest, s.thread->width / grid.dx);
     }
     if (s.pluck) g.pluck_stencil = footprint_stencil(grid, s.pluck->position, s.pluck->width);
     for (const Tap& tap : scene.taps) {

@@ -65,11 +65,7 @@ public:
                 p_.theta.push_back(sum);
             }
         if (choice_option(settings, compliance_option) == "matched") p_.series = modal_missing_matrix(descriptor, scene, modes_, dt_, own);
-        for (const Tap& tap : scene.taps)
-            taps_.emplace_back(tap.quantity, tap.quantity == Quantity::nut_force ? nut_force_weights(modes_, s)
-                                             : tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity
-                                                 ? displacement_weights(modes_, tap.position)
-                                                 : std::vector<double>{});
+        for (const Tap& tap : scene.taps) taps_.emplace_back(tap.quantity, tap_weights(tap, modes_, s));
         for (auto* v : {&older_, &free_}) v->assign(g_.size(), 0.0);
         for (auto* v : {&v_, &a_, &next_, &push_}) v->assign(count(), 0.0);
         q_ = q0_;
@@ -171,19 +167,17 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     return driven_as_told<EndForcesRule>(std::make_unique<GeneralisedAlphaModes>(descriptor, scene, settings, w), settings,
                                          [&w](EndForcesRule& rule) { rule.take_share(w.f); });
 }
-constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
 }  // namespace
 
 extern const Descriptor modal_generalised_alpha = {
     .name = "modal_generalised_alpha",
     .source = "Chung & Hulbert 1993; Hilber, Hughes & Taylor 1977; with a penalty, as finite-element programs do",
-    .represents =
-        modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss),
+    .represents = modal_features_of_points,
     .balance = Balance::none,
     .clock = Clock::stepped,
     .make = made,
     .options = options,
-    .approximates = approximates,
+    .approximates = modal_approximates_elastic,
     .stand_in_rank = 0};
 
 }  // namespace jvari

@@ -8,6 +8,8 @@
 
 namespace jvari {
 
+inline constexpr Option matched_options[] = {compliance_option, profile_points_option};
+
 // own: what the scheme makes of 1 N of steady modal force on each mode [m/N]; dt: its step, 0 if it is exact in time.
 MissingMatrix modal_missing_matrix(const Descriptor&, const Scene&, const Modes&, double dt, std::span<const double> own);
 

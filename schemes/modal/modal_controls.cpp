@@ -22,6 +22,7 @@
 #include "schemes/contact/gradient_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/making.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/penalised_modes.hpp"
 #include "schemes/run.hpp"
 
@@ -40,7 +41,6 @@ Made made_explicit(const Descriptor& descriptor, const Scene& scene, const Setti
 
 constexpr Option energy_option{
     "energy", "true", "what the energy columns hold: the true energy, or the one that the scheme conserves", {"true", "adapted"}};
-constexpr Option explicit_options[] = {compliance_option, profile_points_option};
 constexpr Option impulse_invariant_options[] = {energy_option, profile_points_option};
 
 Made made_impulse_invariant(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
@@ -75,29 +75,24 @@ double shares_margin(const Scene& scene, const Settings& settings) {
 }
 }  // namespace
 
-constexpr Features of_several_points =
-    modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss);
-constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points},
-                                          {Feature::rigid_profile, facts::contact_points}};
-
 extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalty",
                                                   .source = "exact modes, contact force of the last step (conditionally stable control)",
-                                                  .represents = of_several_points | any_rigid,
+                                                  .represents = modal_features_of_points | any_rigid,
                                                   .balance = Balance::none,
                                                   .clock = Clock::stepped,
                                                   .make = made_explicit,
-                                                  .options = explicit_options,
-                                                  .approximates = approximates,
+                                                  .options = matched_options,
+                                                  .approximates = modal_approximates,
                                                   .limit = {"penalty_limit", margin_of_penalty}};
 extern const Descriptor modal_impulse_invariant = {
     .name = "modal_impulse_invariant",
     .source = "van Walstijn et al. 2016, end of section 2.3: gains that differ from mode to mode (control)",
-    .represents = of_several_points,
+    .represents = modal_features_of_points,
     .balance = Balance::none,
     .clock = Clock::stepped,
     .make = made_impulse_invariant,
     .options = impulse_invariant_options,
-    .approximates = std::span(approximates).first(1),
+    .approximates = modal_approximates_elastic,
     .limit = {"equal_shares", shares_margin}};
 
 }  // namespace jvari

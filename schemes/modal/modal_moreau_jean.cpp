@@ -23,15 +23,14 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
 constexpr Option options[] = {compliance_option, profile_points_option, restitution_option};
 }  // namespace
 
-extern const Descriptor modal_moreau_jean = {
-    .name = "modal_moreau_jean",
-    .source = "Issanchou, Acary et al. 2018: rigid contact with a coefficient of restitution",
-    .represents = modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | any_rigid,
-    .balance = Balance::none,
-    .clock = Clock::stepped,
-    .make = made,
-    .options = options,
-    .approximates = MoreauJeanRule::approximates,
-    .stand_in_rank = 0};
+extern const Descriptor modal_moreau_jean = {.name = "modal_moreau_jean",
+                                             .source = "Issanchou, Acary et al. 2018: rigid contact with a coefficient of restitution",
+                                             .represents = (modal_features_of_points - Feature::contact_loss) | any_rigid,
+                                             .balance = Balance::none,
+                                             .clock = Clock::stepped,
+                                             .make = made,
+                                             .options = options,
+                                             .approximates = MoreauJeanRule::approximates,
+                                             .stand_in_rank = 0};
 
 }  // namespace jvari

@@ -2,9 +2,12 @@
 // three_point_modes.hpp (Issanchou et al. 2016) with quadratised_rule.hpp. Energy columns hold the scheme's own energy, with psi^2/2 for
 // the contact; the facts tell how far that is from the true one. Option `compliance` = own (default) | matched: what cut and step take from
 // the string's compliance stands in series with barrier and thread. Leaves out: contact loss with compliance=matched; polarisation.
+#include <algorithm>
+
 #include "schemes/contact/quadratised_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/making.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/three_point_modes.hpp"
 #include "schemes/modal/two_point_modes.hpp"
 
@@ -13,13 +16,15 @@ namespace jvari {
 namespace {
 using Made = std::unique_ptr<Scheme>;
 
-template <Quadratisation variant>
-Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings, int levels) {
+using Make = Made (*)(const Descriptor&, const Scene&, const Settings&);
+
+template <int levels, Quadratisation variant>  // of the recursion
+Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
     using Rule = QuadratisedRule<variant>;
-    if (levels == 2)
+    if constexpr (levels == 2)
         return driven<Rule>(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), descriptor, settings);
-    return driven<Rule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
+    else return driven<Rule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
 }
 
 constexpr Option levels_option{"levels", "2", "time levels of the recursion", {"2", "3"}};
@@ -28,52 +33,45 @@ constexpr Option variant_option{"variant",
                                 "what is done about psi and the potential drifting apart: the header of quadratised_contact.hpp",
                                 {"raw", "constrained", "released", "relaxed", "controlled"}};
 constexpr Option chosen_options[] = {levels_option, variant_option, lambda0_option, compliance_option, profile_points_option};
-constexpr Option fixed_options[] = {compliance_option, profile_points_option};
 
 Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    const std::string variant = choice_option(settings, variant_option);
-    const int levels = choice_option(settings, levels_option) == "2" ? 2 : 3;
-    return variant == "raw"           ? made<Quadratisation::raw>(descriptor, scene, settings, levels)
-           : variant == "relaxed"     ? made<Quadratisation::relaxed>(descriptor, scene, settings, levels)
-           : variant == "controlled"  ? made<Quadratisation::controlled>(descriptor, scene, settings, levels)
-           : variant == "constrained" ? made<Quadratisation::constrained>(descriptor, scene, settings, levels)
-                                      : made<Quadratisation::released>(descriptor, scene, settings, levels);
-}
-
-template <int levels, Quadratisation variant>
-Made made_as(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    return made<variant>(descriptor, scene, settings, levels);
+    using enum Quadratisation;
+    static constexpr Make all[][2] = {{made<2, raw>, made<3, raw>},  // in the order of the option's words
+                                      {made<2, constrained>, made<3, constrained>},
+                                      {made<2, released>, made<3, released>},
+                                      {made<2, relaxed>, made<3, relaxed>},
+                                      {made<2, controlled>, made<3, controlled>}};
+    const auto words = variant_option.words();
+    const auto variant = std::find(words.begin(), words.end(), choice_option(settings, variant_option)) - words.begin();
+    return all[variant][choice_option(settings, levels_option) == "3"](descriptor, scene, settings);
 }
 
 constexpr const char* raw_source = "Ducceschi et al. 2021 without the constraint on psi (known-bad control)";
 constexpr const char* constrained_source = "Ducceschi et al. 2021, with g signed by psi and psi driven to 0 out of contact";
 constexpr const char* released_source = "Ducceschi et al. 2021, psi released in full where it would pull";
 
-constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points}};
-constexpr Descriptor quadratised(const char* name, const char* source, Made (*make)(const Descriptor&, const Scene&, const Settings&),
-                                 std::span<const Option> options) {
+constexpr Descriptor quadratised(const char* name, const char* source, Make make, std::span<const Option> options) {
     return {.name = name,
             .source = source,
-            .represents =
-                modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss),
+            .represents = modal_features_of_points,
             .balance = Balance::exact,
             .clock = Clock::stepped,
             .make = make,
             .options = options,
-            .approximates = approximates};
+            .approximates = modal_approximates_elastic};
 }
 }  // namespace
 
 extern const Descriptor modal_quadratised = quadratised("modal_quadratised", released_source, made_as_chosen, chosen_options);
 extern const Descriptor modal_quadratised_two_point_constrained =
-    quadratised("modal_quadratised_two_point_constrained", constrained_source, made_as<2, Quadratisation::constrained>, fixed_options);
+    quadratised("modal_quadratised_two_point_constrained", constrained_source, made<2, Quadratisation::constrained>, matched_options);
 extern const Descriptor modal_quadratised_two_point_raw =
-    quadratised("modal_quadratised_two_point_raw", raw_source, made_as<2, Quadratisation::raw>, fixed_options);
+    quadratised("modal_quadratised_two_point_raw", raw_source, made<2, Quadratisation::raw>, matched_options);
 extern const Descriptor modal_quadratised_three_point =
-    quadratised("modal_quadratised_three_point", released_source, made_as<3, Quadratisation::released>, fixed_options);
+    quadratised("modal_quadratised_three_point", released_source, made<3, Quadratisation::released>, matched_options);
 extern const Descriptor modal_quadratised_three_point_constrained =
-    quadratised("modal_quadratised_three_point_constrained", constrained_source, made_as<3, Quadratisation::constrained>, fixed_options);
+    quadratised("modal_quadratised_three_point_constrained", constrained_source, made<3, Quadratisation::constrained>, matched_options);
 extern const Descriptor modal_quadratised_three_point_raw =
-    quadratised("modal_quadratised_three_point_raw", raw_source, made_as<3, Quadratisation::raw>, fixed_options);
+    quadratised("modal_quadratised_three_point_raw", raw_source, made<3, Quadratisation::raw>, matched_options);
 
 }  // namespace jvari

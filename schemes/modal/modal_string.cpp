@@ -21,6 +21,15 @@ void refuse_above_nyquist(const Descriptor& d, const Modes& modes, double sample
     }
 }
 
+std::vector<double> tap_weights(const Tap& tap, const Modes& modes, const String& s) {
+    switch (tap.quantity) {
+        case Quantity::displacement:
+        case Quantity::velocity: return displacement_weights(modes, tap.position);
+        case Quantity::nut_force: return nut_force_weights(modes, s);
+        default: return {};
+    }
+}
+
 PluckSteps pluck_steps(const Pluck& pluck, double dt) {
     const double first = std::floor(pluck.start / dt), last = std::ceil((pluck.start + pluck.duration) / dt);
     constexpr double longest = 1 << 28, latest = 0.5 * static_cast<double>(std::numeric_limits<long>::max());  // [steps]

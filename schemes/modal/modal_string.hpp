@@ -16,6 +16,11 @@ constexpr int modal_padding = 16;         // whole vectors of any machine, in pa
 constexpr Features modal_features = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
                                     Feature::measured_modes | Feature::lumped_barrier | Feature::power_law_contact | Feature::thread |
                                     Feature::initial_shape | Feature::pluck;
+constexpr Features modal_features_of_points =
+    modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss);
+inline constexpr Approximation modal_approximates[] = {{Feature::profile_barrier, facts::contact_points},
+                                                       {Feature::rigid_profile, facts::contact_points}};
+inline constexpr std::span<const Approximation> modal_approximates_elastic = std::span(modal_approximates).first(1);
 
 // The steps of dt that a pluck acts in. Refusal where it lasts longer than its table can.
 struct PluckSteps {
@@ -24,6 +29,9 @@ struct PluckSteps {
 PluckSteps pluck_steps(const Pluck&, double dt);
 
 bool touches_once_without_loss(const String&);  // one lumped barrier at most: what the kernels of one contact take
+
+// What a tap of displacement, velocity or nut force reads of the modes' displacements or velocities; none of contact forces.
+std::vector<double> tap_weights(const Tap&, const Modes&, const String&);
 
 // Modes above half the sample rate would alias.
 void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);

@@ -155,13 +155,7 @@ public:
         const int n = p_.modes.count();
         for (auto* v : {&y_, &last_, &coming_, &d_}) v->assign(n, 0.0);
         for (auto* v : {&older_, &now_, &free_}) v->assign(p_.points.count(), 0.0);
-        for (const Tap& tap : p_.scene.taps) {
-            const bool at_end = tap.quantity == Quantity::nut_force;
-            const bool heard = at_end || tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
-            taps_.push_back({tap.quantity, !heard   ? std::vector<double>()
-                                           : at_end ? nut_force_weights(p_.modes, p_.string())
-                                                    : displacement_weights(p_.modes, tap.position)});
-        }
+        for (const Tap& tap : p_.scene.taps) taps_.emplace_back(tap.quantity, tap_weights(tap, p_.modes, p_.string()));
     }
     const StringPoints& points() const { return p_.points; }
     ThreadStart thread_start() const { return ThreadStart::plain; }

@@ -4,6 +4,7 @@
 #include "schemes/driver/driver.hpp"
 #include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/three_point_modes.hpp"
 
 namespace jvari {
@@ -14,21 +15,17 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     matched_without_loss(descriptor, scene, settings);
     return driven<Rule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
 }
-constexpr Option options[] = {compliance_option, profile_points_option};
-constexpr Approximation approximates[] = {{Feature::profile_barrier, facts::contact_points},
-                                          {Feature::rigid_profile, facts::contact_points}};
 }  // namespace
 
 extern const Descriptor modal_three_point, modal_quadratised_three_point, modal_explicit_penalty;
 const Descriptor modal_three_point = {.name = "modal_three_point",
                                       .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
-                                      .represents = modal_features | Features(Feature::profile_barrier) |
-                                                    Features(Feature::several_barriers) | Features(Feature::contact_loss) | any_rigid,
+                                      .represents = modal_features_of_points | any_rigid,
                                       .balance = Balance::exact,
                                       .clock = Clock::stepped,
                                       .make = made<GradientRule>,
-                                      .options = options,
-                                      .approximates = approximates,
+                                      .options = matched_options,
+                                      .approximates = modal_approximates,
                                       .stand_in_rank = 0};
 
 extern const StringRow modal_three_point_row;

@@ -14,6 +14,7 @@
 #include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/two_point_modes.hpp"
 
 namespace jvari {
@@ -23,8 +24,6 @@ namespace {
 TwoPointCoefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i of (32)
     return {0.25 * omega0 * omega0 * dt * dt, sigma * dt};
 }
-
-constexpr Option two_point_options[] = {compliance_option, profile_points_option};
 
 // The string of two_point_modes.hpp with one contact at most, whose rows a kernel makes whole.
 class ModalTwoPoint final : public Scheme {
@@ -161,30 +160,26 @@ std::unique_ptr<Scheme> made_by(const Descriptor& descriptor, const Scene& scene
     return driven<Rule>(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), descriptor, settings);
 }
 
-constexpr Features two_point_features = modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                                        Features(Feature::contact_loss) | Feature::moving_body | any_rigid;
-constexpr Approximation two_point_approximates[] = {{Feature::profile_barrier, facts::contact_points},
-                                                    {Feature::rigid_profile, facts::contact_points}};
 }  // namespace
 
 extern const Descriptor modal_two_point = {.name = "modal_two_point",
                                            .source = "van Walstijn et al. 2016, eqs 16-52",
-                                           .represents = two_point_features,
+                                           .represents = modal_features_of_points | Feature::moving_body | any_rigid,
                                            .balance = Balance::exact,
                                            .clock = Clock::stepped,
                                            .make = made<exact_two_point>,
-                                           .options = two_point_options,
-                                           .approximates = two_point_approximates,
+                                           .options = matched_options,
+                                           .approximates = modal_approximates,
                                            .stand_in_rank = 2};
 extern const Descriptor modal_two_point_trapezoidal = {
     .name = "modal_two_point_trapezoidal",
     .source = "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
-    .represents = two_point_features - Feature::moving_body,
+    .represents = modal_features_of_points | any_rigid,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = made<trapezoidal>,
-    .options = two_point_options,
-    .approximates = two_point_approximates};
+    .options = matched_options,
+    .approximates = modal_approximates};
 
 #define JVARI_MAKER_BY(name, Rule, source) made_by<Rule>,
 extern const Descriptor modal_quadratised;

@@ -60,12 +60,8 @@ ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& sc
     refuse_above_nyquist(descriptor, p.modes, settings.sample_rate);
     p.points = points_of(p.string(), p.dt);
     p.update.intervals = p.modes.count() + 1;
-    for (const Barrier& barrier : p.string().barriers) {
-        const auto& b = std::get<LumpedBarrier>(barrier);
-        p.points.contacts.add({b.stiffness.k, b.exponent}, b.height, b.contact_loss);
-        p.points.positions.push_back(b.position);
-        p.update.ports.push_back({footprint_weights(p.modes, b.position, b.width), 0});
-    }
+    for (const Place& place : add_contacts(p.points, p.string()))
+        p.update.ports.push_back({footprint_weights(p.modes, place.at.position, place.at.width), 0});
     complete(p, descriptor, settings, gain);
     return p;
 }

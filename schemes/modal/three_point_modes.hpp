@@ -224,10 +224,11 @@ private:
 
     TapReading reading_of(const Tap& tap) {
         TapReading r{tap.quantity, {}, {}, {}, {}, {}};
-        if (tap.quantity == Quantity::nut_force) r.displacement = form_.reading(nut_force_weights(p_.modes, p_.string()));
-        if (tap.quantity == Quantity::displacement) r.displacement = form_.reading(displacement_weights(p_.modes, tap.position));
-        if (tap.quantity != Quantity::velocity) return r;
-        const auto w = displacement_weights(p_.modes, tap.position);
+        const auto w = tap_weights(tap, p_.modes, p_.string());
+        if (tap.quantity != Quantity::velocity) {
+            if (!w.empty()) r.displacement = form_.reading(w);
+            return r;
+        }
         const int n = p_.modes.count();
         std::vector<double> y(n), d(n), kept(n), now(n), earlier(n);
         for (int j = 0; j < n; ++j) {

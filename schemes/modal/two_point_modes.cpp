@@ -105,10 +105,9 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
 
     for (const Tap& tap : scene.taps) {
         TapOfModes t{tap.quantity, {}, {}};
-        if (tap.quantity == Quantity::displacement) t.on_y = scaled(displacement_weights(modes, tap.position));
-        if (tap.quantity == Quantity::nut_force) t.on_y = scaled(nut_force_weights(modes, s));
+        if (const auto w = tap_weights(tap, modes, s); !w.empty()) t.on_y = scaled(w);
         if (tap.quantity == Quantity::velocity) {  // p/m = 2q/dt, q = J u/2 + A y
-            t.on_y = t.on_u = scaled(displacement_weights(modes, tap.position));
+            t.on_u = t.on_y;
             for (int i = 0; i < count; ++i) {
                 t.on_u[i] *= J_[i] / dt_;
                 t.on_y[i] *= 2 * A[i] / dt_;

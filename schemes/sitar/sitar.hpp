@@ -73,6 +73,11 @@ struct SitarTap {
     double weight = 0;
 };
 std::vector<SitarTap> sitar_taps(const Scene&, SitarString&);
+template <class AtNode>  // at(m): what node m reads
+double between_nodes(const SitarTap& t, AtNode at) {
+    const double here = at(t.node);
+    return t.weight == 0 ? here : here + t.weight * (at(t.node + 1) - here);
+}
 
 // What the bridge rule exchanged with the string.
 struct BridgeLedger {

@@ -42,8 +42,34 @@ public:
             for (auto& taken : taken_) taken.resize(s_.profile.size());
         reset();
     }
-    void reset() noexcept override;
-    Status advance(const Block& out) noexcept override;
+    void reset() noexcept override {
+        steps_ = 0;
+        ledger_ = {};
+        slopes_dissipated_ = 0;
+        for (auto& taken : taken_) std::fill(taken.begin(), taken.end(), 0.0);
+        for (int m = 0; m <= s_.cells; ++m) now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(g_.scene_string, m * s_.dx);
+        before_.front() = before_.back() = 0;
+        for (int m = 1; m < s_.cells; ++m) before_[m] = 0.5 / s_.step_loss * (now_[m - 1] + now_[m + 1]);  // y_r = y_l = y/2
+        slopes_ = slopes();
+    }
+    Status advance(const Block& out) noexcept override {
+        const bool bridge = !s_.profile.empty();
+        for (int row = 0; row < out.rows; ++row) {
+            double finite = 0;
+            for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(g_.taps[k]);
+            if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
+            if (out.energy)
+                write_energy(out, row, s_.wave_energy(slopes() + lent()), 0, s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
+            slopes_dissipated_ = 0;
+            ledger_.next_row();
+            for (int k = 0; k < g_.steps_per_row; ++k) {
+                step();
+                if (bridge) meet_bridge();
+                if (out.stopped(k, steps_between_questions)) return {};
+            }
+        }
+        return {};
+    }
     int dofs() const override { return static_cast<int>(now_.size() + before_.size() + 2 * taken_[0].size()); }
     std::vector<Fact> facts() const override {
         std::vector<Fact> facts = s_.facts;
@@ -53,13 +79,82 @@ public:
     std::vector<FreeMode> free_modes() const override { return s_.free_modes(); }
 
 private:
-    double read(const SitarTap&) const;
-    double velocity(int m) const;
-    double slopes() const;
-    double lent() const;  // what the barrier will give back [m^2]
-    void step() noexcept;
-    double lift(int m, double y, double old) noexcept;
-    void meet_bridge() noexcept;
+    void step() noexcept {
+        const double loss = s_.step_loss, loss2 = loss * loss;
+        double* __restrict next = before_.data();
+        const double* __restrict y = now_.data();
+        for (int m = 1; m < s_.cells; ++m) next[m] = loss * (y[m + 1] + y[m - 1]) - loss2 * next[m];  // (9)
+        now_.swap(before_);
+        slopes_dissipated_ += (1 - loss2) * slopes_;
+        slopes_ *= loss2;
+        ++steps_;
+    }
+    // By how much the rule moves node m up, which would be at y [m].
+    double lift(int m, double y, double old) noexcept {
+        const double profile = s_.profile[m - 1], d = profile - y;
+        if constexpr (rule == BridgeRule::clamping) return std::max(0.0, d);
+        if constexpr (rule == BridgeRule::reversing) return d > 0 ? old - y : 0;
+        if constexpr (rule == BridgeRule::characteristic) return std::max(0.0, 2 * profile - (y + old));
+        double& taken = taken_[steps_ % 2][m - 1];
+        if (taken > 0) {  // 2 d (y + d - old) = taken
+            const double half = 0.5 * (y - old), root = std::sqrt(half * half + 0.5 * taken), back = 0.5 * taken;
+            taken = 0;
+            return half > 0 ? back / (root + half) : root - half;
+        }
+        if (d <= 0) return 0;
+        taken = std::max(0.0, 2 * d * (old - profile));
+        return d;
+    }
+    // An impulse Z d at the node. Nodes do not see one another.
+    void meet_bridge() noexcept {
+        const double loss = s_.step_loss;
+        double moved = 0, change = 0, lent = 0;
+        for (int m = 1; m <= static_cast<int>(s_.profile.size()); ++m) {
+            const double left = loss * before_[m - 1], right = loss * before_[m + 1];
+            const double owed = rule == BridgeRule::giving_back ? taken_[steps_ % 2][m - 1] : 0;
+            const double d = lift(m, now_[m], left + right - now_[m]);
+            if (d <= 0) continue;
+            change += 2 * d * (now_[m] - right + now_[m] - left + d);
+            if constexpr (rule == BridgeRule::giving_back) lent += taken_[steps_ % 2][m - 1] - owed;
+            now_[m] = rule == BridgeRule::clamping ? s_.profile[m - 1] : now_[m] + d;
+            moved += d;
+        }
+        slopes_ += change;
+        ledger_.exchange(s_.wave_energy(change + lent));
+        ledger_.impulse += s_.impedance() * moved;
+        ledger_.force.note(s_.impedance() * moved / s_.dt);
+    }
+    // Differences of the two travelling waves over two cells, squared: y(n+1, m) - loss y(n, m+1) is one of y_r, with m and m + 1 exchanged
+    // one of y_l. With loss = 1 it is the energy that the leapfrog conserves, kinetic plus the product of slopes now and before.
+    double slopes() const {
+        double sum = 0;
+        for (int m = 0; m < s_.cells; ++m) {
+            const double r = now_[m] - s_.step_loss * before_[m + 1], l = now_[m + 1] - s_.step_loss * before_[m];
+            sum += r * r + l * l;
+        }
+        return sum;
+    }
+    double lent() const {
+        double sum = 0;
+        for (const auto& taken : taken_)
+            for (const double t : taken) sum += t;
+        return sum;
+    }
+    double velocity(int m) const {
+        if (m == 0 || m == s_.cells) return 0;
+        return 0.5 / s_.dt * (now_[m + 1] + now_[m - 1] - 2 * s_.step_loss * before_[m]) - s_.sigma * now_[m];
+    }
+    double read(const SitarTap& t) const {
+        switch (t.quantity) {
+            case Quantity::displacement: return between_nodes(t, [this](int m) { return now_[m]; });
+            case Quantity::velocity: return between_nodes(t, [this](int m) { return velocity(m); });
+            case Quantity::nut_force: return s_.tension / s_.dx * now_[s_.cells - 1];  // -T y' at the peg
+            case Quantity::bridge_force: return ledger_.impulse / (s_.dt * g_.steps_per_row);
+            case Quantity::driving_force: return -ledger_.impulse / (s_.dt * g_.steps_per_row);
+            case Quantity::thread_force: return 0;
+        }
+        return 0;
+    }
 
     Grid g_;
     const SitarString& s_;
@@ -70,131 +165,6 @@ private:
     long steps_ = 0;
     BridgeLedger ledger_;
 };
-
-template <BridgeRule rule>
-void SitarFdm<rule>::reset() noexcept {
-    steps_ = 0;
-    ledger_ = {};
-    slopes_dissipated_ = 0;
-    for (auto& taken : taken_) std::fill(taken.begin(), taken.end(), 0.0);
-    for (int m = 0; m <= s_.cells; ++m) now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(g_.scene_string, m * s_.dx);
-    before_.front() = before_.back() = 0;
-    for (int m = 1; m < s_.cells; ++m) before_[m] = 0.5 / s_.step_loss * (now_[m - 1] + now_[m + 1]);  // y_r = y_l = y/2
-    slopes_ = slopes();
-}
-
-template <BridgeRule rule>
-void SitarFdm<rule>::step() noexcept {
-    const double loss = s_.step_loss, loss2 = loss * loss;
-    double* __restrict next = before_.data();
-    const double* __restrict y = now_.data();
-    for (int m = 1; m < s_.cells; ++m) next[m] = loss * (y[m + 1] + y[m - 1]) - loss2 * next[m];  // (9)
-    now_.swap(before_);
-    slopes_dissipated_ += (1 - loss2) * slopes_;
-    slopes_ *= loss2;
-    ++steps_;
-}
-
-// By how much the rule moves node m up, which would be at y [m].
-template <BridgeRule rule>
-inline double SitarFdm<rule>::lift(int m, double y, double old) noexcept {
-    const double profile = s_.profile[m - 1], d = profile - y;
-    if constexpr (rule == BridgeRule::clamping) return std::max(0.0, d);
-    if constexpr (rule == BridgeRule::reversing) return d > 0 ? old - y : 0;
-    if constexpr (rule == BridgeRule::characteristic) return std::max(0.0, 2 * profile - (y + old));
-    double& taken = taken_[steps_ % 2][m - 1];
-    if (taken > 0) {  // 2 d (y + d - old) = taken
-        const double half = 0.5 * (y - old), root = std::sqrt(half * half + 0.5 * taken), back = 0.5 * taken;
-        taken = 0;
-        return half > 0 ? back / (root + half) : root - half;
-    }
-    if (d <= 0) return 0;
-    taken = std::max(0.0, 2 * d * (old - profile));
-    return d;
-}
-
-// An impulse Z d at the node. Nodes do not see one another.
-template <BridgeRule rule>
-void SitarFdm<rule>::meet_bridge() noexcept {
-    const double loss = s_.step_loss;
-    double moved = 0, change = 0, lent = 0;
-    for (int m = 1; m <= static_cast<int>(s_.profile.size()); ++m) {
-        const double left = loss * before_[m - 1], right = loss * before_[m + 1];
-        const double owed = rule == BridgeRule::giving_back ? taken_[steps_ % 2][m - 1] : 0;
-        const double d = lift(m, now_[m], left + right - now_[m]);
-        if (d <= 0) continue;
-        change += 2 * d * (now_[m] - right + now_[m] - left + d);
-        if constexpr (rule == BridgeRule::giving_back) lent += taken_[steps_ % 2][m - 1] - owed;
-        now_[m] = rule == BridgeRule::clamping ? s_.profile[m - 1] : now_[m] + d;
-        moved += d;
-    }
-    slopes_ += change;
-    ledger_.exchange(s_.wave_energy(change + lent));
-    ledger_.impulse += s_.impedance() * moved;
-    ledger_.force.note(s_.impedance() * moved / s_.dt);
-}
-
-// Differences of the two travelling waves over two cells, squared: y(n+1, m) - loss y(n, m+1) is one of y_r, with m and m + 1 exchanged one
-// of y_l. With loss = 1 it is the energy that the leapfrog conserves, kinetic plus the product of slopes now and before.
-template <BridgeRule rule>
-double SitarFdm<rule>::slopes() const {
-    double sum = 0;
-    for (int m = 0; m < s_.cells; ++m) {
-        const double r = now_[m] - s_.step_loss * before_[m + 1], l = now_[m + 1] - s_.step_loss * before_[m];
-        sum += r * r + l * l;
-    }
-    return sum;
-}
-
-template <BridgeRule rule>
-double SitarFdm<rule>::lent() const {
-    double sum = 0;
-    for (const auto& taken : taken_)
-        for (const double t : taken) sum += t;
-    return sum;
-}
-
-template <BridgeRule rule>
-double SitarFdm<rule>::velocity(int m) const {
-    if (m == 0 || m == s_.cells) return 0;
-    return 0.5 / s_.dt * (now_[m + 1] + now_[m - 1] - 2 * s_.step_loss * before_[m]) - s_.sigma * now_[m];
-}
-
-template <BridgeRule rule>
-double SitarFdm<rule>::read(const SitarTap& t) const {
-    switch (t.quantity) {
-        case Quantity::displacement: return t.weight == 0 ? now_[t.node] : now_[t.node] + t.weight * (now_[t.node + 1] - now_[t.node]);
-        case Quantity::velocity: {
-            const double v = velocity(t.node);
-            return t.weight == 0 ? v : v + t.weight * (velocity(t.node + 1) - v);
-        }
-        case Quantity::nut_force: return s_.tension / s_.dx * now_[s_.cells - 1];  // -T y' at the peg
-        case Quantity::bridge_force: return ledger_.impulse / (s_.dt * g_.steps_per_row);
-        case Quantity::driving_force: return -ledger_.impulse / (s_.dt * g_.steps_per_row);
-        case Quantity::thread_force: return 0;
-    }
-    return 0;
-}
-
-template <BridgeRule rule>
-Status SitarFdm<rule>::advance(const Block& out) noexcept {
-    const bool bridge = !s_.profile.empty();
-    for (int row = 0; row < out.rows; ++row) {
-        double finite = 0;
-        for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(g_.taps[k]);
-        if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
-        if (out.energy)
-            write_energy(out, row, s_.wave_energy(slopes() + lent()), 0, s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
-        slopes_dissipated_ = 0;
-        ledger_.next_row();
-        for (int k = 0; k < g_.steps_per_row; ++k) {
-            step();
-            if (bridge) meet_bridge();
-            if (out.stopped(k, steps_between_questions)) return {};
-        }
-    }
-    return {};
-}
 
 constexpr Option stiffness_option{"stiffness", "refuse", "what becomes of bending stiffness", {"refuse", "ignore"}};
 constexpr Option options[] = {stiffness_option};
@@ -212,48 +182,30 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     return std::make_unique<SitarFdm<rule>>(std::move(g));
 }
 
-constexpr Features represented = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) |
-                                 Feature::power_law_contact | Features(Feature::initial_shape) | Feature::rigid_profile;
-constexpr const char* note =
-    "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so.";
+template <BridgeRule rule>
+constexpr Descriptor lattice(const char* name, const char* source, Balance balance) {
+    return {.name = name,
+            .source = source,
+            .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+                          Features(Feature::initial_shape) | Feature::rigid_profile,
+            .balance = balance,
+            .clock = Clock::stepped,
+            .make = made<rule>,
+            .options = options,
+            .approximates = approximates,
+            .note = "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so."};
+}
 }  // namespace
 
 std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     return made<BridgeRule::characteristic>(descriptor, scene, settings);
 }
 
-extern const Descriptor sitar_fdm = {
-    .name = "sitar_fdm",
-    .source = "Deshmukh & Rayavarapu, eqs 6-12",
-    .represents = represented,
-    .balance = Balance::to_tolerance,
-    .clock = Clock::stepped,
-    .make = made<BridgeRule::clamping>,
-    .options = options,
-    .approximates = approximates,
-    .note = note,
-};
-extern const Descriptor waveguide_passive = {
-    .name = "waveguide_passive",
-    .source = "Krishnaswamy & Smith 2003 on the lattice of Deshmukh & Rayavarapu, eq 9: F = 2 Z v where it touches",
-    .represents = represented,
-    .balance = Balance::exact,
-    .clock = Clock::stepped,
-    .make = made<BridgeRule::giving_back>,
-    .options = options,
-    .approximates = approximates,
-    .note = note,
-};
-extern const Descriptor waveguide_reversing = {
-    .name = "waveguide_reversing",
-    .source = "y+ = y- where a node would pass: keeps the energy, and tends to a wrong motion (control)",
-    .represents = represented,
-    .balance = Balance::exact,
-    .clock = Clock::stepped,
-    .make = made<BridgeRule::reversing>,
-    .options = options,
-    .approximates = approximates,
-    .note = note,
-};
+extern const Descriptor sitar_fdm = lattice<BridgeRule::clamping>("sitar_fdm", "Deshmukh & Rayavarapu, eqs 6-12", Balance::to_tolerance);
+extern const Descriptor waveguide_passive = lattice<BridgeRule::giving_back>(
+    "waveguide_passive", "Krishnaswamy & Smith 2003 on the lattice of Deshmukh & Rayavarapu, eq 9: F = 2 Z v where it touches",
+    Balance::exact);
+extern const Descriptor waveguide_reversing = lattice<BridgeRule::reversing>(
+    "waveguide_reversing", "y+ = y- where a node would pass: keeps the energy, and tends to a wrong motion (control)", Balance::exact);
 
 }  // namespace jvari

@@ -49,8 +49,53 @@ public:
         if (!w_.peg.a.empty()) peg_.assign(planes, PegFilter(w_.peg, std::pow(s_.step_loss, w_.peg.delay)));
         reset();
     }
-    void reset() noexcept override;
-    Status advance(const Block& out) noexcept override;
+    void reset() noexcept override {
+        head_ = 0;
+        steps_ = 0;
+        coasted_ = 0;
+        ledger_ = {};
+        slopes_dissipated_ = 0;
+        std::fill(pending_.begin(), pending_.end(), 0.0);
+        const int M = s_.cells;
+        for (int p = 0; p < planes; ++p)
+            for (int m = 0; m <= M; ++m) {
+                const double half = 0.5 * w_.share[p] * initial_shape(w_.scene_string, m * s_.dx);  // y_r = y_l = y/2
+                right(p)[m] = gain_[m] * half;
+                left(p)[M - m] = gain_[M - m] * half;
+            }
+        for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {  // the filters hold what has passed before t = 0
+            peg_[p].clear();
+            for (int k = 8 * M; k >= 0; --k) {
+                const double past = 0.5 * w_.share[p] * std::exp(s_.sigma * s_.dt * k) * initial_shape(w_.scene_string, (M + k) * s_.dx);
+                peg_[p].pass(past);
+            }
+            left(p)[0] = -peg_[p].gain * peg_[p].out.now;
+            left(p)[1] = -peg_[p].gain * peg_[p].out.before;
+        }
+        slopes_ = rail_slopes();
+    }
+    Status advance(const Block& out) noexcept override {
+        for (int row = 0; row < out.rows; ++row) {
+            double finite = 0;
+            for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(w_.taps[k]);
+            if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
+            if (out.energy)
+                write_energy(out, row, s_.wave_energy(rail_slopes() + peg_slopes()), 0,
+                             s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
+            slopes_dissipated_ = 0;
+            ledger_.next_row();
+            if (pending_.empty() && peg_.empty()) coast(w_.steps_per_row, out);
+            else
+                for (int k = 0; k < w_.steps_per_row; ++k) {
+                    step();
+                    if (!pending_.empty()) meet_bridge();
+                    if (out.stopped(k, steps_between_questions)) return {};
+                }
+            settle();
+            steps_ += w_.steps_per_row;
+        }
+        return {};
+    }
     int dofs() const override { return static_cast<int>(rail_.size() + pending_.size() + peg_.size() * w_.peg.a.size()); }
     std::vector<Fact> facts() const override {
         std::vector<Fact> facts = s_.facts;
@@ -69,7 +114,15 @@ private:
     double y_right(int p, int m) { return loss_[m] * right(p)[behind(m)]; }
     double y_left(int p, int m) { return loss_[s_.cells - m] * left(p)[behind(s_.cells - m)]; }
     double displacement(int p, int m) { return y_right(p, m) + y_left(p, m); }
-    double velocity(int p, int m);
+    double velocity(int p, int m) {
+        if (m == s_.cells) return 0;
+        double r[2], l[2];  // at m - 1 and m + 1
+        r[0] = m == 0 ? before_bridge_end(p) : y_right(p, m - 1);
+        l[0] = m == 0 ? after_bridge_end(p) : y_left(p, m - 1);
+        r[1] = y_right(p, m + 1);
+        l[1] = y_left(p, m + 1);
+        return 0.5 / s_.dt * ((l[1] - l[0]) - (r[1] - r[0])) - s_.sigma * displacement(p, m);  // y_t = c (y_l' - y_r')
+    }
     // The waves one cell beyond the bridge end: the right-going one about to be reflected, the left-going one that has been.
     double before_bridge_end(int p = 0) {
         if constexpr (planes == 1) return -y_left(0, 1);
@@ -79,19 +132,128 @@ private:
         if constexpr (planes == 1) return -y_right(0, 1);
         else return -(w_.cosine * y_right(p, 1) + (p == 0 ? w_.sine : -w_.sine) * y_right(1 - p, 1));
     }
-    double read(const SitarTap&);
-    double rail_slopes();
-    double peg_slopes() const;
-    [[gnu::always_inline]] void reflect(int to, int from, int steps) noexcept;  // in step() a loop of one
-    void coast(int steps, const Block& out) noexcept;
-    void step() noexcept;
+    double read(const SitarTap& t) {
+        const int p = w_.tap_plane;
+        switch (t.quantity) {
+            case Quantity::displacement: return between_nodes(t, [&](int m) { return displacement(p, m); });
+            case Quantity::velocity: return between_nodes(t, [&](int m) { return velocity(p, m); });
+            case Quantity::nut_force:  // -T y' at the peg
+                if (peg_.empty()) return s_.tension / s_.dx * displacement(p, s_.cells - 1);
+                return 2 * s_.tension / s_.dx * (peg_[p].peg.now - s_.step_loss * peg_[p].peg.before);  // y' = 2 y_r' there
+            case Quantity::bridge_force: return p == 0 ? ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
+            case Quantity::driving_force: return p == 0 ? -ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
+            case Quantity::thread_force: return 0;
+        }
+        return 0;
+    }
+    double rail_slopes() {
+        double sum = 0;
+        const int M = s_.cells;
+        for (int p = 0; p < planes; ++p) {
+            const double first = y_right(p, 1) - before_bridge_end(p);
+            const double next_in = peg_.empty() ? -y_left(p, M - 1) : s_.step_loss * peg_[p].in.before;  // beyond the peg
+            const double last = next_in - y_right(p, M - 1);
+            sum += first * first + last * last;
+            for (int m = 1; m < M; ++m) {
+                const double r = y_right(p, m + 1) - y_right(p, m - 1), l = y_left(p, m + 1) - y_left(p, m - 1);
+                sum += r * r + l * l;
+            }
+        }
+        return sum;
+    }
+    double peg_slopes() const {
+        double sum = 0;
+        for (const PegFilter& peg : peg_) sum += peg.slopes(s_.step_loss);
+        return sum;
+    }
+    // Both ends, for steps that end at place `to` of the rails, the last step there, and take what came from the other end at `from` and
+    // the places after it.
+    [[gnu::always_inline]] void reflect(int to, int from, int steps) noexcept {
+        const double way = loss_[s_.cells], c = w_.cosine, s = w_.sine;
+        double* __restrict R = right(0), * __restrict L = left(0);
+        if constexpr (planes == 1) {
+            for (int i = steps - 1; i >= 0; --i) {
+                const double at_peg = way * R[from + i], at_bridge = way * L[from + i];
+                L[to + i] = -at_peg;
+                R[to + i] = -at_bridge;
+            }
+        } else {
+            double* __restrict R1 = right(1), * __restrict L1 = left(1);
+            for (int i = steps - 1; i >= 0; --i) {
+                const double peg0 = way * R[from + i], peg1 = way * R1[from + i], at0 = way * L[from + i], at1 = way * L1[from + i];
+                L[to + i] = -peg0;
+                L1[to + i] = -peg1;
+                R[to + i] = -(c * at0 - s * at1);  // (14)
+                R1[to + i] = -(s * at0 + c * at1);
+            }
+        }
+    }
+    // Steps of rails that meet nothing on their way: none depends on another within the length of a rail.
+    void coast(int steps, const Block& out) noexcept {
+        while (steps > 0) {
+            const int top = head_ == 0 ? size_ : head_, run = std::min({steps, std::max(1, top - 1), s_.cells - coasted_});
+            head_ = top - run;
+            reflect(head_, top > 1 ? head_ - 1 : size_ - 1, run);
+            steps -= run;
+            coasted_ += run;
+            if (coasted_ < s_.cells) continue;
+            settle();
+            if (out.stopped()) return;
+        }
+    }
+    void step() noexcept {
+        head_ = head_ == 0 ? size_ - 1 : head_ - 1;
+        reflect(head_, behind(s_.cells), 1);
+        if (++coasted_ == s_.cells || !peg_.empty()) settle();
+        const double loss = s_.step_loss;
+        for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {
+            PegFilter& peg = peg_[p];
+            left(p)[head_] = -peg.pass(-left(p)[head_]);
+            const double in = peg.in.slope(loss), out = peg.out.slope(loss);
+            slopes_dissipated_ += (1 - peg.gain * peg.gain) * out * out;
+            slopes_ += peg.gain * peg.gain * out * out - in * in;
+        }
+    }
     void settle() noexcept {  // the loss of the steps since the last time
         const double loss2 = loss_[coasted_] * loss_[coasted_];
         slopes_dissipated_ += (1 - loss2) * slopes_;
         slopes_ *= loss2;
         coasted_ = 0;
     }
-    void meet_bridge() noexcept;
+    // The rule at nodes 1, 2, ... of the vertical plane; what it does to the energy is in the differences beside the nodes it moves.
+    void meet_bridge() noexcept {
+        const int nodes = static_cast<int>(s_.profile.size());
+        double* const R = right(0);
+        const double* const L = left(0);
+        bool below = false;
+        for (int m = 1; m <= nodes; ++m) below |= displacement(0, m) < s_.profile[m - 1];
+        if (!below) {
+            strike(pending_[0]);
+            pending_[0] = 0;
+            return;
+        }
+        double before[3] = {0, before_bridge_end(), R[head_]}, after[3] = {0, before[1], before[2]};  // at m - 2, m - 1, m - 0
+        double slopes = 0, moved = 0, moved_first = 0;
+        for (int m = 1; m <= nodes + 2; ++m) {
+            const int here = behind(m);
+            before[0] = before[1], before[1] = before[2], before[2] = loss_[m] * R[here];
+            after[0] = after[1], after[1] = after[2], after[2] = before[2];
+            const double back = m <= nodes ? s_.profile[m - 1] - loss_[s_.cells - m] * L[behind(s_.cells - m)] : before[2];
+            if (before[2] < back) {
+                after[2] = back;
+                R[here] = gain_[m] * back;
+                moved += back - before[2];
+                if (m == 1) moved_first = back - before[2];
+            }
+            const double old_slope = before[2] - before[0], new_slope = after[2] - after[0];
+            slopes += (new_slope - old_slope) * (new_slope + old_slope);
+        }
+        settle();
+        slopes_ += slopes;
+        ledger_.exchange(s_.wave_energy(slopes));
+        strike(moved + pending_[0]);
+        pending_[0] = -s_.step_loss * (moved - moved_first);
+    }
     void strike(double corrections) noexcept {  // their impulse on the string
         const double impulse = s_.impedance() * corrections;
         ledger_.impulse += impulse;
@@ -112,204 +274,6 @@ private:
     long steps_ = 0;
     BridgeLedger ledger_;
 };
-
-template <int planes>
-void SitarWaveguide<planes>::reset() noexcept {
-    head_ = 0;
-    steps_ = 0;
-    coasted_ = 0;
-    ledger_ = {};
-    slopes_dissipated_ = 0;
-    std::fill(pending_.begin(), pending_.end(), 0.0);
-    const int M = s_.cells;
-    for (int p = 0; p < planes; ++p)
-        for (int m = 0; m <= M; ++m) {
-            const double half = 0.5 * w_.share[p] * initial_shape(w_.scene_string, m * s_.dx);  // y_r = y_l = y/2
-            right(p)[m] = gain_[m] * half;
-            left(p)[M - m] = gain_[M - m] * half;
-        }
-    for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {  // the filters hold what has passed before t = 0
-        peg_[p].clear();
-        for (int k = 8 * M; k >= 0; --k) {
-            const double past = 0.5 * w_.share[p] * std::exp(s_.sigma * s_.dt * k) * initial_shape(w_.scene_string, (M + k) * s_.dx);
-            peg_[p].pass(past);
-        }
-        left(p)[0] = -peg_[p].gain * peg_[p].out.now;
-        left(p)[1] = -peg_[p].gain * peg_[p].out.before;
-    }
-    slopes_ = rail_slopes();
-}
-
-// Both ends, for steps that end at place `to` of the rails, the last step there, and take what came from the other end at `from` and the
-// places after it.
-template <int planes>
-inline void SitarWaveguide<planes>::reflect(int to, int from, int steps) noexcept {
-    const double way = loss_[s_.cells], c = w_.cosine, s = w_.sine;
-    double* __restrict R = right(0), * __restrict L = left(0);
-    if constexpr (planes == 1) {
-        for (int i = steps - 1; i >= 0; --i) {
-            const double at_peg = way * R[from + i], at_bridge = way * L[from + i];
-            L[to + i] = -at_peg;
-            R[to + i] = -at_bridge;
-        }
-    } else {
-        double* __restrict R1 = right(1), * __restrict L1 = left(1);
-        for (int i = steps - 1; i >= 0; --i) {
-            const double peg0 = way * R[from + i], peg1 = way * R1[from + i], at0 = way * L[from + i], at1 = way * L1[from + i];
-            L[to + i] = -peg0;
-            L1[to + i] = -peg1;
-            R[to + i] = -(c * at0 - s * at1);  // (14)
-            R1[to + i] = -(s * at0 + c * at1);
-        }
-    }
-}
-
-// Steps of rails that meet nothing on their way: none depends on another within the length of a rail.
-template <int planes>
-void SitarWaveguide<planes>::coast(int steps, const Block& out) noexcept {
-    while (steps > 0) {
-        const int top = head_ == 0 ? size_ : head_, run = std::min({steps, std::max(1, top - 1), s_.cells - coasted_});
-        head_ = top - run;
-        reflect(head_, top > 1 ? head_ - 1 : size_ - 1, run);
-        steps -= run;
-        coasted_ += run;
-        if (coasted_ < s_.cells) continue;
-        settle();
-        if (out.stopped()) return;
-    }
-}
-
-template <int planes>
-void SitarWaveguide<planes>::step() noexcept {
-    head_ = head_ == 0 ? size_ - 1 : head_ - 1;
-    reflect(head_, behind(s_.cells), 1);
-    if (++coasted_ == s_.cells || !peg_.empty()) settle();
-    const double loss = s_.step_loss;
-    for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {
-        PegFilter& peg = peg_[p];
-        left(p)[head_] = -peg.pass(-left(p)[head_]);
-        const double in = peg.in.slope(loss), out = peg.out.slope(loss);
-        slopes_dissipated_ += (1 - peg.gain * peg.gain) * out * out;
-        slopes_ += peg.gain * peg.gain * out * out - in * in;
-    }
-}
-
-// The rule at nodes 1, 2, ... of the vertical plane; what it does to the energy is in the differences beside the nodes it moves.
-template <int planes>
-void SitarWaveguide<planes>::meet_bridge() noexcept {
-    const int nodes = static_cast<int>(s_.profile.size());
-    double* const R = right(0);
-    const double* const L = left(0);
-    bool below = false;
-    for (int m = 1; m <= nodes; ++m) below |= displacement(0, m) < s_.profile[m - 1];
-    if (!below) {
-        strike(pending_[0]);
-        pending_[0] = 0;
-        return;
-    }
-    double before[3] = {0, before_bridge_end(), R[head_]}, after[3] = {0, before[1], before[2]};  // at m - 2, m - 1, m - 0
-    double slopes = 0, moved = 0, moved_first = 0;
-    for (int m = 1; m <= nodes + 2; ++m) {
-        const int here = behind(m);
-        before[0] = before[1], before[1] = before[2], before[2] = loss_[m] * R[here];
-        after[0] = after[1], after[1] = after[2], after[2] = before[2];
-        const double back = m <= nodes ? s_.profile[m - 1] - loss_[s_.cells - m] * L[behind(s_.cells - m)] : before[2];
-        if (before[2] < back) {
-            after[2] = back;
-            R[here] = gain_[m] * back;
-            moved += back - before[2];
-            if (m == 1) moved_first = back - before[2];
-        }
-        const double old_slope = before[2] - before[0], new_slope = after[2] - after[0];
-        slopes += (new_slope - old_slope) * (new_slope + old_slope);
-    }
-    settle();
-    slopes_ += slopes;
-    ledger_.exchange(s_.wave_energy(slopes));
-    strike(moved + pending_[0]);
-    pending_[0] = -s_.step_loss * (moved - moved_first);
-}
-
-template <int planes>
-double SitarWaveguide<planes>::velocity(int p, int m) {
-    if (m == s_.cells) return 0;
-    double r[2], l[2];  // at m - 1 and m + 1
-    r[0] = m == 0 ? before_bridge_end(p) : y_right(p, m - 1);
-    l[0] = m == 0 ? after_bridge_end(p) : y_left(p, m - 1);
-    r[1] = y_right(p, m + 1);
-    l[1] = y_left(p, m + 1);
-    return 0.5 / s_.dt * ((l[1] - l[0]) - (r[1] - r[0])) - s_.sigma * displacement(p, m);  // y_t = c (y_l' - y_r')
-}
-
-template <int planes>
-double SitarWaveguide<planes>::read(const SitarTap& t) {
-    const int p = w_.tap_plane;
-    switch (t.quantity) {
-        case Quantity::displacement: {
-            const double y = displacement(p, t.node);
-            return t.weight == 0 ? y : y + t.weight * (displacement(p, t.node + 1) - y);
-        }
-        case Quantity::velocity: {
-            const double v = velocity(p, t.node);
-            return t.weight == 0 ? v : v + t.weight * (velocity(p, t.node + 1) - v);
-        }
-        case Quantity::nut_force:  // -T y' at the peg
-            if (peg_.empty()) return s_.tension / s_.dx * displacement(p, s_.cells - 1);
-            return 2 * s_.tension / s_.dx * (peg_[p].peg.now - s_.step_loss * peg_[p].peg.before);  // y' = 2 y_r' there
-        case Quantity::bridge_force: return p == 0 ? ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
-        case Quantity::driving_force: return p == 0 ? -ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
-        case Quantity::thread_force: return 0;
-    }
-    return 0;
-}
-
-template <int planes>
-double SitarWaveguide<planes>::rail_slopes() {
-    double sum = 0;
-    const int M = s_.cells;
-    for (int p = 0; p < planes; ++p) {
-        const double first = y_right(p, 1) - before_bridge_end(p);
-        const double next_in = peg_.empty() ? -y_left(p, M - 1) : s_.step_loss * peg_[p].in.before;  // beyond the peg
-        const double last = next_in - y_right(p, M - 1);
-        sum += first * first + last * last;
-        for (int m = 1; m < M; ++m) {
-            const double r = y_right(p, m + 1) - y_right(p, m - 1), l = y_left(p, m + 1) - y_left(p, m - 1);
-            sum += r * r + l * l;
-        }
-    }
-    return sum;
-}
-
-template <int planes>
-double SitarWaveguide<planes>::peg_slopes() const {
-    double sum = 0;
-    for (const PegFilter& peg : peg_) sum += peg.slopes(s_.step_loss);
-    return sum;
-}
-
-template <int planes>
-Status SitarWaveguide<planes>::advance(const Block& out) noexcept {
-    for (int row = 0; row < out.rows; ++row) {
-        double finite = 0;
-        for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(w_.taps[k]);
-        if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
-        if (out.energy)
-            write_energy(out, row, s_.wave_energy(rail_slopes() + peg_slopes()), 0,
-                         s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
-        slopes_dissipated_ = 0;
-        ledger_.next_row();
-        if (pending_.empty() && peg_.empty()) coast(w_.steps_per_row, out);
-        else
-            for (int k = 0; k < w_.steps_per_row; ++k) {
-                step();
-                if (!pending_.empty()) meet_bridge();
-                if (out.stopped(k, steps_between_questions)) return {};
-            }
-        settle();
-        steps_ += w_.steps_per_row;
-    }
-    return {};
-}
 
 // A length of fs/f0 samples per period, the part that is no whole number of cells in a filter at the peg.
 void set_filtered_length(Waves& w, const String& string, bool stiff) {

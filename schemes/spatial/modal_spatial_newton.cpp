@@ -17,6 +17,7 @@
 #include "schemes/body/instrument.hpp"
 #include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/three_point_modes.hpp"
 #include "schemes/spatial/spatial_ports.hpp"
 
@@ -32,13 +33,8 @@ ThreePointProblem spatial_problem(const Descriptor& descriptor, const Scene& sce
     const int intervals = p.update.intervals = matched ? modes_for(p.string(), settings) + 1 : intervals_for(p.string(), settings);
     if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
     p.modes = modes_of(p.string(), intervals - 1);
-    const SpatialPorts ports = spatial_ports(p.string(), p.modes, intervals, scene.name, matched || p.on_body);
-    p.update.ports = ports.ports;
     p.points = points_of(p.string(), p.dt);
-    for (const ContactPoint& point : ports.points) {
-        p.points.contacts.add(point.law, point.height, point.contact_loss);
-        p.points.positions.push_back(point.position);
-    }
+    place_contacts(p, matched || p.on_body);
     complete(p, descriptor, settings);
     p.facts.insert(p.facts.begin(),
                    {{facts::interior_nodes, double(p.update.modes())}, {facts::modes_above_nyquist, double(p.three_point.above_nyquist)}});
@@ -46,35 +42,24 @@ ThreePointProblem spatial_problem(const Descriptor& descriptor, const Scene& sce
 }
 
 namespace {
-constexpr Option options[] = {compliance_option, profile_points_option};
-
 template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    validate(scene);
-    if (scene.strings.empty()) throw Refusal("modal_spatial_newton: scene " + scene.name + " has no string");
-    if (!(settings.sample_rate > 0)) throw Refusal("modal_spatial_newton needs a sample rate");
     return on_its_support<ThreePointModes, Rule>(
         descriptor, scene, settings,
         [&](const Scene& one) { return std::make_unique<ThreePointModes>(spatial_problem(descriptor, one, settings)); },
         [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
 }
 
-constexpr Features represented = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                                 Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                                 Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                                 Features(Feature::power_law_contact) | Features(Feature::contact_loss) | Features(Feature::thread) |
-                                 Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body) | any_rigid;
-
 }  // namespace
 
 extern const Descriptor modal_spatial_newton = {
     .name = "modal_spatial_newton",
     .source = "Issanchou et al. 2016, eqs 13-16, 20-21, 24-28",
-    .represents = represented,
+    .represents = modal_features_of_points | Feature::moving_body | any_rigid,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = made<GradientRule>,
-    .options = options,
+    .options = matched_options,
     .note = "But on a moving body several contact points only where each is a node of the grid, and a thread only with one contact point.",
     .stand_in_rank = 3};
 

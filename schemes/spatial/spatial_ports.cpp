@@ -33,45 +33,6 @@ std::vector<double> node_weights(int intervals, int node) {
     return w;
 }
 
-namespace {
-struct PointsOf {
-    const String& s;
-    const Modes& modes;
-    int intervals;
-    const std::string& scene;
-    SpatialPorts& out;
-
-    void add(ContactPoint point, int node, std::vector<double> weights) const {
-        for (const Port& port : out.ports)
-            if (node != 0 && port.node == node)
-                throw Refusal("modal_spatial_newton: two barriers of scene " + scene + " act on node " + std::to_string(node) +
-                              "; it solves one contact per node");
-        out.points.push_back(point);
-        out.ports.push_back({std::move(weights), node});
-    }
-    void operator()(const LumpedBarrier& b) const {
-        const ContactPoint point{{b.stiffness.k, b.exponent}, b.height, b.contact_loss, b.position};
-        const int node = b.width == 0 ? node_at(b.position, s.length, intervals) : 0;
-        add(point, node, node != 0 ? node_weights(intervals, node) : footprint_weights(modes, b.position, b.width));
-    }
-    void operator()(const ProfileBarrier& b) const {
-        const auto [first, x] = nodes_on(b, s.length, intervals);
-        if (x.empty())
-            throw Refusal("modal_spatial_newton: no node of " + std::to_string(intervals - 1) + " lies on the profile barrier of scene " +
-                          scene + "; ask for more modes");
-        if (static_cast<double>(x.size()) * intervals > most_weights)
-            throw Refusal("modal_spatial_newton: " + std::to_string(x.size()) + " of " + std::to_string(intervals - 1) +
-                          " nodes lie on the profile barrier of scene " + scene + ", more than fit in memory; ask for fewer modes");
-        const double dx = s.length / intervals;
-        int node = first;
-        for (const double height : heights(b.curve, x)) {
-            add({{b.stiffness.K * dx, b.exponent}, height, b.contact_loss, node * dx}, node, node_weights(intervals, node));
-            ++node;
-        }
-    }
-};
-}  // namespace
-
 int intervals_for(const String& s, const Settings& settings) {
     if (settings.modes > 0) return std::min(settings.modes, most_modes + 1) + 1;  // modes_of refuses the one too many
     const int least = modes_of(s, settings).count() + 1;
@@ -91,17 +52,33 @@ int intervals_for(const String& s, const Settings& settings) {
     return intervals;
 }
 
-SpatialPorts spatial_ports(const String& s, const Modes& modes, int intervals, const std::string& scene, bool coupled_may_be) {
-    SpatialPorts out;
-    for (const Barrier& barrier : s.barriers) std::visit(PointsOf{s, modes, intervals, scene, out}, barrier);
-    const bool all_nodes = std::all_of(out.ports.begin(), out.ports.end(), [](const Port& p) { return p.node != 0; });
-    if (out.points.size() > 1 && !all_nodes && !coupled_may_be)
-        throw Refusal("modal_spatial_newton solves several contacts only where each is a node of the grid; in scene " + scene +
-                      " a barrier with a footprint or between nodes is coupled to another contact");
-    if (out.points.size() > 1 && s.thread && !coupled_may_be)
-        throw Refusal("modal_spatial_newton couples a thread to one contact point; scene " + scene + " has " +
-                      std::to_string(out.points.size()) + " with " + std::to_string(intervals - 1) + " nodes");
-    return out;
+void place_contacts(ThreePointProblem& p, bool coupled_may_be) {
+    const int intervals = p.update.intervals;
+    const std::string scene = " of scene " + p.scene.name;
+    std::vector<Place> places = add_contacts(p.points, p.string(), intervals);
+    std::vector<int> nodes;
+    for (Place& place : places) {
+        if (place.node == 0 && place.at.width == 0) place.node = node_at(place.at.position, p.string().length, intervals);
+        if (place.node == 0) continue;
+        if (std::find(nodes.begin(), nodes.end(), place.node) != nodes.end())
+            throw Refusal("modal_spatial_newton: two barriers" + scene + " act on node " + std::to_string(place.node) +
+                          "; it solves one contact per node");
+        nodes.push_back(place.node);
+    }
+    if (static_cast<double>(nodes.size()) * intervals > most_weights)
+        throw Refusal("modal_spatial_newton: " + std::to_string(nodes.size()) + " of " + std::to_string(intervals - 1) +
+                      " nodes touch a barrier" + scene + ", more than fit in memory; ask for fewer modes");
+    for (const Place& place : places)
+        p.update.ports.push_back(
+            {place.node != 0 ? node_weights(intervals, place.node) : footprint_weights(p.modes, place.at.position, place.at.width),
+             place.node});
+    if (places.size() <= 1 || coupled_may_be) return;
+    if (nodes.size() < places.size())
+        throw Refusal("modal_spatial_newton solves several contacts only where each is a node of the grid; a barrier" + scene +
+                      " with a footprint or between nodes is coupled to another contact");
+    if (p.string().thread)
+        throw Refusal("modal_spatial_newton couples a thread to one contact point; the string" + scene + " has " +
+                      std::to_string(places.size()) + " with " + std::to_string(intervals - 1) + " nodes");
 }
 
 }  // namespace jvari
