@@ -23,8 +23,7 @@ std::string a_number(const std::string& text, bool whole) {
                        whole ? fmt::format("whole number from 1 to {}", store::most_counted) : "number > 0");
 }
 namespace {
-// A quantity may have its unit behind it, "44.1k" or "10ms": the text becomes the number in SI units.
-CLI::Validator in_units(std::vector<std::pair<std::string, double>> units) {
+CLI::Validator in_units(std::vector<std::pair<std::string, double>> units) {  // "44.1k", "10ms"
     return CLI::Validator(
         [units = std::move(units)](std::string& text) {
             for (const auto& [unit, scale] : units) {
@@ -35,19 +34,30 @@ CLI::Validator in_units(std::vector<std::pair<std::string, double>> units) {
             }
             return a_number(text, false);
         },
-        "", "quantity");
+        "");
+}
+
+Value assignment(const char* type) {
+    return {type, CLI::Validator(
+                      [type](std::string& text) {
+                          const auto equals = text.find('=');
+                          const bool named = equals != std::string::npos && equals > 0 && text[0] != ':' && text[equals - 1] != ':';
+                          return named ? "" : fmt::format("found \"{}\", expected {}", text, type);
+                      },
+                      "")};
 }
 }  // namespace
 
-const CLI::Validator positive([](const std::string& text) { return a_number(text, false); }, "", "positive");
-const CLI::Validator counting([](const std::string& text) { return a_number(text, true); }, "", "counting");
-const CLI::Validator hertz = in_units({{"kHz", 1e3}, {"Hz", 1}, {"k", 1e3}}), seconds = in_units({{"ms", 1e-3}, {"us", 1e-6}, {"s", 1}}),
-                     metres = in_units({{"mm", 1e-3}, {"um", 1e-6}, {"m", 1}});
+const Value positive{"X", CLI::Validator([](std::string&text) { return a_number(text, false); }, "")},
+    counting{"N", CLI::Validator([](std::string&text) { return a_number(text, true); }, "")},
+    hertz{"HZ", in_units({{"kHz", 1e3}, {"Hz", 1}, {"k", 1e3}})}, seconds{"S", in_units({{"ms", 1e-3}, {"us", 1e-6}, {"s", 1}})},
+    metres{"M", in_units({{"mm", 1e-3}, {"um", 1e-6}, {"m", 1}})};
 
-void add_common(CLI::App& verb, Common& c) {
-    verb.add_flag("--json", c.json, "one JSON object on standard output, nothing else there");
-    verb.add_option("--plugin", c.plugins, "shared object with further schemes (repeatable)")->type_name("LIB.so")->allow_extra_args(false);
-    verb.add_option_function<std::vector<std::string>>(
+void Arguments::common(Common& c) {
+    flag("--json", c.json, "one JSON object on standard output, nothing else there");
+    option("--plugin", c.plugins, {"LIB.so"}, "shared object with further schemes (repeatable)")->allow_extra_args(false);
+    verb_
+        .add_option_function<std::vector<std::string>>(
             "--external",
             [&c](const std::vector<std::string>& commands) {
                 for (const std::string& command : commands) c.plugins.push_back(judge::enter_external(command));
@@ -55,72 +65,54 @@ void add_common(CLI::App& verb, Common& c) {
             "any program as a scheme: it is called with the paths of the problem (JSON) and of the trace that it writes (repeatable)")
         ->type_name("COMMAND")
         ->allow_extra_args(false);
-    verb.add_flag("--quiet", c.quiet, "errors only: no messages, no progress, no result as text (`list` still lists)");
+    flag("--quiet", c.quiet, "errors only: no messages, no progress, no result as text (`list` still lists)");
 }
 
-void add_scene(CLI::App& verb, std::string& scene) {
-    verb.add_option("scene", scene, "a scene file, or a name that `jvari list scenes` shows")->required()->type_name("SCENE");
+void Arguments::scene(std::string& scene) {
+    option("scene", scene, {"SCENE"}, "a scene file, or a name that `jvari list scenes` shows")->required();
 }
 
-void add_set(CLI::App& verb, std::vector<std::string>& set) {
-    verb.add_option("--set", set, "overrides a key of the scene, as string.0.barrier.0.stiffness=1e9 (repeatable)")
-        ->type_name("KEY.PATH=VALUE")
+void Arguments::set(std::vector<std::string>& set) {
+    option("--set", set, assignment("KEY.PATH=VALUE"), "overrides a key of the scene, as string.0.barrier.0.stiffness=1e9 (repeatable)")
         ->allow_extra_args(false);
 }
 
-void add_modes(CLI::App& verb, int& modes) {
-    verb.add_option("--modes", modes,
-                    "modes of each string, or interior nodes for a scheme on a grid; absent: every mode below min(20 kHz, rate/2)")
-        ->type_name("N")
-        ->check(counting);
+void Arguments::modes(int& modes) {
+    option("--modes", modes, counting,
+           "modes of each string, or interior nodes for a scheme on a grid; absent: every mode below min(20 kHz, rate/2)");
 }
 
-void add_options(CLI::App& verb, std::vector<std::string>& options) {
-    verb.add_option(
-            "--option", options,
-            "an option of a scheme, as NAME=VALUE or SCHEME:NAME=VALUE (repeatable). In compare the short form goes to every compared "
-            "scheme that knows the name, never to the reference; several values, as compliance=own,matched, are run one by one")
-        ->type_name("[SCHEME:]NAME=VALUE")
+void Arguments::options(std::vector<std::string>& options) {
+    option("--option", options, assignment("[SCHEME:]NAME=VALUE"),
+           "an option of a scheme, as NAME=VALUE or SCHEME:NAME=VALUE (repeatable). In compare the short form goes to every compared "
+           "scheme that knows the name, never to the reference; several values, as compliance=own,matched, are run one by one")
         ->allow_extra_args(false);
 }
 
-void add_jobs(CLI::App& verb, int& jobs) {
-    verb.add_option("--jobs", jobs, "accuracy runs side by side; as many as there are cores where absent. Timed runs go one at a time")
-        ->type_name("N")
-        ->check(counting);
+void Arguments::jobs(int& jobs) {
+    option("--jobs", jobs, counting, "accuracy runs side by side; as many as there are cores where absent. Timed runs go one at a time");
 }
 
-void add_duration(CLI::App& verb, std::optional<double>& duration) {
-    verb.add_option("--duration", duration, "in place of the scene's")->type_name("S")->transform(seconds);
+void Arguments::duration(std::optional<double>& duration) {
+    option("--duration", duration, seconds, "in place of the scene's");
 }
 
-void add_schemes(CLI::App& verb, std::vector<std::string>& schemes, const char* what) {
-    verb.add_option("--schemes", schemes, what)->delimiter(',')->type_name("A,B,...");
+void Arguments::schemes(std::vector<std::string>& schemes, const char* help) {
+    option("--schemes", schemes, {"A,B,..."}, help)->delimiter(',');
 }
 
-void add_reference(CLI::App& verb, std::string& reference) {
-    verb.add_option("--reference", reference, "a reference or a scheme; absent: the highest reference that represents the scene")
-        ->type_name("NAME");
+void Arguments::reference(std::string& reference) {
+    option("--reference", reference, {"NAME"}, "a reference or a scheme; absent: the highest reference that represents the scene");
 }
 
-void add_comparison_folder(CLI::App& verb, std::string& out) {
-    verb.add_option("--out", out, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html")
-        ->type_name("DIR");
+void Arguments::comparison_folder(std::string& out) {
+    option("--out", out, {"DIR"}, "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, report.html");
 }
 
-void must_be_assignments(const std::vector<std::string>& set) {
-    for (const std::string& s : set)
-        if (s.find('=') == std::string::npos || s.front() == '=') throw store::UsageError("--set " + s + ": expected KEY.PATH=VALUE");
-}
 std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts) {
     std::vector<compare::SchemeOption> options;
-    for (const std::string& text : texts) {
-        const auto equals = text.find('=');
-        if (equals == std::string::npos || equals == 0) throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
-        auto o = compare::SchemeOption::of(text.substr(0, equals), text.substr(equals + 1));
-        if (o.name.empty() || text.front() == ':') throw store::UsageError("--option " + text + ": expected [SCHEME:]NAME=VALUE");
-        options.push_back(std::move(o));
-    }
+    for (const std::string& text : texts)
+        options.push_back(compare::SchemeOption::of(text.substr(0, text.find('=')), text.substr(text.find('=') + 1)));
     return options;
 }
 

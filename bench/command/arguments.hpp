@@ -1,7 +1,9 @@
-// Arguments that several verbs have, and what their texts may be.
+// The arguments of a verb: those that several verbs have, and what the text of one may be.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,23 +18,56 @@ struct Common {
 };
 
 std::string a_number(const std::string& text, bool whole);  // "" where it is one that is > 0; else what was expected
-extern const CLI::Validator positive, counting;             // a number > 0; a whole one
-extern const CLI::Validator hertz, seconds,
-    metres;  // a number > 0 that may have its unit behind it: the text becomes the number in SI units
 
-void add_common(CLI::App& verb, Common&);
-void add_scene(CLI::App& verb, std::string& scene);
-void add_set(CLI::App& verb, std::vector<std::string>& set);
-void add_modes(CLI::App& verb, int& modes);
-void add_options(CLI::App& verb, std::vector<std::string>& options);
-void add_jobs(CLI::App& verb, int& jobs);
-void add_duration(CLI::App& verb, std::optional<double>& duration);
-void add_schemes(CLI::App& verb, std::vector<std::string>& schemes, const char* what);
-void add_reference(CLI::App& verb, std::string& reference);
-void add_comparison_folder(CLI::App& verb, std::string& out);
+struct Value {  // of an option: what help calls it, and what it may be
+    const char* type;
+    CLI::Validator check = {};
+};
+// A number > 0; a whole one; then such that may have a unit behind them: the text becomes the number in SI units.
+extern const Value positive, counting, hertz, seconds, metres;
 
-// Both throw UsageError: what is no KEY.PATH=VALUE, what is no [SCHEME:]NAME=VALUE.
-void must_be_assignments(const std::vector<std::string>& set);
+// Does what was asked for, once the arguments are read, and returns the exit code of the program. Throws UsageError, BadScene,
+// SceneFileError (2), Refusal (3).
+using Act = std::function<int()>;
+
+class Arguments {
+public:
+    explicit Arguments(CLI::App& verb) : verb_(verb) {}
+    template <class T>
+    CLI::Option* option(const char* name, T& to, const Value& value, const std::string& help) {
+        return verb_.add_option(name, to, help)->type_name(value.type)->transform(value.check);
+    }
+    void flag(const char* name, bool& to, const char* help) { verb_.add_flag(name, to, help); }
+
+    void common(Common&);
+    void scene(std::string&);
+    void set(std::vector<std::string>&);
+    void modes(int&);
+    void options(std::vector<std::string>&);
+    void jobs(int&);
+    void duration(std::optional<double>&);
+    void schemes(std::vector<std::string>&, const char* help);
+    void reference(std::string&);
+    void comparison_folder(std::string&);
+
+protected:
+    CLI::App& verb_;
+};
+
+template <class Request>
+class Verb : public Arguments {
+    const std::shared_ptr<Request> asked_ = std::make_shared<Request>();
+
+public:
+    Verb(CLI::App& program, const char* name, const char* about) : Arguments(*program.add_subcommand(name, about)) {}
+    Request& r = *asked_;  // what is asked for; an `act` gets it once the arguments are read
+    Act does(int (*act)(Request), const char* footer) {
+        common(r);
+        verb_.footer(footer);
+        return [asked = asked_, act] { return act(*asked); };
+    }
+};
+
 std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts);
 // Each value of a list for itself; UsageError where an option is named twice.
 std::vector<compare::SchemeOption> listed_options(const std::vector<std::string>& texts);

@@ -150,8 +150,7 @@ Certificate made(const Scene& scene, CertifySettings settings, const Console& co
     return certify(scene, settings);
 }
 
-int certify_command(const CertifyRequest& r) {
-    must_be_assignments(r.set);
+int certify_command(CertifyRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
@@ -219,38 +218,29 @@ int certify_command(const CertifyRequest& r) {
 }  // namespace
 
 Act certify_verb(CLI::App& program) {
-    const auto r = std::make_shared<CertifyRequest>();
-    CLI::App* verb = program.add_subcommand("certify", "how far the references agree on a scene: what an error can be believed to");
-    add_scene(*verb, r->scene);
-    add_set(*verb, r->set);
-    add_modes(*verb, r->modes);
-    verb->add_option("--duration", r->duration, "in place of the scene's; compare uses a certificate as far as it reaches")
-        ->type_name("S")
-        ->transform(seconds);
-    verb->add_option("--tap-rate", r->tap_rate, "rows per second that are compared; 44100 where absent")->type_name("HZ")->transform(hertz);
-    verb->add_option("--oversampled-rate", r->oversampled_rate,
-                     "also the best scheme at a quarter, half and all of this rate, with its own estimate; absent: only where no reference "
-                     "represents the scene, at 64 tap rates")
-        ->type_name("HZ")
-        ->check(positive);
-    verb->add_option(
-            "--out", r->out,
-            "the file, .json; results/certificates/<scene>.json where absent, with part of the scene's hash in its name where --set "
-            "changes the scene. What a clock measured goes beside it, to .cost.json")
-        ->type_name("FILE");
-    verb->add_option("--reference", r->reference,
-                     "this one alone, at its two accuracies: a whole second of one that is fast. Its file has its name in it")
-        ->type_name("NAME");
-    verb->add_flag("--again", r->again, "runs the references also where the file is there and of the same scene and settings");
-    verb->footer(
+    Verb<CertifyRequest> v(program, "certify", "how far the references agree on a scene: what an error can be believed to");
+    v.scene(v.r.scene);
+    v.set(v.r.set);
+    v.modes(v.r.modes);
+    v.option("--duration", v.r.duration, seconds, "in place of the scene's; compare uses a certificate as far as it reaches");
+    v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second that are compared; 44100 where absent");
+    v.option("--oversampled-rate", v.r.oversampled_rate, {"HZ", positive.check},
+             "also the best scheme at a quarter, half and all of this rate, with its own estimate; absent: only where no reference "
+             "represents the scene, at 64 tap rates");
+    v.option("--out", v.r.out, {"FILE"},
+             "the file, .json; results/certificates/<scene>.json where absent, with part of the scene's hash in its name where --set "
+             "changes the scene. What a clock measured goes beside it, to .cost.json");
+    v.option("--reference", v.r.reference, {"NAME"},
+             "this one alone, at its two accuracies: a whole second of one that is fast. Its file has its name in it");
+    v.flag("--again", v.r.again, "runs the references also where the file is there and of the same scene and settings");
+    return v.does(
+        certify_command,
         "Example: jvari certify tanpura_c3_release --duration 0.1\n"
         "\n"
         "Every reference that represents the scene runs at two settings of its accuracy. The table says, pair by pair, how far they are "
         "apart and\n"
         "for how long they agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the "
         "figure.");
-    add_common(*verb, *r);
-    return [r] { return certify_command(*r); };
 }
 
 }  // namespace jvari::bench::command

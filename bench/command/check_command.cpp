@@ -15,7 +15,7 @@ struct CheckRequest : Common {
     std::string junit;
 };
 
-int check_command(const CheckRequest& r) {
+int check_command(CheckRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     std::vector<const Descriptor*> asked;
@@ -39,17 +39,13 @@ int check_command(const CheckRequest& r) {
 }  // namespace
 
 Act check_verb(CLI::App& program) {
-    const auto r = std::make_shared<CheckRequest>();
-    CLI::App* verb =
-        program.add_subcommand("check", "does a scheme keep what every scheme promises: the contract, and what it claims in numbers");
-    verb->add_option("schemes", r->schemes, "schemes or references; absent: those of the plugins")->type_name("SCHEME");
-    verb->add_option("--junit", r->junit, "also writes JUnit XML, as continuous integration reads it")->type_name("FILE");
-    verb->footer(
-        "Example: jvari check --plugin build/libmy_scheme.so --junit check.xml\n"
-        "\n"
-        "Exit code 4 where a promise is broken.");
-    add_common(*verb, *r);
-    return [r] { return check_command(*r); };
+    Verb<CheckRequest> v(program, "check", "does a scheme keep what every scheme promises: the contract, and what it claims in numbers");
+    v.option("schemes", v.r.schemes, {"SCHEME"}, "schemes or references; absent: those of the plugins");
+    v.option("--junit", v.r.junit, {"FILE"}, "also writes JUnit XML, as continuous integration reads it");
+    return v.does(check_command,
+                  "Example: jvari check --plugin build/libmy_scheme.so --junit check.xml\n"
+                  "\n"
+                  "Exit code 4 where a promise is broken.");
 }
 
 }  // namespace jvari::bench::command

@@ -33,7 +33,7 @@ std::string claims_text(const store::Table& verdicts) {
     return table.text(Console::width()) + (notes.empty() ? "" : "\n" + notes) + suite::claims_summary(verdicts);
 }
 
-int claims_command(const ClaimsRequest& r) {
+int claims_command(ClaimsRequest r) {
     const Console console(r.json, r.quiet);
     const std::filesystem::path folder = r.folder;
     const auto claims = r.suite.empty() ? suite::claims_on(folder) : suite::read_suite(r.suite).claims;
@@ -47,11 +47,11 @@ int claims_command(const ClaimsRequest& r) {
 }  // namespace
 
 Act claims_verb(CLI::App& program) {
-    const auto r = std::make_shared<ClaimsRequest>();
-    CLI::App* verb = program.add_subcommand("claims", "does what a paper says hold? verdicts from a folder of results");
-    verb->add_option("folder", r->folder, "a folder that suite wrote")->required()->type_name("DIR");
-    verb->add_option("--suite", r->suite, "the claims of this suite; absent: of the one that the folder is of")->type_name("FILE");
-    verb->footer(
+    Verb<ClaimsRequest> v(program, "claims", "does what a paper says hold? verdicts from a folder of results");
+    v.option("folder", v.r.folder, {"DIR"}, "a folder that suite wrote")->required();
+    v.option("--suite", v.r.suite, {"FILE"}, "the claims of this suite; absent: of the one that the folder is of");
+    return v.does(
+        claims_command,
         "Example: jvari claims results/paper-issanchou\n"
         "\n"
         "A [[claim]] of a suite names a statement, the number in the suite's tables that tells, and its limits:\n"
@@ -71,8 +71,6 @@ Act claims_verb(CLI::App& program) {
         "\n"
         "The verdict is \"holds\" or \"does not hold\" where the number lies within or beyond the limits by more than its uncertainty,\n"
         "else \"cannot be told\". It is written to DIR/claims.csv; `jvari report DIR` shows it. `jvari list keys` explains every key.");
-    add_common(*verb, *r);
-    return [r] { return claims_command(*r); };
 }
 
 }  // namespace jvari::bench::command

@@ -85,7 +85,10 @@ std::string certificate_text(const compare::Comparison& c) {
            (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") + note;
 }
 
-int compare_command(const CompareCall& r) {
+int compare_command(CompareCall r) {
+    r.options = listed_options(r.option_lists);
+    r.search = r.schemes.empty() || r.rates.empty() || std::ranges::none_of(r.options, names_compliance);
+    r.reference_modes = modes_of_reference(r.modes_of_reference);
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
@@ -119,48 +122,31 @@ int compare_command(const CompareCall& r) {
 }  // namespace
 
 Act compare_verb(CLI::App& program) {
-    const auto r = std::make_shared<CompareCall>();
-    CLI::App* verb = program.add_subcommand("compare", "schemes at several rates against a reference: error and cost of each");
-    add_scene(*verb, r->scene);
-    add_set(*verb, r->set);
-    verb->add_option("--modes", r->modes,
-                     "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many where they lie below rate/2. "
-                     "Where schemes, rates and compliance are all named, those below 20 kHz alone")
-        ->delimiter(',')
-        ->type_name("N,...")
-        ->check(counting);
-    add_options(*verb, r->option_lists);
-    add_schemes(*verb, r->schemes, "absent: every scheme that represents the scene, but for controls");
-    verb->add_flag("--controls", r->controls,
-                   "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
-    verb->add_option("--rates", r->rates, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")->delimiter(',')->type_name("HZ,...")->transform(hertz);
-    add_reference(*verb, r->reference);
-    verb->add_option(
-            "--reference-modes", r->modes_of_reference,
-            "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
-            "of the schemes")
-        ->type_name("N|cell");
-    add_duration(*verb, r->duration);
-    verb->add_option("--tap-rate", r->tap_rate,
-                     "rows per second that are compared; absent: 44100 for its multiples, the lowest rate for others. 44100 and 48000 have "
-                     "each their own")
-        ->type_name("HZ")
-        ->transform(hertz);
-    verb->add_option("--repeats", r->repeats, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent")
-        ->type_name("N")
-        ->check(counting);
-    add_jobs(*verb, r->jobs);
-    verb->add_flag("--resume", r->resume, "reads back the errors of the cells that DIR holds and runs the others; all are timed again");
-    add_comparison_folder(*verb, r->out);
-    verb->footer("Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
-    add_common(*verb, *r);
-    return [r] {
-        must_be_assignments(r->set);
-        r->options = listed_options(r->option_lists);
-        r->search = r->schemes.empty() || r->rates.empty() || std::ranges::none_of(r->options, names_compliance);
-        r->reference_modes = modes_of_reference(r->modes_of_reference);
-        return compare_command(*r);
-    };
+    Verb<CompareCall> v(program, "compare", "schemes at several rates against a reference: error and cost of each");
+    v.scene(v.r.scene);
+    v.set(v.r.set);
+    v.option("--modes", v.r.modes, {"N,...", counting.check},
+             "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many where they lie below rate/2. "
+             "Where schemes, rates and compliance are all named, those below 20 kHz alone")
+        ->delimiter(',');
+    v.options(v.r.option_lists);
+    v.schemes(v.r.schemes, "absent: every scheme that represents the scene, but for controls");
+    v.flag("--controls", v.r.controls, "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
+    v.option("--rates", v.r.rates, {"HZ,...", hertz.check}, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")->delimiter(',');
+    v.reference(v.r.reference);
+    v.option("--reference-modes", v.r.modes_of_reference, {"N|cell"},
+             "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
+             "of the schemes");
+    v.duration(v.r.duration);
+    v.option("--tap-rate", v.r.tap_rate, hertz,
+             "rows per second that are compared; absent: 44100 for its multiples, the lowest rate for others. 44100 and 48000 have "
+             "each their own");
+    v.option("--repeats", v.r.repeats, counting, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent");
+    v.jobs(v.r.jobs);
+    v.flag("--resume", v.r.resume, "reads back the errors of the cells that DIR holds and runs the others; all are timed again");
+    v.comparison_folder(v.r.out);
+    return v.does(compare_command,
+                  "Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
 }
 
 }  // namespace jvari::bench::command

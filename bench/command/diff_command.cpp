@@ -13,7 +13,7 @@ struct DiffRequest : Common {
     std::string history;        // one folder, in place of the two
 };
 
-int diff_command(const DiffRequest& r) {
+int diff_command(DiffRequest r) {
     if (r.history.empty() && r.after.empty())
         throw store::UsageError("diff: expected two folders, or --history DIR (see jvari diff --help)");
     const Console console(r.json, r.quiet);
@@ -33,23 +33,20 @@ int diff_command(const DiffRequest& r) {
 }  // namespace
 
 Act diff_verb(CLI::App& program) {
-    const auto r = std::make_shared<DiffRequest>();
-    CLI::App* verb = program.add_subcommand("diff", "two folders of results: what got worse, what got better, what only one has");
-    auto* before = verb->add_option("before", r->before, "a folder that compare or suite wrote")->type_name("A");
-    auto* after = verb->add_option("after", r->after, "another, of the same scene or suite")->type_name("B");
-    verb->add_option("--history", r->history, "one folder in place of two: each commit that changed it against the one before")
-        ->type_name("DIR")
+    Verb<DiffRequest> v(program, "diff", "two folders of results: what got worse, what got better, what only one has");
+    CLI::Option *before = v.option("before", v.r.before, {"A"}, "a folder that compare or suite wrote"),
+                *after = v.option("after", v.r.after, {"B"}, "another, of the same scene or suite");
+    v.option("--history", v.r.history, {"DIR"}, "one folder in place of two: each commit that changed it against the one before")
         ->excludes(before);
     before->needs(after);
-    verb->footer(
+    return v.does(
+        diff_command,
         "Example: jvari diff results/smoke report\n"
         "\n"
         "Exit code 4 where something got worse: an error by more than noise and certificates, a certificate, a status, an outcome of a "
         "map,\n"
         "or the cost of a scheme beyond its quartiles and the drift of all; and where a cell of A is missing in B. Costs of two machines\n"
         "are not compared.");
-    add_common(*verb, *r);
-    return [r] { return diff_command(*r); };
 }
 
 }  // namespace jvari::bench::command

@@ -20,7 +20,6 @@ struct ExportRequest : Common, compare::CompareRequest {
 
 int export_command(ExportRequest r) {
     const Console console(r.json, r.quiet);
-    must_be_assignments(r.set);
     r.rates = {r.rate};
     if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
     store::must_be_writable(r.out);
@@ -37,30 +36,23 @@ int export_command(ExportRequest r) {
 }  // namespace
 
 Act export_verb(CLI::App& program) {
-    const auto r = std::make_shared<ExportRequest>();
-    CLI::App* verb = program.add_subcommand("export", "the problem as arrays, for a scheme of one's own, and the reference trace");
-    add_scene(*verb, r->scene);
-    add_set(*verb, r->set);
-    add_modes(*verb, r->modes_of_each);
-    verb->add_option("--rate", r->rate, "steps per second of the scheme; 44100 where absent")
-        ->type_name("HZ")
-        ->transform(hertz)
-        ->option_text("HZ");
-    verb->add_option("--tap-rate", r->tap_rate, "rows per second; 44100 where the rate is a multiple of it, else the rate")
-        ->type_name("HZ")
-        ->transform(hertz);
-    add_duration(*verb, r->duration);
-    verb->add_option("--tap", r->tap, "of the scene's taps this one alone")->type_name("NAME");
-    verb->add_flag("--without-reference", r->without_reference, "the problem alone: no reference is run");
-    verb->add_option("--out", r->out, "the file, JSON")->required()->type_name("FILE");
-    verb->footer(
+    Verb<ExportRequest> v(program, "export", "the problem as arrays, for a scheme of one's own, and the reference trace");
+    v.scene(v.r.scene);
+    v.set(v.r.set);
+    v.modes(v.r.modes_of_each);
+    v.option("--rate", v.r.rate, hertz, "steps per second of the scheme; 44100 where absent");
+    v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second; 44100 where the rate is a multiple of it, else the rate");
+    v.duration(v.r.duration);
+    v.option("--tap", v.r.tap, {"NAME"}, "of the scene's taps this one alone");
+    v.flag("--without-reference", v.r.without_reference, "the problem alone: no reference is run");
+    v.option("--out", v.r.out, {"FILE"}, "the file, JSON")->required();
+    return v.does(
+        export_command,
         "Example: jvari export tanpura_c3_release --duration 0.05 --out problem.json\n"
         "\n"
         "The file holds frequencies, decay rates, weights of contact, thread, pluck and taps, and the reference trace with its\n"
         "uncertainty: what a script of a modal scheme or a grid begins with. docs/own-scheme/README.md has the unit, the shape and the\n"
         "equation of each field, and schemes in Python, Octave, Julia and C to copy. `jvari judge` says how wrong their traces are.");
-    add_common(*verb, *r);
-    return [r] { return export_command(*r); };
 }
 
 }  // namespace jvari::bench::command

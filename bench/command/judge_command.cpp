@@ -26,7 +26,7 @@ struct NamedFile {
 NamedFile named_file(const std::string& text) {
     const auto equals = text.find('=');
     std::string rate = text.substr(0, equals);
-    if (equals == std::string::npos || !hertz(rate).empty() || equals + 1 == text.size())
+    if (equals == std::string::npos || !hertz.check(rate).empty() || equals + 1 == text.size())
         throw store::UsageError("--trace " + text + ": expected HZ=FILE, the sample rate of the scheme and the file that it wrote");
     return {store::number_of(rate), text.substr(equals + 1)};
 }
@@ -56,7 +56,6 @@ judge::Candidate candidate_of(JudgeRequest& r) {
 
 int judge_command(JudgeRequest r) {
     const Console console(r.json, r.quiet);
-    must_be_assignments(r.set);
     if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
     judge::Candidate candidate = candidate_of(r);
     study::Kept keep{cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console), true};
@@ -75,32 +74,29 @@ int judge_command(JudgeRequest r) {
 }  // namespace
 
 Act judge_verb(CLI::App& program) {
-    const auto r = std::make_shared<JudgeRequest>();
-    CLI::App* verb = program.add_subcommand("judge", "how wrong is a trace that another program made?");
-    add_scene(*verb, r->scene);
-    add_set(*verb, r->set);
-    verb->add_option("--trace", r->files,
-                     "the sample rate of the scheme, and what it wrote (repeatable, a file a rate): .csv with time_s and a column for each "
-                     "tap by its name, or .wav of one tap")
+    Verb<JudgeRequest> v(program, "judge", "how wrong is a trace that another program made?");
+    v.scene(v.r.scene);
+    v.set(v.r.set);
+    v.option("--trace", v.r.files, {"HZ=FILE"},
+             "the sample rate of the scheme, and what it wrote (repeatable, a file a rate): .csv with time_s and a column for each "
+             "tap by its name, or .wav of one tap")
         ->required()
-        ->type_name("HZ=FILE")
         ->allow_extra_args(false);
-    verb->add_option("--name", r->name, "what tables and pictures call it; mine where absent")->type_name("NAME")->option_text("NAME");
-    verb->add_option("--cost", r->costs, "its computing time per second of sound, one for each trace; shown as reported")
-        ->delimiter(',')
-        ->type_name("S,...")
-        ->check(positive);
-    add_schemes(*verb, r->schemes, "run and timed beside it, at its rates: it is said how far the traces differ; absent: none");
-    verb->add_option("--tap", r->tap, "judged alone; absent: all taps of the scene")->type_name("NAME");
-    add_modes(*verb, r->modes_of_each);
-    add_duration(*verb, r->duration);
-    verb->add_option("--tap-rate", r->tap_rate, "rows per second of the traces; 44100 where all rates are multiples of it, else the lowest")
-        ->type_name("HZ")
-        ->transform(hertz);
-    add_reference(*verb, r->reference);
-    add_jobs(*verb, r->jobs);
-    add_comparison_folder(*verb, r->out);
-    verb->footer(
+    v.option("--name", v.r.name, {"NAME"}, "what tables and pictures call it; mine where absent");
+    v.option("--cost", v.r.costs, {"S,...", positive.check},
+             "its computing time per second of sound, one for each trace; shown as reported")
+        ->delimiter(',');
+    v.schemes(v.r.schemes, "run and timed beside it, at its rates: it is said how far the traces differ; absent: none");
+    v.option("--tap", v.r.tap, {"NAME"}, "judged alone; absent: all taps of the scene");
+    v.modes(v.r.modes_of_each);
+    v.duration(v.r.duration);
+    v.option("--tap-rate", v.r.tap_rate, hertz,
+             "rows per second of the traces; 44100 where all rates are multiples of it, else the lowest");
+    v.reference(v.r.reference);
+    v.jobs(v.r.jobs);
+    v.comparison_folder(v.r.out);
+    return v.does(
+        judge_command,
         "Example: jvari judge tanpura_c3_release --duration 0.05 --trace 44100=trace.csv --cost 0.8 --schemes modal_two_point --out "
         "report\n"
         "\n"
@@ -108,8 +104,6 @@ Act judge_verb(CLI::App& program) {
         "A file that is no trace of the scene is refused with exit code 2, and nothing is written: other row times, a missing tap, other "
         "than\n"
         "all rows, NaN. `jvari export` writes the problem.");
-    add_common(*verb, *r);
-    return [r] { return judge_command(*r); };
 }
 
 }  // namespace jvari::bench::command

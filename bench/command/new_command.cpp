@@ -132,7 +132,7 @@ int new_body(const std::string& name, const Console& console) {
     return exit_code::done;
 }
 
-int new_command(const NewRequest& r) {
+int new_command(NewRequest r) {
     const Console console(r.json, r.quiet);
     const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
     if (r.name.empty() || r.name.front() == '-' || !std::all_of(r.name.begin(), r.name.end(), plain))
@@ -161,22 +161,15 @@ int new_command(const NewRequest& r) {
 }  // namespace
 
 Act new_verb(CLI::App& program) {
-    const auto r = std::make_shared<NewRequest>();
-    CLI::App* verb = program.add_subcommand("new", "a commented scene to begin with: writes NAME.toml here");
-    verb->add_option("instrument", r->instrument, "guitar, tanpura, sitar, bass or piano; or body: a made-up pair of responses")
-        ->required()
-        ->type_name("INSTRUMENT");
-    verb->add_option("name", r->name, "of the scene and, with .toml, of its file")->required()->type_name("NAME");
-    verb->footer("Example: jvari new guitar my_guitar");
+    Verb<NewRequest> v(program, "new", "a commented scene to begin with: writes NAME.toml here");
+    v.option("instrument", v.r.instrument, {"INSTRUMENT"}, "guitar, tanpura, sitar, bass or piano; or body: a made-up pair of responses")
+        ->required();
+    v.option("name", v.r.name, {"NAME"}, "of the scene and, with .toml, of its file")->required();
     const std::vector<std::string> materials(std::begin(material_names), std::end(material_names));
-    verb->add_option("--material", r->material,
-                     fmt::format("its strings are plain wires of it, at the same pitch: {}", fmt::join(materials, ", ")))
-        ->check(CLI::IsMember(materials))
-        ->type_name("MATERIAL")
-        ->option_text("MATERIAL");
-    verb->add_option("--diameter", r->diameter, "of these wires, as 0.7mm")->type_name("M")->transform(metres);
-    add_common(*verb, *r);
-    return [r] { return new_command(*r); };
+    v.option("--material", v.r.material, {"MATERIAL", CLI::IsMember(materials).description("")},
+             fmt::format("its strings are plain wires of it, at the same pitch: {}", fmt::join(materials, ", ")));
+    v.option("--diameter", v.r.diameter, metres, "of these wires, as 0.7mm");
+    return v.does(new_command, "Example: jvari new guitar my_guitar");
 }
 
 }  // namespace jvari::bench::command

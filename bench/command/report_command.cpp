@@ -22,7 +22,7 @@ struct ReportRequest : Common {
     bool playground = false, crate = false;
 };
 
-int report_command(const ReportRequest& r) {
+int report_command(ReportRequest r) {
     const Console console(r.json, r.quiet);
     if (r.crate) {
         report::write_crate(r.folder);
@@ -47,17 +47,14 @@ int report_command(const ReportRequest& r) {
 }  // namespace
 
 Act report_verb(CLI::App& program) {
-    const auto r = std::make_shared<ReportRequest>();
-    CLI::App* verb = program.add_subcommand("report", "page and pictures, made again from a folder that compare or suite wrote");
-    verb->add_option("folder", r->folder, "holds manifest.json and cells.csv, maps.csv or both")->required()->type_name("DIR");
-    verb->add_option("--width", r->width, "of the pictures, as 85mm for a column of a paper")->type_name("WIDTH");
-    verb->add_flag("--pdf", r->print.pdf, "each picture as PDF too, by rsvg-convert");
-    verb->add_flag("--playground", r->playground, "puts the page that ./play builds into the report, opened on its scene: 1.4 MB more");
-    verb->add_flag("--crate", r->crate,
-                   "writes ro-crate-metadata.json alone, for an archive: authors, licence, date and the files that lie there now");
-    verb->footer("Example: jvari report report");
-    add_common(*verb, *r);
-    return [r] { return report_command(*r); };
+    Verb<ReportRequest> v(program, "report", "page and pictures, made again from a folder that compare or suite wrote");
+    v.option("folder", v.r.folder, {"DIR"}, "holds manifest.json and cells.csv, maps.csv or both")->required();
+    v.option("--width", v.r.width, {"WIDTH"}, "of the pictures, as 85mm for a column of a paper");
+    v.flag("--pdf", v.r.print.pdf, "each picture as PDF too, by rsvg-convert");
+    v.flag("--playground", v.r.playground, "puts the page that ./play builds into the report, opened on its scene: 1.4 MB more");
+    v.flag("--crate", v.r.crate,
+           "writes ro-crate-metadata.json alone, for an archive: authors, licence, date and the files that lie there now");
+    return v.does(report_command, "Example: jvari report report");
 }
 
 }  // namespace jvari::bench::command

@@ -177,8 +177,7 @@ void draw(const std::string& file, const Descriptor& d, const study::Summary& s,
     if (!why.empty()) throw store::Unwritable(file + ": " + why);
 }
 
-int run_command(const RunRequest& r) {
-    must_be_assignments(r.set);
+int run_command(RunRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
@@ -237,32 +236,24 @@ int run_command(const RunRequest& r) {
 }  // namespace
 
 Act run_verb(CLI::App& program) {
-    const auto r = std::make_shared<RunRequest>();
-    CLI::App* verb = program.add_subcommand("run", "one scheme on one scene");
-    add_scene(*verb, r->scene);
-    add_set(*verb, r->set);
-    add_modes(*verb, r->modes);
-    add_options(*verb, r->options);
-    verb->add_option("--scheme", r->scheme, "a scheme or a reference")->required()->type_name("NAME");
-    verb->add_option("--rate", r->rate, "sample rate; 44100 where absent")->type_name("HZ")->transform(hertz);
-    add_duration(*verb, r->duration);
-    verb->add_option("--tap-rate", r->tap_rate, "rows per second; 44100 where absent, or the rate where that is no multiple of it")
-        ->type_name("HZ")
-        ->transform(hertz);
-    verb->add_flag("--energy", r->energy, "probe the energy: three more columns, and the residuals of the balance");
-    verb->add_option("--out", r->out, "writes the trace: .csv or .h5; .wav or .flac: what is heard of it")->type_name("FILE");
-    verb->add_option("--width", r->width, "of the picture, as 85mm for a column of a paper")->type_name("WIDTH");
-    verb->add_option("--plot", r->plot,
-                     "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)")
-        ->type_name("FILE");
-    verb->add_flag("--mono", r->mono, "one channel where a body gives two");
-    verb->add_option("--wav-format", r->wav_format, "of a .wav or .flac: pcm24 (default) or pcm16")
-        ->check(CLI::IsMember({"pcm24", "pcm16"}))
-        ->type_name("FORMAT")
-        ->option_text("FORMAT");
-    verb->footer("Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration 0.2 --energy --out c3.csv");
-    add_common(*verb, *r);
-    return [r] { return run_command(*r); };
+    Verb<RunRequest> v(program, "run", "one scheme on one scene");
+    v.scene(v.r.scene);
+    v.set(v.r.set);
+    v.modes(v.r.modes);
+    v.options(v.r.options);
+    v.option("--scheme", v.r.scheme, {"NAME"}, "a scheme or a reference")->required();
+    v.option("--rate", v.r.rate, hertz, "sample rate; 44100 where absent");
+    v.duration(v.r.duration);
+    v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second; 44100 where absent, or the rate where that is no multiple of it");
+    v.flag("--energy", v.r.energy, "probe the energy: three more columns, and the residuals of the balance");
+    v.option("--out", v.r.out, {"FILE"}, "writes the trace: .csv or .h5; .wav or .flac: what is heard of it");
+    v.option("--width", v.r.width, {"WIDTH"}, "of the picture, as 85mm for a column of a paper");
+    v.option("--plot", v.r.plot, {"FILE"},
+             "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)");
+    v.flag("--mono", v.r.mono, "one channel where a body gives two");
+    v.option("--wav-format", v.r.wav_format, {"FORMAT", CLI::IsMember({"pcm24", "pcm16"}).description("")},
+             "of a .wav or .flac: pcm24 (default) or pcm16");
+    return v.does(run_command, "Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration 0.2 --energy --out c3.csv");
 }
 
 }  // namespace jvari::bench::command

@@ -111,7 +111,7 @@ void note_missing_locks(const fs::path& folder, const Console& console) {
     }
 }
 
-int suite_command(const SuiteRequest& r) {
+int suite_command(SuiteRequest r) {
     const Console console(r.json, r.quiet);
     if (r.resume && r.out.empty()) throw store::UsageError("--resume: there is no --out DIR to resume from");
     const suite::Suite suite = suite::read_suite(r.suite);
@@ -169,25 +169,18 @@ int suite_command(const SuiteRequest& r) {
 }  // namespace
 
 Act suite_verb(CLI::App& program) {
-    const auto r = std::make_shared<SuiteRequest>();
-    CLI::App* verb =
-        program.add_subcommand("suite", "a declared set of comparisons, sweeps, stability maps and figures over scenes and schemes");
-    verb->add_option("suite", r->suite, "a suite file, or a name that `jvari list suites` shows")->required()->type_name("FILE");
-    verb->add_option("--out", r->out,
-                     "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures")
-        ->type_name("DIR");
-    verb->add_flag("--resume", r->resume,
-                   "reads back the cells that DIR holds and runs the others; any number of processes may do so at once in one DIR");
-    verb->add_option("--print", r->print, "runs nothing: writes the script of a Slurm array, whose tasks share DIR, to standard output")
-        ->check(CLI::IsMember({"slurm"}))
-        ->type_name("slurm")
-        ->option_text("slurm");
-    add_jobs(*verb, r->jobs);
-    verb->footer(
-        "Examples: jvari suite paper-deshmukh --out sitar --resume\n"
-        "          jvari suite stability --out maps --print slurm > job.sh && sbatch job.sh");
-    add_common(*verb, *r);
-    return [r] { return suite_command(*r); };
+    Verb<SuiteRequest> v(program, "suite", "a declared set of comparisons, sweeps, stability maps and figures over scenes and schemes");
+    v.option("suite", v.r.suite, {"FILE"}, "a suite file, or a name that `jvari list suites` shows")->required();
+    v.option("--out", v.r.out, {"DIR"},
+             "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures");
+    v.flag("--resume", v.r.resume,
+           "reads back the cells that DIR holds and runs the others; any number of processes may do so at once in one DIR");
+    v.option("--print", v.r.print, {"slurm", CLI::IsMember({"slurm"}).description("")},
+             "runs nothing: writes the script of a Slurm array, whose tasks share DIR, to standard output");
+    v.jobs(v.r.jobs);
+    return v.does(suite_command,
+                  "Examples: jvari suite paper-deshmukh --out sitar --resume\n"
+                  "          jvari suite stability --out maps --print slurm > job.sh && sbatch job.sh");
 }
 
 }  // namespace jvari::bench::command

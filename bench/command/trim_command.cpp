@@ -93,8 +93,8 @@ void keep_sounds(const fs::path& folder, const trim::Trimmed& t, const trim::Jud
                                "trimmed", sounds[1], "whole")});
 }
 
-int trim_command(const TrimCall& r) {
-    must_be_assignments(r.set);
+int trim_command(TrimCall r) {
+    r.options = listed_options(r.option_lists);
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.Common::plugins);
     compare::note_slow_plugins(console);
@@ -137,43 +137,23 @@ int trim_command(const TrimCall& r) {
 }  // namespace
 
 Act trim_verb(CLI::App& program) {
-    const auto r = std::make_shared<TrimCall>();
-    CLI::App* verb = program.add_subcommand("trim", "the cheapest model of a scene within a tolerance: no more than it needs");
-    add_scene(*verb, r->scene);
-    verb->add_option("--within", r->within, "the tolerance: 1%, or 1dB where the measure is in dB")->required()->type_name("ERROR");
-    verb->add_option("--of", r->measure, "l2_50ms (absent), third_octave_db, stft, centroid or decay")
-        ->type_name("MEASURE")
-        ->option_text("MEASURE");
-    verb->add_option("--tap", r->tap, "what is listened to; absent: the first nut force, else the first tap")->type_name("NAME");
-    verb->add_option("--scheme", r->scheme, "a scheme; any: all that represent the scene or what is left of it")
-        ->type_name("NAME|any")
-        ->option_text("NAME|any");
-    add_set(*verb, r->set);
-    add_options(*verb, r->option_lists);
-    verb->add_option("--duration", r->duration, "how much of the scene is run and judged; 0.05 where absent")
-        ->type_name("S")
-        ->transform(seconds)
-        ->option_text("S");
-    verb->add_option("--tap-rate", r->tap_rate, "rows per second that are compared, and the lowest rate that is tried; 44100 where absent")
-        ->type_name("HZ")
-        ->transform(hertz)
-        ->option_text("HZ");
-    add_reference(*verb, r->reference);
-    verb->add_option("--reference-modes", r->reference_modes,
-                     "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach")
-        ->type_name("N")
-        ->check(CLI::NonNegativeNumber)
-        ->option_text("N");
-    add_jobs(*verb, r->jobs);
-    verb->add_option("--out", r->out,
-                     "folder for trimmed.toml, needs.csv, path.csv, trim.svg, report.html; what was judged is kept in its cells/")
-        ->type_name("DIR");
-    verb->footer("Example: jvari trim tanpura_c3_release --within 1% --out trimmed");
-    add_common(*verb, *r);
-    return [r] {
-        r->options = listed_options(r->option_lists);
-        return trim_command(*r);
-    };
+    Verb<TrimCall> v(program, "trim", "the cheapest model of a scene within a tolerance: no more than it needs");
+    v.scene(v.r.scene);
+    v.option("--within", v.r.within, {"ERROR"}, "the tolerance: 1%, or 1dB where the measure is in dB")->required();
+    v.option("--of", v.r.measure, {"MEASURE"}, "l2_50ms (absent), third_octave_db, stft, centroid or decay");
+    v.option("--tap", v.r.tap, {"NAME"}, "what is listened to; absent: the first nut force, else the first tap");
+    v.option("--scheme", v.r.scheme, {"NAME|any"}, "a scheme; any: all that represent the scene or what is left of it");
+    v.set(v.r.set);
+    v.options(v.r.option_lists);
+    v.option("--duration", v.r.duration, seconds, "how much of the scene is run and judged; 0.05 where absent");
+    v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second that are compared, and the lowest rate that is tried; 44100 where absent");
+    v.reference(v.r.reference);
+    v.option("--reference-modes", v.r.reference_modes, {"N", CLI::Validator(CLI::NonNegativeNumber).description("")},
+             "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach");
+    v.jobs(v.r.jobs);
+    v.option("--out", v.r.out, {"DIR"},
+             "folder for trimmed.toml, needs.csv, path.csv, trim.svg, report.html; what was judged is kept in its cells/");
+    return v.does(trim_command, "Example: jvari trim tanpura_c3_release --within 1% --out trimmed");
 }
 
 }  // namespace jvari::bench::command

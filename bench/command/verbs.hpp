@@ -1,15 +1,9 @@
 // The verbs. A verb is a file: its arguments, which it adds to the command line with their help, and what it does with them.
 #pragma once
 
-#include <functional>
-
 #include "bench/command/arguments.hpp"
 
 namespace jvari::bench::command {
-
-// Does what was asked for, once the arguments are read, and returns the exit code of the program. Throws UsageError, BadScene,
-// SceneFileError (2), Refusal (3).
-using Act = std::function<int()>;
 
 Act new_verb(CLI::App& program);
 Act list_verb(CLI::App& program);

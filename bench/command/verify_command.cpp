@@ -76,7 +76,7 @@ bool is_lost(const diff::Finding& f) {
     return f.turn != diff::Turn::same && !diff::is_cost(f.column) && !(f.turn == diff::Turn::moved && diff::is_judged(f.column));
 }
 
-int verify_command(const VerifyRequest& r) {
+int verify_command(VerifyRequest r) {
     const Console console(r.json, r.quiet);
     const Json manifest = store::folder_at(r.folder).manifest();
     const fs::path out = r.out.empty() ? fs::temp_directory_path() / ("jvari-verify-" + store::now_utc()) : fs::path(r.out);
@@ -110,19 +110,14 @@ int verify_command(const VerifyRequest& r) {
 }  // namespace
 
 Act verify_verb(CLI::App& program) {
-    const auto r = std::make_shared<VerifyRequest>();
-    CLI::App* verb = program.add_subcommand("verify", "runs a folder of results again, and says what came back");
-    verb->add_option("folder", r->folder, "a folder that compare or suite wrote: its manifest.json has the command")
-        ->required()
-        ->type_name("DIR");
-    verb->add_option("--out", r->out, "keeps the second run in this folder; absent: it is removed")->type_name("DIR");
-    verb->footer(
-        "Example: jvari verify results/smoke\n"
-        "\n"
-        "On the program that made the folder every field comes back to the last digit; on another, within its own uncertainty.\n"
-        "Exit code 4 where something did not. Costs are not compared.");
-    add_common(*verb, *r);
-    return [r] { return verify_command(*r); };
+    Verb<VerifyRequest> v(program, "verify", "runs a folder of results again, and says what came back");
+    v.option("folder", v.r.folder, {"DIR"}, "a folder that compare or suite wrote: its manifest.json has the command")->required();
+    v.option("--out", v.r.out, {"DIR"}, "keeps the second run in this folder; absent: it is removed");
+    return v.does(verify_command,
+                  "Example: jvari verify results/smoke\n"
+                  "\n"
+                  "On the program that made the folder every field comes back to the last digit; on another, within its own uncertainty.\n"
+                  "Exit code 4 where something did not. Costs are not compared.");
 }
 
 }  // namespace jvari::bench::command

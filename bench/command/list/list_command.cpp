@@ -106,7 +106,7 @@ Listing list_suites() {
     return {std::move(all), text, ""};
 }
 
-int list_command(const ListRequest& r) {
+int list_command(ListRequest r) {
     const Console console(r.json, false);  // --quiet: the list is all that was asked for
     const compare::Catalogue catalogue(r.plugins);
     Schemes both = catalogue.schemes;
@@ -153,19 +153,14 @@ int list_command(const ListRequest& r) {
 }  // namespace
 
 Act list_verb(CLI::App& program) {
-    const auto r = std::make_shared<ListRequest>();
-    CLI::App* verb = program.add_subcommand("list", "what exists, and which scheme represents which scene");
-    verb->add_option("what", r->what,
-                     "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or columns (of cells.csv); absent: "
-                     "all, and the matrix")
-        ->check(CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites", "keys", "columns"}))
-        ->type_name("WHAT")
-        ->option_text("");
-    verb->add_flag("--markdown", r->markdown,
-                   "with `schemes`: the table of docs/schemes.md; with `options`, `facts`, `keys` or `columns`: their table");
-    verb->footer("Example: jvari list schemes --markdown");
-    add_common(*verb, *r);
-    return [r] { return list_command(*r); };
+    Verb<ListRequest> v(program, "list", "what exists, and which scheme represents which scene");
+    v.option("what", v.r.what,
+             {"WHAT", CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites", "keys", "columns"})},
+             "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or columns (of cells.csv); absent: "
+             "all, and the matrix");
+    v.flag("--markdown", v.r.markdown,
+           "with `schemes`: the table of docs/schemes.md; with `options`, `facts`, `keys` or `columns`: their table");
+    return v.does(list_command, "Example: jvari list schemes --markdown");
 }
 
 }  // namespace jvari::bench::command
