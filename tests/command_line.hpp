@@ -10,6 +10,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/says.hpp"
+
 namespace jvari::test {
 
 inline std::string content(const std::filesystem::path& path) {
@@ -42,6 +44,11 @@ struct Outcome {
     int code;
     std::string out, err;
 };
+
+inline testing::AssertionResult ends(const Outcome& of, int code, const std::string& said) {  // a failure says it on standard error
+    if (of.code != code) return testing::AssertionFailure() << "ends with " << of.code << ":\n" << of.out << of.err;
+    return says(code ? of.err : of.out, said);
+}
 
 inline Outcome jvari(const Scratch& scratch, const std::string& arguments, const std::string& environment = "") {
     const std::string out = scratch / "stdout", err = scratch / "stderr";

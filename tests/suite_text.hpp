@@ -1,9 +1,14 @@
-// The message that reading a suite gives.
+// Suites as text: the message that reading one gives, and what one spreads out to.
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "bench/compare/catalogue.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/study/run.hpp"
 #include "bench/suite/suite_file.hpp"
+#include "bench/suite/suite_plan.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::test {
@@ -16,5 +21,18 @@ inline std::string refusal_of(const std::string& text) {
     }
     return "read";
 }
+
+struct Read {
+    bench::suite::Suite suite;
+};
+struct Planned : Read, bench::study::Plan {  // the jobs of a suite, which point into it; nothing that runs is kept
+    explicit Planned(const std::string& text, const bench::compare::Catalogue& schemes = bench::compare::Catalogue())
+        : Read{bench::suite::parse_suite(text, "a.toml")}, Plan(bench::suite::plan_of(suite, schemes, {})) {}
+    Planned(const Planned&) = delete;
+    Planned& operator=(const Planned&) = delete;
+
+    bench::study::Study run(int processes = 1) const { return bench::study::run(*this, "", false, processes, bench::store::Listener()); }
+    bench::store::Table rows_of(const char* facet) const { return bench::study::rows_of(facet, *this, run().records); }
+};
 
 }  // namespace jvari::test

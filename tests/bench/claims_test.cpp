@@ -62,7 +62,7 @@ TEST_F(Claims, CannotBeToldWhereTheUncertaintyIsNotKnown) {
     EXPECT_EQ(t.at(0, "verdict"), "cannot be told");
     EXPECT_EQ(t.at(0, "measured"), "0.3");
     EXPECT_EQ(t.at(0, "uncertainty"), "");
-    EXPECT_NE(t.at(0, "note").find("not known"), std::string::npos);
+    EXPECT_TRUE(says(t.at(0, "note"), "not known"));
 }
 
 TEST_F(Claims, CannotBeToldWhereANumberIsMissingAndSayWhy) {
@@ -72,13 +72,12 @@ TEST_F(Claims, CannotBeToldWhereANumberIsMissingAndSayWhy) {
         return t.at(0, "note");
     };
     EXPECT_EQ(why("table = \"extent\"\ncolumn = \"high\"\nat_least = 0"), "extent.csv is not in the folder");
-    EXPECT_NE(why("table = \"trace\"\ncolumn = \"valeu\"\nat_least = 0").find("did you mean \"value\"?"), std::string::npos);
-    EXPECT_NE(why(of_trace("where = { tap = \"w\" }\nat_least = 0")).find("no row with tap = w"), std::string::npos);
-    EXPECT_NE(why(of_trace("where = { tap = \"x\" }\nat_least = 0")).find("3 rows"), std::string::npos);
-    EXPECT_NE(why(of_trace("take = \"mean\"\nat_least = 0")).find("two rows at time_s 0"), std::string::npos);
-    EXPECT_NE(why(of_trace("take = \"mean\"\nwhere = { tap = \"x\" }\nagainst = { where = { tap = \"z\" } }\nat_least = 0"))
-                  .find("no other row at time_s 1"),
-              std::string::npos);
+    EXPECT_TRUE(says(why("table = \"trace\"\ncolumn = \"valeu\"\nat_least = 0"), "did you mean \"value\"?"));
+    EXPECT_TRUE(says(why(of_trace("where = { tap = \"w\" }\nat_least = 0")), "no row with tap = w"));
+    EXPECT_TRUE(says(why(of_trace("where = { tap = \"x\" }\nat_least = 0")), "3 rows"));
+    EXPECT_TRUE(says(why(of_trace("take = \"mean\"\nat_least = 0")), "two rows at time_s 0"));
+    EXPECT_TRUE(says(why(of_trace("take = \"mean\"\nwhere = { tap = \"x\" }\nagainst = { where = { tap = \"z\" } }\nat_least = 0")),
+                     "no other row at time_s 1"));
     EXPECT_EQ(why("open = \"it prints no rule\""), "it prints no rule");
     EXPECT_EQ(why(of_a("open = \"it does not say of what\"\nat_most = 1")), "it does not say of what");
 }
@@ -120,13 +119,13 @@ TEST_F(Claims, AreRefusedWithLineAndKey) {
         }
         return "";
     };
-    EXPECT_NE(refusal("").find("expected a table and a column, or `open`"), std::string::npos);
-    EXPECT_NE(refusal("table = \"trace\"\nat_most = 1").find("the key column is missing"), std::string::npos);
-    EXPECT_NE(refusal(of_trace("")).find("no limit"), std::string::npos);
-    EXPECT_NE(refusal(of_trace("at_least = 2\nat_most = 1")).find("at_least is above at_most"), std::string::npos);
-    EXPECT_NE(refusal(of_trace("expected = [1]")).find("tolerance > 0"), std::string::npos);
-    EXPECT_NE(refusal(of_trace("take = \"men\"\nat_most = 1")).find("unknown take \"men\""), std::string::npos);
-    EXPECT_NE(refusal(of_trace("over = { tow = 1 }\nat_most = 1")).find("a.toml:8"), std::string::npos);
+    EXPECT_TRUE(says(refusal(""), "expected a table and a column, or `open`"));
+    EXPECT_TRUE(says(refusal("table = \"trace\"\nat_most = 1"), "the key column is missing"));
+    EXPECT_TRUE(says(refusal(of_trace("")), "no limit"));
+    EXPECT_TRUE(says(refusal(of_trace("at_least = 2\nat_most = 1")), "at_least is above at_most"));
+    EXPECT_TRUE(says(refusal(of_trace("expected = [1]")), "tolerance > 0"));
+    EXPECT_TRUE(says(refusal(of_trace("take = \"men\"\nat_most = 1")), "unknown take \"men\""));
+    EXPECT_TRUE(says(refusal(of_trace("over = { tow = 1 }\nat_most = 1")), "a.toml:8"));
 }
 
 // The template that the documentation gives, as it stands: the suite writes the verdicts, and the verb makes them again of the tables
@@ -134,20 +133,15 @@ TEST_F(Claims, AreRefusedWithLineAndKey) {
 TEST(ClaimsOfAPaper, AreMadeByTheSuiteAndMadeAgainWithoutARun) {
     const Scratch scratch;
     const std::string out = scratch / "raman";
-    const auto ran = jvari(scratch, "suite " JVARI_SOURCE "/docs/claims/raman.toml --out " + out, "JVARI_NODE_MODULES=/nowhere");
-    ASSERT_EQ(ran.code, 0) << ran.err;
-    EXPECT_NE(ran.out.find("3 claims: 3 hold, 0 do not hold, 0 cannot be told"), std::string::npos) << ran.out;
+    ASSERT_TRUE(ends(jvari(scratch, "suite " JVARI_SOURCE "/docs/claims/raman.toml --out " + out, "JVARI_NODE_MODULES=/nowhere"), 0,
+                     "3 claims: 3 hold, 0 do not hold, 0 cannot be told"));
     EXPECT_EQ(content(out + "/suite.toml"), content(JVARI_SOURCE "/docs/claims/raman.toml"));
     const std::string first = content(out + "/claims.csv"), page = content(out + "/report.html");
-    EXPECT_NE(page.find("they sound powerfully"), std::string::npos);
+    EXPECT_TRUE(says(page, "they sound powerfully"));
     std::filesystem::remove(out + "/claims.csv");
-    const auto again = jvari(scratch, "claims " + out);
-    EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_NE(again.out.find("over the bridge of a tanpura they sound powerfully"), std::string::npos) << again.out;
+    EXPECT_TRUE(ends(jvari(scratch, "claims " + out), 0, "over the bridge of a tanpura they sound powerfully"));
     EXPECT_EQ(content(out + "/claims.csv"), first);
-    const auto none = jvari(scratch, "claims " + out + " --suite smoke");
-    EXPECT_EQ(none.code, 2);
-    EXPECT_NE(none.err.find("smoke has no [[claim]]"), std::string::npos) << none.err;
+    EXPECT_TRUE(ends(jvari(scratch, "claims " + out + " --suite smoke"), 2, "smoke has no [[claim]]"));
 }
 
 bench::suite::Reduced reduced(const Series& s, const std::string& take) {

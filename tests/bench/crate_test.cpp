@@ -72,8 +72,7 @@ TEST(Crate, EachCommittedFolderOfResultsHasOne) {
 TEST(Crate, NeedsAManifest) {
     const Scratch scratch;
     const auto ran = jvari(scratch, "report " + scratch.path.string() + " --crate");
-    EXPECT_EQ(ran.code, 2);
-    EXPECT_NE(ran.err.find("manifest.json"), std::string::npos);
+    EXPECT_TRUE(ends(ran, 2, "manifest.json"));
 }
 
 }  // namespace

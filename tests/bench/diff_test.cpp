@@ -47,7 +47,7 @@ TEST(Costs, ASchemeThatIsThirtyPerCentSlowerIsFoundWhateverTheMachinesDrift) {
         const Difference d = difference(timed(1, 0.02), timed(2, 0.02, drift, 3));
         EXPECT_EQ(d.count(Turn::worse), rates) << drift;
         EXPECT_EQ(d.count(Turn::better), 0) << drift;
-        for (const auto& f : d.findings) EXPECT_NE(f.row.find("scheme_3"), std::string::npos) << f.row;
+        for (const auto& f : d.findings) EXPECT_TRUE(says(f.row, "scheme_3"));
     }
     EXPECT_EQ(difference(timed(2, 0.02, 1, 3), timed(1, 0.02)).count(Turn::better), rates);
 }
@@ -64,7 +64,7 @@ TEST(Costs, OfTwoMachinesAreNotComparedAndItIsSaid) {
     const Difference d = difference(timed(1, 0.02), timed(2, 0.02, 1, 3, "another"));
     EXPECT_TRUE(d.findings.empty());
     ASSERT_EQ(d.notes.size(), 1u);
-    EXPECT_NE(d.notes[0].find("two machines"), std::string::npos);
+    EXPECT_TRUE(says(d.notes[0], "two machines"));
 }
 
 TEST(Costs, OfASingleSchemeAreNotToldFromTheMachines) {
@@ -253,9 +253,7 @@ TEST(Diff, FindsAPluginThatIsTwoPerCentOffAndNothingElse) {
 
 TEST(Diff, RefusesBadFolders) {
     const Scratch scratch;
-    const Outcome missing = jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " + (scratch / "none"));
-    EXPECT_EQ(missing.code, 2);
-    EXPECT_NE(missing.err.find("no such folder"), std::string::npos) << missing.err;
+    EXPECT_TRUE(ends(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " + (scratch / "none")), 2, "no such folder"));
     EXPECT_EQ(shell(scratch, "mkdir empty; $J diff empty empty").code, 2);
     EXPECT_EQ(shell(scratch, "mkdir x; echo '{}' >x/manifest.json; printf 'a,b\\n1\\n' >x/cells.csv; $J diff x x").code, 2);
     EXPECT_EQ(shell(scratch, "$J diff x").code, 2);
@@ -275,7 +273,7 @@ TEST(Diff, EndsWith4WhereErrorsOrCellsOfTheFirstFolderAreGone) {
                   "$J diff both empty --quiet; echo $?; $J diff both one --quiet; echo $?; $J diff one both --quiet; echo $?\n"
                   "$J diff both one; $J diff both one --json");
     EXPECT_EQ(o.out.substr(0, 6), "4\n4\n0\n") << o.err;
-    EXPECT_NE(o.out.find("1 missing after, which counts as worse"), std::string::npos) << o.out;
+    EXPECT_TRUE(says(o.out, "1 missing after, which counts as worse"));
     const auto j = nlohmann::json::parse(o.out.substr(o.out.find('{')));
     EXPECT_EQ(j["status"], "worse");
     EXPECT_EQ(j["missing"], 1);
@@ -299,9 +297,7 @@ TEST(Diff, HistoryComparesEachCommitWithTheOneBefore) {
     EXPECT_EQ(steps[1]["worse"], 1);
     EXPECT_EQ(steps[2]["worse"], 0);
     EXPECT_EQ(steps[2]["cells_new"], 1);
-    const Outcome outside = shell(scratch, "mkdir z; $J diff --history z");
-    EXPECT_EQ(outside.code, 2);
-    EXPECT_NE(outside.err.find("git"), std::string::npos) << outside.err;
+    EXPECT_TRUE(ends(shell(scratch, "mkdir z; $J diff --history z"), 2, "git"));
 }
 
 }  // namespace

@@ -25,8 +25,7 @@ const std::string cells = "[[cells]]\nscenes = [\"free_string\"]\n";  // two lin
 // ---- The file
 
 TEST(FigureFile, FiguresInTheSuiteAreRefusedWithWhereTheyStand) {
-    EXPECT_NE(refusal_of(cells + "[[figure]]\nname = \"1\"").find("stand beside it in a.vl.json"), std::string::npos)
-        << refusal_of(cells + "[[figure]]\nname = \"1\"");
+    EXPECT_TRUE(says(refusal_of(cells + "[[figure]]\nname = \"1\""), "stand beside it in a.vl.json"));
 }
 
 TEST(FigureFile, WhatIsWrongWithAFacetIsSaidWithFileLineAndKey) {
@@ -48,15 +47,14 @@ TEST(FigureFile, WhatIsWrongWithAFacetIsSaidWithFileLineAndKey) {
         {"taps = [{ name = \"a\", quantity = \"velocity\", string = 1e300 }]",
          "a.toml:3: cells.0.taps.0.string: found 1e+300, expected a whole number from 0 to 1000"},
     };
-    for (const auto& [text, expected] : cases)
-        EXPECT_NE(refusal_of(cells + text).find(expected), std::string::npos) << refusal_of(cells + text);
+    for (const auto& [text, expected] : cases) EXPECT_TRUE(says(refusal_of(cells + text), expected));
     const bench::suite::Suite suite =
         bench::suite::parse_suite(cells + "measure = [\"trace\"]\ntrace = { taps = [\"nit\"], windows = [[0, 1]] }", "a.toml");
     try {
         bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
         FAIL() << "a tap that is not there was planned";
     } catch (const bench::store::UsageError& e) {
-        EXPECT_NE(std::string(e.what()).find("scene free_string: trace: unknown tap \"nit\"; did you mean"), std::string::npos) << e.what();
+        EXPECT_TRUE(says(std::string(e.what()), "scene free_string: trace: unknown tap \"nit\"; did you mean")) << e.what();
     }
 }
 
@@ -79,9 +77,8 @@ const char* one_mode = R"(
     centroid = { taps = ["middle"], window = 0.1, hop = 0.05 }
 )";
 struct OneMode {
-    bench::suite::Suite suite = bench::suite::parse_suite(one_mode, "a.toml");
-    bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    std::vector<bench::study::Record> records = bench::study::run(plan, "", false, 1, bench::store::Listener()).records;
+    Planned plan{one_mode};
+    std::vector<bench::study::Record> records = plan.run().records;
     const Scene& scene = plan.points[0].scene;
     double omega = modes_of(scene.strings[0], 1).omega0[0];
     double amplitude = initial_displacement(modes_of(scene.strings[0], 1), scene.strings[0])[0];
@@ -145,7 +142,7 @@ TEST(FigureRows, FollowTheClosedFormOfASingleMode) {
 // Two modes that sound as loud: their centroid lies between them, and of a band that holds one it is that one.
 TEST(FigureRows, OfACentroidKnowOnlyTheirBand) {
     const auto centroid_of = [](const std::string& band) {
-        const bench::suite::Suite suite = bench::suite::parse_suite(R"(
+        const Planned plan(R"(
             [[cells]]
             scenes = ["free_string"]
             schemes = ["modal_two_point"]
@@ -153,12 +150,9 @@ TEST(FigureRows, OfACentroidKnowOnlyTheirBand) {
             modes = 2
             duration = 0.2
             measure = ["centroid"]
-            centroid = { taps = ["nut"], window = 0.1, hop = 0.1)" + band +
-                                                                        " }",
-                                                                    "a.toml");
-        const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-        const auto records = bench::study::run(plan, "", false, 1, bench::store::Listener()).records;
-        return bench::study::rows_of("centroid", plan, records).number(0, "centroid_hz");
+            centroid = { taps = ["nut"], window = 0.1, hop = 0.1)" +
+                           band + " }");
+        return plan.rows_of("centroid").number(0, "centroid_hz");
     };
     const auto modes = modes_of(read_scene("free_string").strings[0], 2);
     const double first = modes.omega0[0] / (2 * std::numbers::pi), second = modes.omega0[1] / (2 * std::numbers::pi);
@@ -188,10 +182,8 @@ TEST(FigureRows, OfAPressureAreTheForceThroughTheBodysResponse) {
     } catch (const bench::store::UsageError& e) {
         EXPECT_STREQ(e.what(), "scene tanpura_c3: trace: tap bridge_pressure: the scene has no body.bridge");
     }
-    const bench::suite::Suite suite = bench::suite::parse_suite(
-        set + "sweep = { \"body.bridge\" = [\"synthetic_bridge.wav\"], \"body.nut\" = [\"synthetic_nut.wav\"] }", "a.toml");
-    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    const auto records = bench::study::run(plan, "", false, 1, bench::store::Listener()).records;
+    const Planned plan(set + "sweep = { \"body.bridge\" = [\"synthetic_bridge.wav\"], \"body.nut\" = [\"synthetic_nut.wav\"] }");
+    const auto records = plan.run().records;
     const bench::store::Table rows = bench::study::rows_of("trace", plan, records);
     EXPECT_EQ(bench::study::table_of(plan, records).column("error_l2_whole_bridge_pressure"), -1);  // what is drawn alone has no error
 
@@ -245,7 +237,7 @@ TEST(FigureRows, ThePositionsOfAProfileAreNoTapsOfTheTableOfErrors) {
     const OneMode m;
     const bench::store::Table t = bench::study::table_of(m.plan, m.records);
     EXPECT_GE(t.column("error_l2_whole_middle"), 0);
-    for (const std::string& name : t.columns) EXPECT_EQ(name.find("profile_"), std::string::npos) << name;
+    for (const std::string& name : t.columns) EXPECT_FALSE(says(name, "profile_"));
 }
 
 TEST(FigureRows, ACellWithAnotherWindowIsAnotherCell) {
@@ -299,18 +291,18 @@ TEST(FigureCommand, ASuiteWritesItsPicturesAndSaysWhichItCouldNotDraw) {
         const Outcome o = jvari(scratch, command);
         EXPECT_EQ(o.code, 0) << o.err;
         if (!bench::report::find_vega().missing.empty()) {
-            EXPECT_NE(o.err.find("npm ci"), std::string::npos) << o.err;
+            EXPECT_TRUE(says(o.err, "npm ci"));
             continue;
         }
         const std::string svg = content(scratch.path / "out" / "figure-1.svg");
         EXPECT_EQ(svg.rfind("<svg", 0), 0u);
-        EXPECT_NE(svg.find(">left<"), std::string::npos);
-        EXPECT_NE(o.err.find("figure-2.svg: table profile: there is no column displacment; it has"), std::string::npos) << o.err;
-        EXPECT_NE(o.err.find("figure-3.svg: there is no table trac"), std::string::npos) << o.err;
+        EXPECT_TRUE(says(svg, ">left<"));
+        EXPECT_TRUE(says(o.err, "figure-2.svg: table profile: there is no column displacment; it has"));
+        EXPECT_TRUE(says(o.err, "figure-3.svg: there is no table trac"));
         std::filesystem::remove(scratch.path / "out" / "figure-1.svg");  // the folder has what it takes to draw it again
     }
     EXPECT_FALSE(std::filesystem::exists(scratch.path / "out" / "figure-2.svg"));
-    EXPECT_NE(content(scratch.path / "out" / "profile.csv").find("displacement_m"), std::string::npos);
+    EXPECT_TRUE(says(content(scratch.path / "out" / "profile.csv"), "displacement_m"));
 }
 
 }  // namespace

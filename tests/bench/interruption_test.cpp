@@ -123,11 +123,11 @@ TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
         const std::string said = "interrupted: " + std::to_string(n) + " of 24 cells and " +
                                  std::to_string(files_of(scratch / "stopped/references", ".run")) + " runs of references are kept in " +
                                  (scratch / "stopped") + "; --resume";
-        EXPECT_NE(content(scratch / "stderr").find(said), std::string::npos) << content(scratch / "stderr");
+        EXPECT_TRUE(says(content(scratch / "stderr"), said));
         EXPECT_EQ(content(scratch / "stdout"), "");
     }
     ASSERT_EQ(Started(scratch, {"suite", file, "--resume", "--out", scratch / "stopped"}).end(), -1);
-    EXPECT_NE(content(scratch / "stdout").find(" " + std::to_string(before) + " read back"), std::string::npos);
+    EXPECT_TRUE(says(content(scratch / "stdout"), " " + std::to_string(before) + " read back"));
     EXPECT_EQ(content(scratch / "stopped/errors.csv"), content(scratch / "whole/errors.csv"));
 }
 
@@ -156,12 +156,10 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
     }
     EXPECT_EQ(cells_in(cells), 3);
     const std::string said = content(scratch / "stderr");
-    EXPECT_NE(said.find("interrupted: the errors of 3 of 4 cells are kept in " + out + "; --resume goes on from there"), std::string::npos)
-        << said;
+    EXPECT_TRUE(says(said, "interrupted: the errors of 3 of 4 cells are kept in " + out + "; --resume goes on from there"));
     EXPECT_FALSE(fs::exists(out + "/cells.csv"));
     ASSERT_EQ(Started(scratch, arguments(out, " --resume")).end(), -1) << content(scratch / "stderr");
-    EXPECT_NE(content(scratch / "stderr").find("the errors of 3 of 4 cells were read back"), std::string::npos)
-        << content(scratch / "stderr");
+    EXPECT_TRUE(says(content(scratch / "stderr"), "the errors of 3 of 4 cells were read back"));
     for (const char* table : {"/errors.csv", "/convergence.csv"}) EXPECT_EQ(content(out + table), content(scratch / "whole" + table));
     for (const auto& sound : fs::directory_iterator(scratch / "whole/sounds"))
         EXPECT_EQ(content(out + "/sounds/" + sound.path().filename().string()), content(sound.path())) << sound.path();
@@ -182,8 +180,7 @@ TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
         std::this_thread::sleep_for(under_way);
         nowhere.send(SIGINT);
         EXPECT_EQ(nowhere.end(), SIGINT) << arguments.front();
-        EXPECT_NE(content(scratch / "stderr").find("interrupted: nothing is kept, " + said), std::string::npos)
-            << arguments.front() << ": " << content(scratch / "stderr");
+        EXPECT_TRUE(says(content(scratch / "stderr"), "interrupted: nothing is kept, " + said)) << arguments.front() << ": ";
     }
     EXPECT_FALSE(fs::exists(scratch / "c.json"));
     EXPECT_FALSE(fs::exists(scratch / "c.json.lock"));
@@ -202,7 +199,7 @@ TEST(Interruption, ASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
     EXPECT_EQ(suite.end(), SIGINT);
     EXPECT_EQ(files_of(references, ".run"), 6);  // of the free string
     const std::string said = "interrupted: 1 of 2 cells and 6 runs of references are kept in " + (scratch / "all") + "; --resume";
-    EXPECT_NE(content(scratch / "stderr").find(said), std::string::npos) << content(scratch / "stderr");
+    EXPECT_TRUE(says(content(scratch / "stderr"), said));
     EXPECT_EQ(files_of(references, ".lock") + files_of(scratch / "all/cells", ".lock"), 0);
 }
 

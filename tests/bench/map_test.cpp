@@ -63,7 +63,7 @@ TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
         {head + x + head + x, "map.1.name: found \"a\", expected a name of its own"},
         {"[[map]]\nname = \"A b\"\nscene = \"b\"\n" + x, "a.toml:2: map.0.name"},
     };
-    for (const auto& [text, expected] : cases) EXPECT_NE(refusal_of(text).find(expected), std::string::npos) << refusal_of(text);
+    for (const auto& [text, expected] : cases) EXPECT_TRUE(says(refusal_of(text), expected));
 }
 
 // ---- Bisection
@@ -233,7 +233,7 @@ TEST(Maps, WhereAnExplicitSchemeWithItsComplianceMatchedLosesLastingContactIsKno
     const bench::store::Table t = bench::map::boundaries_table(run, {});
     for (std::size_t i = 0; i < t.rows.size(); ++i)
         EXPECT_EQ(t.at(i, "theory_holds_for").starts_with("lasting contact;"), !t.at(i, "theory").empty()) << t.at(i, "theory_holds_for");
-    EXPECT_NE(bench::map::maps_text(run).find("theory holds for lasting contact;"), std::string::npos) << bench::map::maps_text(run);
+    EXPECT_TRUE(says(bench::map::maps_text(run), "theory holds for lasting contact;"));
 }
 
 TEST(Maps, AReferenceWithModesOfItsOwnIsTheSameForEveryPoint) {
@@ -266,7 +266,7 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
     EXPECT_EQ(t.at(0, "outcome"), "sound");
     EXPECT_EQ(t.at(0, "reference"), "exact_linear");
     EXPECT_EQ(t.at(1, "outcome"), "refused");
-    EXPECT_NE(t.at(1, "detail").find("half the sample rate"), std::string::npos) << t.at(1, "detail");
+    EXPECT_TRUE(says(t.at(1, "detail"), "half the sample rate"));
     const bench::store::Table boundaries =
         bench::map::boundaries_table(run, {{{"modal_two_point", bench::study::Verdict::refused}, "failures/a.toml"}});
     ASSERT_GE(boundaries.rows.size(), 2u);

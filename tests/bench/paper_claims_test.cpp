@@ -5,11 +5,9 @@
 #include <algorithm>
 
 #include "bench/store/fresh_file.hpp"
-#include "bench/study/columns.hpp"
-#include "bench/study/run.hpp"
 #include "bench/suite/claims.hpp"
 #include "bench/suite/reduce.hpp"
-#include "bench/suite/suite_plan.hpp"
+#include "tests/suite_text.hpp"
 
 namespace jvari::test {
 namespace {
@@ -35,9 +33,7 @@ INSTANTIATE_TEST_SUITE_P(Results, Papers,
                          testing::Values("paper-deshmukh", "paper-issanchou", "paper-van-walstijn", "paper-verdicts", "work-precision"));
 
 Table made(const char* facet, const char* cells) {
-    const bench::suite::Suite suite = bench::suite::parse_suite(cells, "a.toml");
-    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    return bench::study::rows_of(facet, plan, bench::study::run(plan, "", false, 1, bench::store::Listener()).records);
+    return test::Planned(cells).rows_of(facet);
 }
 
 // Of the rows that carry these fields.

@@ -160,9 +160,7 @@ duration = 0.01
 elements = ["thread", "contact", "stiffness", "taps", "probe"]
 measure = ["errors", "cost"]
 )";
-    const bench::suite::Suite suite = bench::suite::parse_suite(text, "a.toml");
-    const bench::compare::Catalogue catalogue;
-    const bench::study::Plan plan = bench::suite::plan_of(suite, catalogue, {});
+    const test::Planned plan(text);
     ASSERT_EQ(plan.jobs.size(), 6u);
     EXPECT_TRUE(plan.jobs[0].point->swept.empty());
     const char* changes[] = {"", "-thread", "-contact", "-stiffness", "-taps", "+probe"};

@@ -133,8 +133,8 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
     const Outcome again = shell(scratch, "$J suite a.toml --out all --resume");
     EXPECT_EQ(again.code, 0);
     for (const auto& [index, written] : minimised) EXPECT_EQ(fs::last_write_time(index), written) << "minimised again: " << index;
-    EXPECT_EQ(again.err.find("holds what is not of a suite"), std::string::npos) << again.err;
-    EXPECT_NE(again.out.find("16 cells, 0 run, 0 timed, 16 read back"), std::string::npos) << again.out;
+    EXPECT_FALSE(says(again.err, "holds what is not of a suite"));
+    EXPECT_TRUE(says(again.out, "16 cells, 0 run, 0 timed, 16 read back"));
 }
 
 TEST(SharedFolder, WhoIsKilledHoldsNobodyUp) {
@@ -178,8 +178,8 @@ TEST(SharedFolder, TwoProgramsHaveEachTheirOwnCells) {
     ASSERT_EQ(shell(scratch, suite + "whole --quiet").code, 0) << content(scratch / "stderr");
     ASSERT_EQ(shell(scratch, suite + "all --resume >out1 & " + suite + "all --resume" + plugin + " >out2 && wait $!").code, 0);
     EXPECT_EQ(numbers_before("run,", scratch, 2), (std::vector<int>{8, 8}));
-    EXPECT_NE(shell(scratch, suite + "all --resume" + plugin).out.find(" 0 run, 0 timed, 8 read back"), std::string::npos);
-    EXPECT_NE(shell(scratch, suite + "all --resume").out.find(" 0 run, 0 timed, 8 read back"), std::string::npos);
+    EXPECT_TRUE(says(shell(scratch, suite + "all --resume" + plugin).out, " 0 run, 0 timed, 8 read back"));
+    EXPECT_TRUE(says(shell(scratch, suite + "all --resume").out, " 0 run, 0 timed, 8 read back"));
     EXPECT_EQ(content(scratch / "all/errors.csv"), content(scratch / "whole/errors.csv"));
 }
 
@@ -199,11 +199,11 @@ TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
         if (file == made.back()) ASSERT_EQ(mkfifo((file.string() + ".lock").c_str(), 0600), 0);
         else fs::create_directory(file.string() + ".lock");
     }
-    EXPECT_EQ(shell(scratch, suite).err.find("no file can be locked here"), std::string::npos);
+    EXPECT_FALSE(says(shell(scratch, suite).err, "no file can be locked here"));
     for (const fs::path& file : made) EXPECT_TRUE(fs::exists(file) && fs::exists(file.string() + ".lock")) << file;
     EXPECT_EQ(content(scratch / "all/errors.csv"), table);
     fs::create_directory(scratch / "all/cells/any.lock");
-    EXPECT_NE(shell(scratch, suite).err.find("all: no file can be locked here. Processes that share this folder"), std::string::npos);
+    EXPECT_TRUE(says(shell(scratch, suite).err, "all: no file can be locked here. Processes that share this folder"));
 }
 
 TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
@@ -239,11 +239,9 @@ TEST(SharedFolder, TheScriptForSlurmIsOneThatAShellReads) {
     const Scratch scratch;
     std::ofstream(scratch / "it's a.toml") << study;
     Outcome o = shell(scratch, "$J suite \"it's a.toml\" --out 'my study' --print slurm > job.sh && sh -n job.sh && cat job.sh");
-    EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.out.find("\nexec " JVARI_PROGRAM " suite '" + (scratch / "it'\\''s a.toml") + "' --out '" + (scratch / "my study") +
-                         "' --resume --jobs \"${SLURM_CPUS_PER_TASK:-1}\"\n"),
-              std::string::npos)
-        << o.out;
+    EXPECT_TRUE(ends(o, 0,
+                     "\nexec " JVARI_PROGRAM " suite '" + (scratch / "it'\\''s a.toml") + "' --out '" + (scratch / "my study") +
+                         "' --resume --jobs \"${SLURM_CPUS_PER_TASK:-1}\"\n"));
     EXPECT_EQ(o.out.find("#!/bin/sh\n#SBATCH --array="), 0u) << o.out;
     EXPECT_LE(std::count(o.out.begin(), o.out.end(), '\n'), 10);
     EXPECT_FALSE(fs::exists(scratch / "my study"));
@@ -251,7 +249,7 @@ TEST(SharedFolder, TheScriptForSlurmIsOneThatAShellReads) {
 
     // a suite of the library is called by its name, whatever stands there under that name
     o = shell(scratch, "mkdir smoke; $J suite smoke --out smoke --print slurm");
-    EXPECT_NE(o.out.find(" suite smoke --out " + (scratch / "smoke") + " "), std::string::npos) << o.out << o.err;
+    EXPECT_TRUE(says(o.out, " suite smoke --out " + (scratch / "smoke") + " ")) << o.err;
 
     // a line break would be a line of the script
     for (const char* with :
@@ -260,7 +258,7 @@ TEST(SharedFolder, TheScriptForSlurmIsOneThatAShellReads) {
                                std::string(with) + " --print slurm");
         EXPECT_EQ(o.code, 2) << with;
         EXPECT_EQ(o.out, "") << with;
-        EXPECT_NE(o.err.find("a file name holds a control character"), std::string::npos) << with << o.err;
+        EXPECT_TRUE(says(o.err, "a file name holds a control character")) << with;
     }
 }
 
@@ -292,9 +290,9 @@ TEST(Machines, EachHasItsOwnFrontAndItsOwnCheapest) {
     for (std::size_t i = 0; i < cheapest.rows.size(); ++i)
         if (cheapest.at(i, "target") == "0.01") of[cheapest.at(i, "machine")] = cheapest.at(i, "scheme");
     EXPECT_EQ(of, (std::map<std::string, std::string>{{"A", "s2"}, {"B", "s3"}}));
-    EXPECT_NE(bench::compare::cheapest_text(cheapest).find("several machines: each has its own"), std::string::npos);
+    EXPECT_TRUE(says(bench::compare::cheapest_text(cheapest), "several machines: each has its own"));
     EXPECT_EQ(bench::compare::cheapest_of(timed_on(one)).column("machine"), -1);
-    EXPECT_NE(bench::store::machines_text(timed_on(two)).find("timed on 2 machines"), std::string::npos);
+    EXPECT_TRUE(says(bench::store::machines_text(timed_on(two)), "timed on 2 machines"));
     EXPECT_EQ(bench::store::machines_text(timed_on(one)), "");
 }
 
@@ -352,7 +350,7 @@ measure = ["errors", "cost"]
     timed_elsewhere(3, false);
     const Outcome o = shell(scratch, "$J suite a.toml --out all --resume");
     EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("cells were timed on 2 machines; costs are compared within each alone"), std::string::npos) << o.err;
+    EXPECT_TRUE(says(o.err, "cells were timed on 2 machines; costs are compared within each alone"));
     const bench::store::Table t = bench::store::read_csv(content(scratch / "all/cells.csv"));
     EXPECT_EQ(t.at(0, "machine"), bench::store::stamp_now().name);
     EXPECT_EQ(t.at(1, "machine"), bench::store::stamp_now().name);
@@ -362,11 +360,11 @@ measure = ["errors", "cost"]
 
     fs::remove(cells / bench::study::clock_file(plan.jobs[1], bench::store::stamp_now()));  // the set has no machine that timed all of it
     const Outcome resumed = shell(scratch, "$J suite a.toml --out all --resume");
-    EXPECT_NE(resumed.out.find("4 cells, 0 run, 1 timed"), std::string::npos) << resumed.out;
+    EXPECT_TRUE(says(resumed.out, "4 cells, 0 run, 1 timed"));
     bench::store::Stamp elsewhere;
     elsewhere.name = "another CPU, 64 cores";
     fs::remove(cells / bench::study::clock_file(plan.jobs[3], elsewhere));  // nor has the other: both of its cells are timed here
-    EXPECT_NE(shell(scratch, "$J suite a.toml --out all --resume").out.find("4 cells, 0 run, 2 timed"), std::string::npos);
+    EXPECT_TRUE(says(shell(scratch, "$J suite a.toml --out all --resume").out, "4 cells, 0 run, 2 timed"));
 }
 
 }  // namespace

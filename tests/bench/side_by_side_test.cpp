@@ -1,5 +1,6 @@
 // Things side by side: each once, as many at a time as asked for, and failures as if they had gone one by one.
 #include "bench/store/system/side_by_side.hpp"
+#include "tests/says.hpp"
 
 #include <gtest/gtest.h>
 
@@ -77,8 +78,8 @@ TEST(SideBySide, TheLineSaysHowManyAreDoneHowLongItTakesAndWhichTookLongest) {
     bench::store::side_by_side(
         {1, 1, 1, 1}, 1, ear, "", [](std::size_t i, bench::store::Done& done) { done = 0.5, wait(i == 1 ? 1300 : 5); },
         [](std::size_t i) { return "number " + std::to_string(i); });
-    EXPECT_NE(ear.last.find(" of 4, about "), std::string::npos) << ear.last;
-    EXPECT_NE(ear.last.find("longest 1 s: number 1"), std::string::npos) << ear.last;
+    EXPECT_TRUE(says(ear.last, " of 4, about "));
+    EXPECT_TRUE(says(ear.last, "longest 1 s: number 1"));
 }
 
 TEST(SideBySide, WhatTheListenerThrowsEndsThoseThatRunAndBeginsNoOther) {

@@ -45,9 +45,7 @@ TEST(TraceFile, HasAnyNameThatTheFileSystemTakes) {
         const std::string name = longest.substr(0, 255 - std::string(extension).size()) + extension;
         EXPECT_EQ(shell(scratch, run + name).code, 0) << name;
         EXPECT_TRUE(std::filesystem::exists(scratch / name));
-        const Outcome longer = shell(scratch, run + "a" + name);
-        EXPECT_EQ(longer.code, 2);
-        EXPECT_NE(longer.err.find("too long"), std::string::npos) << longer.err;
+        EXPECT_TRUE(ends(shell(scratch, run + "a" + name), 2, "too long"));
     }
 }
 
@@ -78,15 +76,13 @@ TEST(TraceFile, WhatOneDoesNotHoldIsSaidBeforeTheRun) {
         std::ofstream(scratch / "s.toml") << scene_with(c.taps);
         const Outcome o = shell(scratch, "$J run s.toml --scheme modal_two_point --energy --modes 20 --duration 1e4 --rate " + c.rate +
                                              " --tap-rate " + c.rate + " --out " + c.file);  // never run
-        EXPECT_EQ(o.code, 2) << c.expected << o.err;
-        EXPECT_NE(o.err.find("--out " + c.file), std::string::npos) << o.err;
-        EXPECT_NE(o.err.find(c.expected), std::string::npos) << o.err;
+        EXPECT_TRUE(ends(o, 2, "--out " + c.file)) << c.expected;
+        EXPECT_TRUE(says(o.err, c.expected));
         EXPECT_EQ(scratch.files(), 1);
     }
     const Scratch scratch;
     const Outcome o = shell(scratch, "$J run free_string --scheme modal_two_point --duration 40000 --out x.wav");
-    EXPECT_EQ(o.code, 2);
-    EXPECT_NE(o.err.find("at most 4e+09 bytes"), std::string::npos) << o.err;
+    EXPECT_TRUE(ends(o, 2, "at most 4e+09 bytes"));
 }
 
 TEST(TraceFile, EachHoldsWhatTheOthersDoNot) {
@@ -109,8 +105,8 @@ TEST(TraceFile, WhatIsPlayedNeedsNoTapAndSaysHowLoudItIs) {
             const Outcome o = shell(scratch, "$J run none.toml --scheme modal_two_point --duration 0.1 --json --out " + file + format);
             ASSERT_EQ(o.code, 0) << o.err;
             const std::string level = nlohmann::json::parse(o.out).at("level");
-            EXPECT_NE(level.find("peak -1.0 dB"), std::string::npos) << level;
-            EXPECT_NE(level.find("0 samples clipped"), std::string::npos) << level;
+            EXPECT_TRUE(says(level, "peak -1.0 dB"));
+            EXPECT_TRUE(says(level, "0 samples clipped"));
             EXPECT_EQ(content(scratch / file).substr(0, 4), file == "x.wav" ? "RIFF" : "fLaC");
             if (file == "x.wav") {
                 EXPECT_EQ(fs::file_size(scratch / file) - 4411 * (format.empty() ? 3 : 2),
@@ -131,7 +127,7 @@ TEST(TraceFile, Hdf5SaysEverySettingOfTheRun) {
     ASSERT_EQ(o.code, 0) << o.err;
     for (const char* name : {"duration", "modes", "sample_rate", "tap_rate", "option.compliance", "set.string.0.tension", "status",
                              "fact.series_compliance", "fact.smallest_contact_force"})
-        EXPECT_NE(o.out.find("ATTRIBUTE \"" + std::string(name) + "\""), std::string::npos) << name;
+        EXPECT_TRUE(says(o.out, "ATTRIBUTE \"" + std::string(name) + "\"")) << name;
 }
 
 TEST(TraceFile, Hdf5HasNoTimeStamps) {
