@@ -42,9 +42,7 @@ fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed s
         return r.out;
     }
     const fs::path folder = "results/certificates";
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw store::UsageError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+    store::make_folder(folder);
     return folder / (trust::file_stem(scene.name) + (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) +
                      (r.reference.empty() ? "" : "-" + r.reference) + ".json");
 }

@@ -10,8 +10,6 @@
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/scene_notes.hpp"
-#include "bench/sound/audio_file.hpp"
-#include "bench/sound/synthetic_body.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
@@ -123,8 +121,9 @@ int new_body(const std::string& name, const Console& console) {
     const fs::path bridge = name + "_bridge.wav", nut = name + "_nut.wav";
     must_be_free(bridge);
     must_be_free(nut);
-    sound::write_audio(bridge, sound::Samples::single, sound::synthetic_rate, {sound::synthetic_response(sound::BodyEnd::bridge)});
-    sound::write_audio(nut, sound::Samples::single, sound::synthetic_rate, {sound::synthetic_response(sound::BodyEnd::nut)});
+    const Body body = read_scene("tanpura_drone").body.value();  // the library's made-up pair
+    store::write_fresh(bridge, store::read_whole(body.bridge));
+    store::write_fresh(nut, store::read_whole(body.nut));
     console.print(fmt::format(
         "written: {} and {}, synthetic: no instrument has them. In a scene beside them:\n\n[body]\nbridge = \"{}\"\nnut = \"{}\"",
         bridge.string(), nut.string(), bridge.string(), nut.string()));

@@ -64,10 +64,7 @@ void must_be_ours(const fs::path& folder, const std::string& what, const store::
 fs::path cells_folder(const fs::path& folder, const std::string& what, const store::Listener& listener) {
     if (folder.empty()) return folder;
     must_be_ours(folder, what, listener);
-    std::error_code error;
-    fs::create_directories(folder / "cells", error);
-    if (!fs::is_directory(folder / "cells"))
-        throw store::UsageError(fmt::format("--out {}: cannot make the folder: {}", folder.string(), error.message()));
+    store::make_folder(folder / "cells");
     store::must_be_writable(folder / "cells.csv");
     store::must_be_writable(folder / "cells" / "any.json");
     for (const char* own : own_folders) store::sweep_parts(folder / own);

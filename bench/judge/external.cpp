@@ -4,14 +4,13 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <map>
-#include <mutex>
 #include <sstream>
 
 #include "bench/judge/foreign_trace.hpp"
 #include "bench/judge/problem_file.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/system/memo.hpp"
 #include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"
 #include "schemes/making.hpp"
@@ -49,16 +48,9 @@ std::shared_ptr<const Trace> computed(const External& e, const Exported& of, con
 
 // Each problem is computed once: a cell is run by the search, for its errors, and once more where it is looked at again.
 std::shared_ptr<const Trace> known(const External& e, const Exported& of) {
-    static std::mutex mutex;
-    static std::map<std::string, std::shared_ptr<const Trace>> all;
-    const std::string problem = problem_json(of, nullptr), key = store::hash_of(e.command + problem);
-    {
-        const std::lock_guard lock(mutex);
-        if (const auto found = all.find(key); found != all.end()) return found->second;
-    }
-    auto trace = computed(e, of, problem);
-    const std::lock_guard lock(mutex);
-    return all.emplace(key, std::move(trace)).first->second;
+    static store::Memo<std::shared_ptr<const Trace>> all;
+    const std::string problem = problem_json(of, nullptr);
+    return all.get(store::hash_of(e.command + problem), [&] { return computed(e, of, problem); });
 }
 
 class Called final : public Scheme {

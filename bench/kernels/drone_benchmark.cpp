@@ -1,20 +1,20 @@
 // A drone of four strings of 133 modes at 44.1 kHz, heard through its body at bridge and nut: without the body, by convolution with 2048
 // rows a side in blocks of 512, and by 16, 32 and 64 second-order sections a side fitted to them. Counters: `real_time`, seconds of sound
-// in a second of one core, and `misfit_db`, the worse of the two fits. The responses are synthetic (bench/sound/synthetic_body.hpp).
+// in a second of one core, and `misfit_db`, the worse of the two fits. The responses are synthetic (tests/synthetic_body.hpp).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 
 #include "analysis/convolution.hpp"
 #include "analysis/resonators.hpp"
-#include "bench/sound/synthetic_body.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
+#include "tests/synthetic_body.hpp"
 
 namespace {
 using namespace jvari;
-using bench::sound::BodyEnd;
+using synthetic::BodyEnd;
 
 constexpr Settings settings() {
     return {44100, 44100, 133, {}};
@@ -30,7 +30,7 @@ void drone(benchmark::State& state, Body body, int sections) {
     std::vector<Resonators> fits;
     double misfit = -300;
     for (const BodyEnd end : {BodyEnd::bridge, BodyEnd::nut}) {
-        const std::vector<double> response = bench::sound::synthetic_response(end);
+        const std::vector<double> response = synthetic::synthetic_response(end);
         convolutions.emplace_back(response, block);
         if (body != Body::sections) continue;
         fits.push_back(resonators_for(response, settings().tap_rate, sections));

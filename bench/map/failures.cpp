@@ -76,8 +76,7 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalog
 }
 
 void write_failures(const fs::path& folder, const std::vector<Reproducer>& all) {
-    std::error_code error;
-    fs::create_directories(folder, error);
+    store::make_folder(folder);
     store::must_be_writable(folder / "index.csv");
     store::Table index;
     index.columns = {"file", "scheme", "rate", "modes", "options", "reference", "reference_modes", "outcome", "step", "detail"};

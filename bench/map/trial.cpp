@@ -66,8 +66,7 @@ Trials::Trials(const compare::Catalogue& catalogue, const MapRequest& request) :
     if (request.folder.empty()) return;
     keep_.folder = request.folder / "points";
     keep_.resume = request.resume;
-    std::error_code error;
-    std::filesystem::create_directories(keep_.folder, error);
+    store::make_folder(keep_.folder);
     store::must_be_writable(keep_.folder / "any");
 }
 

@@ -11,12 +11,7 @@ std::string hash_of(const std::string&);  // 32 hexadecimal digits
 
 // The text of a JSON object with the checksum of all that stands before it as its last member.
 std::string sealed(const std::string& object);
-// That object without its checksum. Throws std::runtime_error where the checksum is not that of the content, before anything is parsed, and
-// where the content is nested too deep.
+// That object without its checksum. Throws std::runtime_error where the checksum is not that of the content.
 std::string unsealed(const std::string& file);
-
-// Throws std::runtime_error for JSON nested deeper than any of ours: who copies or writes it calls himself once per level, to the stack's
-// end.
-void refuse_deep(const std::string& json);
 
 }  // namespace jvari::bench::store

@@ -29,8 +29,7 @@ nlohmann::ordered_json Folder::manifest() const {
     const auto text = content("manifest.json");
     if (!text) throw UsageError(name + ": no manifest.json, expected a folder that compare, suite or trim wrote");
     try {
-        refuse_deep(*text);
-        auto m = nlohmann::ordered_json::parse(*text);
+        auto m = parsed(*text);
         return m.is_object() ? m : throw std::runtime_error("it holds no object");
     } catch (const std::exception& e) {
         refuse(*this, "manifest.json", e.what());

@@ -48,6 +48,12 @@ void must_be_writable(const fs::path& named) {
         throw UsageError(fmt::format("cannot write {}: something that is no file stands there", path.string()));
 }
 
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder)) throw UsageError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+}
+
 FreshFile::FreshFile(fs::path path) : path_(behind_links(std::move(path))) {
     must_be_writable(path_);
     std::random_device random;

@@ -28,6 +28,7 @@ private:
 void write_fresh(const std::filesystem::path&, const std::string& content);  // throws UsageError, Unwritable
 std::string read_whole(const std::filesystem::path&);                        // throws UsageError
 
+void make_folder(const std::filesystem::path&);  // where there is none; throws UsageError
 // Throws UsageError where no file could be written there, before an hour of work is spent on it.
 void must_be_writable(const std::filesystem::path&);
 

@@ -24,6 +24,18 @@ inline std::string indented(const nlohmann::ordered_json& j) {
     return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+// Throws std::exception for what is no JSON, or nested deeper than any of ours (certificates have six levels): who copies or writes that
+// calls himself once per level, to the stack's end.
+inline nlohmann::ordered_json parsed(const std::string& text) {
+    using Json = nlohmann::ordered_json;
+    constexpr int deepest = 32;
+    return Json::parse(text, [](int level, Json::parse_event_t event, const Json&) {
+        if (level >= deepest && (event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start))
+            throw std::runtime_error("it is nested deeper than 32 levels");
+        return true;
+    });
+}
+
 // Text as it stands in HTML and XML.
 inline std::string escaped(const std::string& text) {
     std::string safe;
@@ -76,7 +88,7 @@ auto read_kept(const std::filesystem::path& file, Read read) -> std::optional<st
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
     try {
-        return read(nlohmann::ordered_json::parse(unsealed(read_whole(file))));
+        return read(parsed(unsealed(read_whole(file))));
     } catch (const std::exception&) {  // it is computed again
         return std::nullopt;
     }

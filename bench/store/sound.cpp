@@ -75,9 +75,7 @@ Sound read_wav(const fs::path& path, double peak) {
 }
 
 void write_sounds(const fs::path& folder, const std::vector<std::string>& who, const std::vector<NamedSound>& sounds) {
-    std::error_code error;
-    fs::create_directories(folder / "sounds", error);
-    if (error) throw UsageError(fmt::format("cannot make the folder {}: {}", (folder / "sounds").string(), error.message()));
+    make_folder(folder / "sounds");
     Table t{who, {}};
     t.columns.insert(t.columns.end(), {"tap", "quantity", "sample_rate", "peak", "file", "reference_file"});
     for (const NamedSound& s : sounds) {

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "bench/sound/radiation.hpp"
-#include "bench/sound/synthetic_body.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/reduction.hpp"
 
@@ -55,7 +54,7 @@ Scene without(Element e, Scene scene) {
         throw store::UsageError(fmt::format("elements: it has no {} to {}", what, verb));
     };
     if ((e == Element::body || e == Element::radiation) && !scene.body) refuse("body", e == Element::body ? "go without" : "radiate");
-    if (e == Element::radiation && sound::radiating_taps(scene, sound::synthetic_rate).empty())
+    if (e == Element::radiation && sound::radiating_taps(scene, 44100).empty())
         throw store::UsageError("elements: no tap is of what its body radiates: the driving force or the nut force of all strings");
     if (e == Element::body) scene.body.reset();
     if (e == Element::body || is_added(e)) return scene;

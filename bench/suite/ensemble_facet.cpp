@@ -3,13 +3,12 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <future>
 #include <map>
-#include <mutex>
 #include <numbers>
 
 #include "analysis/ensemble.hpp"
 #include "bench/store/cell_rows.hpp"
+#include "bench/store/system/memo.hpp"
 #include "reference/certificate.hpp"
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
@@ -54,26 +53,6 @@ Runs runs_of(const Descriptor& d, const Scene& scene, const Settings& settings, 
     return runs;
 }
 
-// Those of a reference, which all cells of a scene share.
-Runs reference_runs(const Descriptor& d, const Scene& scene, const Settings& settings, int tap) {
-    static std::mutex mutex;
-    static std::map<std::string, std::shared_future<Runs>> kept;
-    const std::string key = fmt::format("{} {} {} {} {}", d.name, scene_hash(scene), settings.tap_rate, settings.modes, tap);
-    std::promise<Runs> mine;
-    std::shared_future<Runs> runs;
-    bool first = false;
-    {
-        const std::lock_guard lock(mutex);
-        if (const auto found = kept.find(key); found != kept.end()) runs = found->second;
-        else runs = kept[key] = mine.get_future().share(), first = true;
-    }
-    if (first) try {
-            mine.set_value(runs_of(d, scene, settings, tap, 0));
-        } catch (...) {
-            mine.set_exception(std::current_exception());
-        }
-    return runs.get();
-}
 }  // namespace
 
 store::Table ensemble_rows(const MeasuredCell& c) {
@@ -84,7 +63,9 @@ store::Table ensemble_rows(const MeasuredCell& c) {
     const int own = c.settings.modes > 0 ? c.settings.modes : modes_for(c.scene, c.settings);
     const int asked = c.set.reference_modes.value_or(0);
     const Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : own, {}};
-    const Runs theirs = reference_runs(*reference, c.scene, settings, c.tap);
+    static store::Memo<Runs> references;  // all cells of a scene share theirs
+    const std::string key = fmt::format("{} {} {} {} {}", reference->name, scene_hash(c.scene), settings.tap_rate, settings.modes, c.tap);
+    const Runs& theirs = references.get(key, [&] { return runs_of(*reference, c.scene, settings, c.tap, 0); });
     const Runs mine = runs_of(c.scheme, c.scene, c.settings, c.tap, ensemble_runs);
     int apart = 0;
     for (const Told& told : told_apart(mine, theirs)) {

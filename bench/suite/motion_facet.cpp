@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <set>
 
 #include "bench/store/base64.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/system/memo.hpp"
 #include "reference/references.hpp"
 #include "scenes/barrier.hpp"
 #include "scenes/scene_file.hpp"
@@ -98,16 +97,6 @@ std::vector<std::string> row_of(const Scene& scene, const Trace& t) {
             base64_of(force, most),
             obstacle};
 }
-
-Run reference_run(const Descriptor& d, const Scene& scene, const Settings& settings) {  // which all cells of a scene share
-    static std::mutex mutex;
-    static std::map<std::string, Run> kept;
-    const std::string key =
-        fmt::format("{} {} {} {} {}", d.name, scene_hash(scene), settings.tap_rate, settings.modes, store::options_text(settings.options));
-    const std::lock_guard lock(mutex);
-    const auto found = kept.find(key);
-    return found != kept.end() ? found->second : kept[key] = run(d, scene, settings);
-}
 }  // namespace
 
 store::Table motion_rows(const MeasuredCell& c) {
@@ -122,7 +111,11 @@ store::Table motion_rows(const MeasuredCell& c) {
         Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : c.settings.modes, {}};
         for (const auto& [option, values] : c.set.varied)
             if (option.scheme == reference->name && values.size() == 1) settings.options.emplace_back(option.name, values[0]);
-        if (const Run r = reference_run(*reference, scene, settings); r.status.outcome == Outcome::ok) theirs = row_of(scene, r.trace);
+        static store::Memo<Run> references;  // all cells of a scene share theirs
+        const std::string key = fmt::format("{} {} {} {} {}", reference->name, scene_hash(scene), settings.tap_rate, settings.modes,
+                                            store::options_text(settings.options));
+        const Run& r = references.get(key, [&] { return run(*reference, scene, settings); });
+        if (r.status.outcome == Outcome::ok) theirs = row_of(scene, r.trace);
     }
     row.insert(row.end(), theirs.begin(), theirs.end());
     t.rows.push_back(std::move(row));

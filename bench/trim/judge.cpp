@@ -97,8 +97,7 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const 
         keep_.folder = fs::path(request_.out) / "cells";
         keep_.resume = true;
         keep_.least = worth_keeping;
-        std::error_code error;
-        fs::create_directories(keep_.folder, error);
+        store::make_folder(keep_.folder);
         store::must_be_writable(fs::path(request_.out) / "path.csv");
         store::sweep_parts(keep_.folder);
     }

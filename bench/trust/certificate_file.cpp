@@ -168,7 +168,7 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
         return std::nullopt;
     }
     try {
-        const Json j = Json::parse(store::unsealed(store::read_whole(path)));
+        const Json j = store::parsed(store::unsealed(store::read_whole(path)));
         if (j.at("format") != format) throw std::runtime_error("it is of another format, " + j.at("format").dump());
         KeptCertificate kept;
         kept.program = j.at("program").dump();
@@ -202,9 +202,7 @@ std::filesystem::path cost_path(const std::filesystem::path& certificate) {
 
 void read_costs(const std::filesystem::path& certificate, KeptCertificate& kept) {
     try {
-        const std::string text = store::read_whole(cost_path(certificate));
-        store::refuse_deep(text);
-        const Json j = Json::parse(text);
+        const Json j = store::parsed(store::read_whole(cost_path(certificate)));
         if (j.at("key") != kept.key || j.at("entries").size() != kept.certificate.entries.size()) return;
         for (std::size_t i = 0; i < kept.certificate.entries.size(); ++i)
             if (const Json& seconds = j.at("entries").at(i).at("wall_seconds"); seconds.is_number())

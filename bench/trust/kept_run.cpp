@@ -64,9 +64,7 @@ std::optional<Run> read_run(const fs::path& path, const std::string& key) noexce
         const std::string file = store::read_whole(path), content = file.substr(std::min(checksum_size, file.size()));
         const auto head_size = content.find('\n');
         if (!file.starts_with(store::hash_of(content)) || head_size == std::string::npos) return std::nullopt;
-        const std::string head = content.substr(0, head_size);
-        store::refuse_deep(head);
-        const Json j = Json::parse(head);
+        const Json j = store::parsed(content.substr(0, head_size));
         if (j.at("key") != key) return std::nullopt;
         Run r;
         r.status = {store::outcome_named(j.at("outcome")), store::whole<long>(j.at("failed_step"))};

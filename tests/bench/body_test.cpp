@@ -8,16 +8,18 @@
 
 #include "bench/sound/audio_file.hpp"
 #include "bench/sound/radiation.hpp"
-#include "bench/sound/synthetic_body.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/c3.hpp"
+#include "tests/says.hpp"
+#include "tests/synthetic_body.hpp"
 
 namespace jvari {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace bench::sound;
+using namespace synthetic;
 
 struct Folder {
     Folder() { fs::create_directories(path); }
@@ -47,7 +49,7 @@ TEST(SyntheticBody, RadiatesLittleBelowItsLowestModeAndItsStrongestAnswersWithOn
     EXPECT_LT(20 * std::log10(gain_at(bridge, 0, synthetic_rate)), -40);
 }
 
-TEST(SyntheticBody, OfTheLibraryIsWhatTheProgramMakes) {
+TEST(SyntheticBody, OfTheLibraryIsMadeByThisRecipe) {
     const Body body = read_scene("tanpura_drone").body.value();
     for (const auto& [end, name] : {std::pair{BodyEnd::bridge, body.bridge}, std::pair{BodyEnd::nut, body.nut}}) {
         const auto made = synthetic_response(end);
@@ -70,7 +72,7 @@ TEST(ImpulseResponse, HasTheSameGainAtAnotherRate) {
 
 TEST(ImpulseResponse, ThatCannotBeTakenSaysWhy) {
     const Folder folder;
-    const auto says = [](const std::string& file) {
+    const auto message_of = [](const std::string& file) {
         try {
             impulse_response(file, 44100, "body.nut");
         } catch (const bench::store::UsageError& e) {
@@ -78,13 +80,13 @@ TEST(ImpulseResponse, ThatCannotBeTakenSaysWhy) {
         }
         return std::string();
     };
-    EXPECT_NE(says(folder / "nothing.wav").find("body.nut: found"), std::string::npos);
+    EXPECT_TRUE(says(message_of(folder / "nothing.wav"), "body.nut: found"));
     write_audio(folder / "two.wav", Samples::pcm16, 44100, {{0.5, 0.5}, {0.5, 0.5}});
-    EXPECT_NE(says(folder / "two.wav").find("which has 2 channels"), std::string::npos);
+    EXPECT_TRUE(says(message_of(folder / "two.wav"), "which has 2 channels"));
     write_audio(folder / "none.wav", Samples::pcm16, 44100, {{}});
-    EXPECT_NE(says(folder / "none.wav").find("which is empty"), std::string::npos);
+    EXPECT_TRUE(says(message_of(folder / "none.wav"), "which is empty"));
     write_audio(folder / "long.wav", Samples::single, 1000, {std::vector<double>(11000, 0.1)});
-    EXPECT_NE(says(folder / "long.wav").find("which is longer"), std::string::npos);
+    EXPECT_TRUE(says(message_of(folder / "long.wav"), "which is longer"));
 }
 
 TEST(Radiation, OfAnImpulseIsTheResponseAndSectionsComeNear) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/json.hpp"
 
 namespace jvari {
 namespace {
@@ -76,11 +76,11 @@ TEST(Checksum, WhatWasSealedComesBackAndNothingElseDoes) {
 
 TEST(Checksum, NestingIsCountedOutsideOfTexts) {
     const auto deep = [](std::size_t n, const std::string& within) { return std::string(n, '[') + within + std::string(n, ']'); };
-    EXPECT_NO_THROW(bench::store::refuse_deep(deep(32, "\"[[[[\\\"[[[[\"")));
-    EXPECT_NO_THROW(bench::store::refuse_deep("[" + deep(31, "") + "," + deep(31, "") + "]"));
-    EXPECT_THROW(bench::store::refuse_deep(deep(33, "")), std::runtime_error);
-    EXPECT_THROW(bench::store::refuse_deep(deep(32, "\"\\\\\", []")), std::runtime_error);
-    EXPECT_THROW(bench::store::refuse_deep(std::string(300000, '{')), std::runtime_error);
+    EXPECT_NO_THROW(bench::store::parsed(deep(32, "\"[[[[\\\"[[[[\"")));
+    EXPECT_NO_THROW(bench::store::parsed("[" + deep(31, "") + "," + deep(31, "") + "]"));
+    EXPECT_THROW(bench::store::parsed(deep(33, "")), std::runtime_error);
+    EXPECT_THROW(bench::store::parsed(deep(32, "\"\\\\\", []")), std::runtime_error);
+    EXPECT_THROW(bench::store::parsed(std::string(300000, '[')), std::runtime_error);
 }
 
 }  // namespace
