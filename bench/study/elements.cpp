@@ -15,6 +15,7 @@ constexpr std::array all = {Element::strings, Element::thread, Element::contact,
                             Element::taps,    Element::body,   Element::probe,   Element::radiation};
 constexpr std::array names = {"strings", "thread", "contact", "losses", "stiffness", "taps", "body", "probe", "radiation"};
 static_assert(all.size() == names.size());
+constexpr double any_rate = 44100;  // [Hz]; which taps radiate is the same at every rate
 
 // The reductions that an element is made of.
 bool is_of(Element e, const Reduction& r, const Scene& scene) {
@@ -54,7 +55,7 @@ Scene without(Element e, Scene scene) {
         throw store::UsageError(fmt::format("elements: it has no {} to {}", what, verb));
     };
     if ((e == Element::body || e == Element::radiation) && !scene.body) refuse("body", e == Element::body ? "go without" : "radiate");
-    if (e == Element::radiation && sound::radiating_taps(scene, 44100).empty())
+    if (e == Element::radiation && sound::radiating_taps(scene, any_rate).empty())
         throw store::UsageError("elements: no tap is of what its body radiates: the driving force or the nut force of all strings");
     if (e == Element::body) scene.body.reset();
     if (e == Element::body || is_added(e)) return scene;

@@ -279,7 +279,7 @@ private:
         tally_.residual = std::max(tally_.residual, s.residual);
     }
 
-    // Of so many points, and of any number where 0: few stay in registers.
+    // A number for each point: in registers where there are `few` (1 or 2), in the vector that it is given where `few` is 0.
     template <std::size_t few>
     class Numbers {
     public:
@@ -345,7 +345,7 @@ private:
         for (std::size_t a = 0; a < n; ++a) {
             const LadderStep& l = z.in_step[a];
             const double moves = speed(Residual::times(z.K, a, q.data(), n), a), behind = moves - alone[a], pulls = l.branch * behind;
-            lost += span_ * (l.damper * moves * moves + pulls * pulls * l.eases);
+            lost += span_ * (l.damper * moves * moves + pulls * pulls * l.mobility);
             v[a] = alone[a] + 0.5 * l.share * behind;
             if (threaded_ && a + 1 == n) {
                 z.thread_moved = at.free[a] + span_ * moves;

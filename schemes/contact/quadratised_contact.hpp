@@ -15,9 +15,8 @@
 // relaxed      raw, and then psi+ <- xi psi+ + (1 - xi) sqrt(2V) with the least xi in [0, 1] by which no energy is gained (relaxed scalar
 //              auxiliary variable; Jiang, Zhang & Zhao 2022): psi+ <- min(|psi+|, sqrt(2V)). It loses half of what psi^2 falls by.
 // controlled   raw, with gamma + lambda0 dt (psi - sqrt(2V))/r0, by which the drift would decay as exp(-lambda0 t) if the step were free
-// (Risse,
-//              Helie & Bilbao 2025, whose control acts on all modes and by their last step; here on the contact alone). It balances as raw
-//              does.
+//              (Risse, Helie & Bilbao 2025, whose control acts on all modes and by their last step; here on the contact alone). It
+//              balances as raw does.
 #pragma once
 
 #include <algorithm>

@@ -37,12 +37,12 @@ struct Residual {
 struct LadderStep {
     double damper = 0, branch = 0;  // [kg/s]
     double share = 0, mass = 0;     // [1], [kg]
-    double eases = 0;               // 1/resistance of the branch [s/kg]
+    double mobility = 0;            // 1/resistance of the branch [s/kg]
     double span = 1;                // [s]
 
     LadderStep() = default;
     LadderStep(const Ladder& l, double span_) : damper(l.damper), branch(l.branch(2 / span_)), mass(l.mass), span(span_) {
-        if (mass > 0) share = branch * span / mass, eases = 1 / l.resistance;
+        if (mass > 0) share = branch * span / mass, mobility = 1 / l.resistance;
     }
     void follow(double moved, double& v) const { v += share * (moved / span - v); }
     double lost(double moved, double v) const {  // in a step, of v before it [J]
