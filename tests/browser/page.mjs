@@ -73,6 +73,14 @@ test("an overview counts sound runs among those that were not refused", () => {
     assert.deepEqual(section(of, "overview").table.rows, [["one", "stiffness x rate", "13", "32"], ["one", "exponent x modes", "9", "12"], ["two", "stiffness x rate", "15", "29"]]);
     assert.equal(of("finding_of_maps()"), "2 of 2 schemes fail somewhere; one stays sound on 0 of its 2 maps");
 });
+test("an overview of many schemes is as high as a screen lets it be", () => {
+    const [head, row] = readFileSync(join(results, "maps.csv"), "utf8").split("\n"), at = head.split(",").indexOf("scheme"), named = (text, k) => text.split(",").map((field, n) => n === at ? `modal_${k}` : field).join();
+    const page_of = n => on(report(folder_of(["manifest.json"], {"maps.csv": [head, ...Array.from({length: n}, (_, k) => named(row, k)), ""].join("\n")})));
+    const height = (n, print) => n * layers(section(page_of(n), "overview").charts[0].spec({}, print).spec).find(l => l.height?.step).height.step;
+    assert.equal(height(10, false), 200);
+    for (const n of [21, 26, 35]) assert.ok(height(n, false) <= 401, `${n} schemes: ${height(n, false)}`);
+    assert.equal(height(26, true), 520);  // on paper nothing is below the fold
+});
 test("pictures of different problems have different names", () => {
     const start = "a, " + "x".repeat(200);
     const problems = ["a, height = -0.001", "a, height = 0.001", "a, k = 1e-05", "a, k = 1e+05", "a, name = (x)", "a, name = [x]", start + " = 1", start + " = 2", "a, n = a b", "a, n = a,b"];

@@ -80,11 +80,12 @@ function shares() {
 }
 function overview_spec(choice, print) {
   const values = shares().map(s => ({...s, share: 100 * s.sound / s.runs, told: told([["scheme", spoken(s.series)], ["map", s.map], ["sound runs", `${s.sound} of ${s.runs}`]])}));
+  const step = print ? 20 : Math.min(20, Math.max(11, 400 / distinct(values.map(s => s.series)).length));  // on the page all rows stand above the fold
   const axis = {title: null, grid: false, domain: false, ticks: false};
   const encoding = {x: {field: "map", type: "nominal", sort: null, axis: {...axis, labelAngle: -50, labelLimit: 130}}, y: {field: "series", type: "nominal", sort: null, axis: {...axis, labelFontSize: choice.narrow ? 8 : 10, labelLimit: choice.narrow ? 180 : 250}}};
   const layer = [{mark: {type: "rect", cornerRadius: 2}, encoding: {color: {field: "share", type: "quantitative", scale: {scheme: "viridis", domain: [0, 100]}, legend: null}, ...hover}},
                  {mark: {type: "text", fontSize: 9, tooltip: null}, encoding: {text: {field: "share", format: ".0f"}, color: {condition: {test: "datum.share > 43", value: "#000"}, value: "#fff"}}}];
-  return {legend: [], spec: framed({...(print ? {} : {title: {text: "sound runs, per cent", anchor: "start", fontSize: 12}}), ...(choice.narrow ? {width: {step: 24}} : {}), height: {step: 20}, data: {values}, encoding, layer}, {title: "Sound runs, per cent", subtitle: page.title}, print)};
+  return {legend: [], spec: framed({...(print ? {} : {title: {text: "sound runs, per cent", anchor: "start", fontSize: 12}}), ...(choice.narrow ? {width: {step: 24}} : {}), height: {step}, data: {values}, encoding, layer}, {title: "Sound runs, per cent", subtitle: page.title}, print)};
 }
 function overview_section() {
   if (!records("maps").length) return null;
