@@ -112,7 +112,7 @@ int compare_command(CompareCall r) {
                               c.scene().taps.at(c.headline.nut).name, c.scene().taps.at(c.headline.bridge).name));
     console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
     if (!results.cheapest.rows.empty()) console.print(compare::cheapest_text(results.cheapest));
-    if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
+    for (const std::string& warning : compare::warnings_of(cells)) console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = code_of(c.outcome.records);
     console.print_json(

@@ -157,7 +157,7 @@ int suite_command(SuiteRequest r) {
     if (const store::Table told = study::rows_of(suite::measured::ensemble, plan, run.records); !told.rows.empty())
         console.print("by 32 runs of each\n" + suite::ensemble_text(told));
     if (!verdicts.rows.empty()) console.print(suite::claims_summary(verdicts) + "; jvari claims " + folder.string() + " lists them");
-    if (const std::string busy = compare::busy_text(cells); !busy.empty()) console.print("warning: " + busy);
+    for (const std::string& warning : compare::warnings_of(cells)) console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + folder.string());
     if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);
     const int code = code_of(run.records);

@@ -163,6 +163,21 @@ TEST(Report, ABusyMachineIsSaid) {
     EXPECT_EQ(bench::compare::busy_text(cells), "");
 }
 
+TEST(Report, MatchedComplianceThatErrsMoreThanOwnIsTold) {
+    bench::store::Table cells{{"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms",
+                               "error_l2_50ms_fret", "certificate_l2_50ms_fret", "error_l2_50ms_y", "certificate_l2_50ms_y"},
+                              {{"1", "s", "a", "compliance=own,levels=2", "44100", "40", "ok", "", "0.1", "0.2", "0.01", "0.1", "0"},
+                               {"2", "s", "a", "compliance=matched,levels=2", "44100", "40", "ok", "", "0.1", "0.3", "0.01", "0.1", "0"},
+                               {"3", "s", "a", "compliance=own,levels=3", "44100", "40", "ok", "", "0.1", "0.1", "0.01", "0.01", "0"}}};
+    const std::string text = bench::compare::harm_text(cells);
+    EXPECT_TRUE(says(text, "in 1 of 1 runs"));
+    EXPECT_TRUE(says(text, "most at fret of 30 % by a compliance=matched,levels=2, 40 modes at 44.1 kHz, where own compliance has 20 %"));
+    cells.rows[1][9] = "0.26";  // sure of 0.25, which is not above 1.2 x 0.21
+    EXPECT_EQ(bench::compare::harm_text(cells), "");
+    cells.rows[1][9] = "0.3", cells.rows[0][7] = "energy";  // not to be trusted
+    EXPECT_EQ(bench::compare::harm_text(cells), "");
+}
+
 TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReference) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml")

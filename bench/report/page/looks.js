@@ -43,13 +43,14 @@ function looks_of(names) {
   return new Map(names.map(name => {
     const k = known().get(scheme_in(name));
     if (k) return [name, {...k, colour: families[k.family][2], shape: shapes[k.place % shapes.length], dash: dash_of(name.slice(scheme_in(name).length))}];
-    const place = unknown.indexOf(name), hue = place === 0 ? other_family : (place - 1) % control_family;  // then the families' hues with other markers
-    return [name, {family: other_family, control: false, colour: families[hue][2], shape: shapes[(place + 3) % shapes.length], dash: [1, 0]}];
+    const place = unknown.indexOf(name), of = families.findIndex(([, prefix]) => prefix !== null && name.startsWith(prefix));  // a pairing is of its string's family
+    const hue = of >= 0 ? of : place === 0 ? other_family : (place - 1) % control_family;  // else the families' hues with other markers
+    return [name, {family: of >= 0 ? of : other_family, control: false, colour: families[hue][2], shape: shapes[(place + 3) % shapes.length], dash: of >= 0 ? dash_of(name.slice(scheme_in(name).length)) : [1, 0]}];
   }));
 }
 function in_order(names) {  // as a legend has them: family by family, controls last
   const key = name => {
-    const {family, place} = known().get(scheme_in(name)) ?? {family: other_family, place: 0};
+    const {family, place} = known().get(scheme_in(name)) ?? {...looks_of([name]).get(name), place: 0};
     return 100 * (family === control_family ? other_family + 1 : family) + place;
   };
   return distinct(names).sort((a, b) => key(a) - key(b));

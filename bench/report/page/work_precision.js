@@ -34,7 +34,8 @@ function points_of(rows, error, cost, series = "series") {
 }
 const is_sound = p => p.status === "ok" && p.x > 0 && p.y > 0;
 
-// Of many schemes those that a reader looks for first: each that is on the front, then of each hue the one that comes nearest to it.
+// Of many schemes those that a reader looks for first: each that is on the front, with what is matched there as published too, then of each hue
+// the one that comes nearest to it.
 function main_series(all) {
   const names = in_order(all.map(p => p.series)), looks = looks_of(names), sound = all.filter(p => is_sound(p) && p.trusted && !p.control);
   if (names.length <= 8) return names;
@@ -44,6 +45,7 @@ function main_series(all) {
     behind.set(p.series, Math.min(behind.get(p.series) ?? Infinity, p.x / least));
   }
   const chosen = [], hues = new Set();
+  for (const [name, times] of behind) if (times === 1 && name.includes(" compliance=matched")) chosen.push(name.replace("matched", "own"));
   for (const [name, times] of [...behind].sort(([, a], [, b]) => a - b))
     if ((times === 1 || !hues.has(looks.get(name).colour)) && chosen.length < 8) {
       chosen.push(name);
@@ -97,18 +99,20 @@ function span_and_silence(all, sound, bands) {
   const silence = bands.floor !== null && most <= bands.floor ? say("All errors lie within the noise floor: no scheme is better than another by this measure.") : [];
   return [{data: {values: ends}, mark: {type: "point", opacity: 0, tooltip: null}}, ...silence];
 }
-// For papers: rates along the front, and the name of each scheme at its dearest point there.
+// For papers: rates along the front, and the name of each scheme at its dearest point there, where they are a line apart.
 function front_labels(front, all) {
-  const rows = front.flatMap(f => {
+  const span = Math.log(Math.max(...all.map(p => p.y)) / Math.min(...all.map(p => p.y))), rows = [];
+  for (const f of front.toReversed()) {
     const p = all.find(q => q.n === f.n);
-    return p.control ? [] : [{x: f.x, y: f.y, text: (f.name && print_width() > 500 ? f.name + ", " : "") + p.label}];
-  });
+    if (p.control || rows.some(r => Math.abs(Math.log(r.y / f.y)) < 0.04 * span)) continue;
+    rows.push({x: f.x, y: f.y, text: (f.name && print_width() > 500 ? f.name + ", " : "") + p.label});
+  }
   return {data: {values: rows}, mark: {type: "text", align: "left", dx: 8, dy: -7, fontSize: 10}, encoding: {text: {field: "text"}}};
 }
 
 function work_precision_spec(choice, print) {
   const rows = of_scene(cells(), choice.scene), {column: error, title} = chosen_error(rows, choice), cost = choice.cost_field, every = points_of(rows, error, cost, "line");
-  const names = print || choice.every ? in_order(every.map(p => p.series)) : main_series(every), all = every.filter(p => names.includes(p.series)), sound = all.filter(is_sound);
+  const names = choice.every ? in_order(every.map(p => p.series)) : main_series(every), all = every.filter(p => names.includes(p.series)), sound = all.filter(is_sound);
   const bands = bands_of(rows, error), front = front_of(rows, error, cost), failed = all.filter(p => p.x > 0 && p.status !== "ok");
   const {color, shape, strokeDash} = encodings_of(names), drawn = names.filter(name => sound.some(p => p.series === name) || failed.some(p => p.series === name));
   const time = "datum.value < 1 ? format(1000*datum.value, ',~r') + ' ms' : format(datum.value, ',~r') + ' s'", opacity = brought_out;
@@ -118,7 +122,7 @@ function work_precision_spec(choice, print) {
   const layer = [
     ...band(bands.certificate, "the reference is certain to here", "#56b4e9", 0.16), ...band(bands.floor, "noise floor", "#888", 0.18), ...real_time(cost),
     {data: {values: goals}, mark: {type: "rule", strokeDash: [2, 4], color: "#888"}, encoding: {x: null}},
-    ...(print ? [{data: {values: goals}, mark: {type: "text", x: {expr: "width - 6"}, dy: -6, align: "right", fontSize: 10, limit: {expr: "width - 12"}, opacity: {expr: "width < 500 ? 0 : 1"}}, encoding: {x: null, text: {field: "text"}}}] : []),
+    ...(print ? [{data: {values: goals}, mark: {type: "text", x: {expr: "width - 6"}, dy: -6, align: "right", fontSize: 10, limit: {expr: "0.6 * width"}, opacity: {expr: "width < 500 ? 0 : 1"}}, encoding: {x: null, text: {field: "text"}}}] : []),
     ...[[10, front_edge], [7, front_track]].map(([strokeWidth, tone]) => ({data: {values: front}, mark: {type: "line", strokeWidth, color: tone[0], strokeCap: "round", strokeJoin: "round", tooltip: null}, encoding: {order: {field: "x"}, detail: {field: "machine"}}})),
     {data: {values: sound.filter(p => p.from > 0 && p.to > 0)}, mark: {type: "rule", strokeWidth: 1}, encoding: {x: {field: "from", type: "quantitative"}, x2: {field: "to"}, color, opacity}},
     lines(true, 0.8), lines(false, 1.8), {...marks(true, {}), ...(print || choice.narrow ? {} : zoomed("x", "y"))}, marks(false, {filled: false, strokeWidth: 1.6}),  // hollow: not to be trusted
