@@ -46,6 +46,9 @@ std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
     std::vector<Job> jobs;
     for (const Descriptor* r : able)
         for (const Options& o : confirmation_of(*r, scene).accuracies) jobs.push_back({r, o, false});
+    if (!able.empty())
+        for (const Options& o : confirmation_of(*able.front(), scene).accuracies)
+            if (const auto nearer = matched(*able.front(), scene, o)) jobs.push_back({able.front(), *nearer, false});
     if (alone)
         for (const Options& o : confirmation_of(*able.front(), scene).other_methods) jobs.push_back({able.front(), o, false});
     if (jobs.empty() || settings.oversampled_rate > 0)
@@ -54,7 +57,7 @@ std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
     if (jobs.empty())
         throw Refusal("no reference and no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
     if (!able.empty()) {
-        jobs.push_back({able.front(), {}, false, "modes"});
+        jobs.push_back({able.front(), matched(*able.front(), scene, {}).value_or(Options{}), false, "modes"});
         if (needed_by(scene).any(any_profile))
             jobs.push_back({able.front(), {{nodes_option.name, std::to_string(2 * std::stoi(nodes_option.fallback))}}, false, "points"});
     }
@@ -81,7 +84,12 @@ Certificate::Entry entry_of(const Job& job, const CertifySettings& settings) {
 }
 
 bool is_default(const Job& job) {
-    return job.options.empty() && job.doubled.empty() && !job.oversampled;
+    return (job.options.empty() || (job.options.size() == 1 && is_matched(job.options))) && job.doubled.empty() && !job.oversampled;
+}
+
+bool are_compared(const Job& a, const Job& b) {
+    if (a.doubled.empty()) return b.doubled.empty() && is_matched(a.options) == is_matched(b.options);
+    return a.scheme == b.scheme && is_default(b);
 }
 
 struct Ran {
@@ -162,7 +170,7 @@ Certificate certify(const Scene& scene, const CertifySettings& settings) {
     };
     for (std::size_t a = 0; a < ran.size(); ++a)
         for (std::size_t b = 0; b < a; ++b)
-            if (ran[a].job->doubled.empty() || (ran[a].job->scheme == ran[b].job->scheme && is_default(*ran[b].job)))
+            if (are_compared(*ran[a].job, *ran[b].job))
                 c.pairs.push_back({ran[a].entry, ran[b].entry, compare(ran[a].trace, ran[b].trace)});
 
     announce("noise floor");

@@ -1,5 +1,9 @@
 #include "reference/references.hpp"
 
+#include <algorithm>
+
+#include "schemes/contact/compliance.hpp"
+
 namespace jvari {
 
 std::span<const Descriptor> references() {
@@ -18,6 +22,21 @@ const Descriptor* best_reference(const Scene& scene) {
     for (const Descriptor& r : references())
         if ((needed_by(scene) - r.represents).empty()) return &r;
     return nullptr;
+}
+
+std::optional<OptionValues> matched(const Descriptor& reference, const Scene& scene, OptionValues options) {
+    constexpr Features never = Feature::profile_barrier | Feature::contact_loss | Features(Feature::moving_body) |
+                               Features(Feature::tension_modulation) | Features(Feature::rigid_barrier);  // rigid: matched unasked
+    const Features needed = needed_by(scene);
+    const auto is_compliance = [](const auto& o) { return o.first == compliance_option.name; };
+    if (!declares(reference, compliance_option.name) || std::ranges::any_of(options, is_compliance) || needed.any(never)) return {};
+    if (!needed.has(Feature::lumped_barrier) && !needed.has(Feature::thread)) return {};
+    options.emplace_back(compliance_option.name, "matched");
+    return options;
+}
+
+bool is_matched(const OptionValues& options) {
+    return std::ranges::find(options, std::pair<std::string, std::string>(compliance_option.name, "matched")) != options.end();
 }
 
 }  // namespace jvari

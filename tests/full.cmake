@@ -49,8 +49,8 @@ if(under_sanitizers)  # once is enough for what follows
 endif()
 
 set(demo_report ${CMAKE_CURRENT_BINARY_DIR}/demo_report)
-jvari_gate(Demo.AnswersInTwentyFiveLinesAndTwentySeconds demo.sh $<TARGET_FILE:jvari> ${demo_report})
-set_tests_properties(Demo.AnswersInTwentyFiveLinesAndTwentySeconds PROPERTIES COST 100 FIXTURES_SETUP demo_report)
+jvari_gate(Demo.AnswersInThirtyThreeLinesAndThirtySeconds demo.sh $<TARGET_FILE:jvari> ${demo_report})
+set_tests_properties(Demo.AnswersInThirtyThreeLinesAndThirtySeconds PROPERTIES COST 100 FIXTURES_SETUP demo_report)
 jvari_gate(Browser.ThePageDrawsWhatItsTablesHold browser/page.sh $<TARGET_FILE:jvari> ${CMAKE_CURRENT_SOURCE_DIR}/report ${CMAKE_SOURCE_DIR}/bench/report/page ${CMAKE_SOURCE_DIR}/node_modules)
 jvari_gate(Browser.AReportIsDrawnSoundsAndFitsAPhone browser/check.sh $<TARGET_FILE:jvari> ${CMAKE_CURRENT_SOURCE_DIR}/report ${CMAKE_SOURCE_DIR}/node_modules ${demo_report})
 set_tests_properties(Browser.AReportIsDrawnSoundsAndFitsAPhone PROPERTIES COST 100 LABELS browser TIMEOUT 1500 FIXTURES_REQUIRED demo_report)

@@ -129,7 +129,8 @@ bool covers_more(const trust::KeptCertificate& there, const trust::KeptCertifica
     if (is_stand_in(old) && !is_stand_in(fresh)) return false;  // the scene has become representable
     const auto missing = [&fresh](const Certificate::Entry& e) {
         return std::none_of(fresh.entries.begin(), fresh.entries.end(), [&e](const Certificate::Entry& f) {
-            return e.reference == f.reference && e.options == f.options && e.sample_rate == f.sample_rate && e.doubled == f.doubled;
+            return e.reference == f.reference && (e.options == f.options || !e.doubled.empty()) && e.sample_rate == f.sample_rate &&
+                   e.doubled == f.doubled;  // whichever model was doubled
         });
     };
     return old.duration > fresh.duration * (1 + 1e-9) || std::any_of(old.entries.begin(), old.entries.end(), missing);

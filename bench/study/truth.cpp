@@ -18,6 +18,7 @@
 namespace jvari::bench::study {
 
 namespace {
+constexpr double least_left = 1.2;      // of a doubling of matched modes, which converge unevenly: C3's bridge force left 1.08 of one
 constexpr int most_modes_found = 4096;  // beyond, a stiff string's highest frequency makes the work grow faster than modes^2
 
 struct Size {
@@ -75,7 +76,8 @@ trust::Trust trust_of(const trust::Trust& solved, const Reference& last, const s
             const bool covered = w == 2 || end <= until + 1e-6;
             const auto changed = [&](const Run& a, const Run& b) { return change(a, b, static_cast<int>(k), end); };
             const double before = coarser.size() > 1 ? changed(fewer, coarser[coarser.size() - 2].run) : store::nan;
-            t.left_out[k][w] = covered ? left_after(changed(more, fewer), before) : store::nan;
+            const double last_change = changed(more, fewer), least = is_matched(last.choice.settings.options) ? least_left : 0;
+            t.left_out[k][w] = covered ? std::fmax(left_after(last_change, before), least * last_change) : store::nan;
             if (std::isnan(t.figure[k][w]) && covered) t.figure[k][w] = changed(last.moved, more);  // beyond the certificate, too
         }
     t.doubled = of.points > 0 ? "modes and points" : "modes";
@@ -87,8 +89,14 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
                 double time_limit) {
     const bool find = modes == 0;
     std::vector<ReferenceChoice> first;
-    for (const ReferenceChoice& c : choices)
-        first.push_back(c.oversampled ? c : sized(c, {find ? first_size(scene, c.settings.options).modes : std::max(1, modes / 4), 0}));
+    for (const ReferenceChoice& c : choices) {
+        const Size size{find ? first_size(scene, c.settings.options).modes : std::max(1, modes / 4), 0};
+        if (const auto nearer = c.oversampled ? std::nullopt : matched(*c.scheme, scene, c.settings.options)) {
+            first.push_back(sized(c, size));
+            first.back().settings.options = *nearer;
+        }
+        first.push_back(c.oversampled ? c : sized(c, size));
+    }
     Truth truth{run_reference(first, scene, jobs, listener, time_limit), {}, {}};
     if (truth.reference.choice.oversampled) {
         truth.said = "a stand-in, as it is: no modes to double";
@@ -109,6 +117,8 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
             more = run_reference({sized(choice, next())}, scene, jobs, listener, time_limit);
         } catch (const BadScene&) {  // no string has as many, or there are no more that were measured
             break;
+        } catch (const Refusal&) {  // these are all that were measured: nothing is left out that could be matched
+            break;
         }
         size = next();
         truth.coarser.push_back(std::move(truth.reference));
@@ -118,7 +128,7 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         const Trace &finer = truth.reference.run.trace, &fewer = truth.coarser.back().run.trace;
         truth.horizon = horizon(fewer.column(tap), finer.column(tap), finer.tap_rate);
     }
-    truth.said = size.text();
+    truth.said = size.text() + (is_matched(choice.settings.options) ? ", compliance matched" : "");
     if (!truth.coarser.empty()) {
         const double end = headline_window(scene.duration);
         truth.said += fmt::format("; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
@@ -132,10 +142,14 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
 }
 
 const Reference* of_modes(const Cell& cell, const Reference& model, const Truth& truth) {
-    if (cell.settings.modes == 0 || cell.settings.modes == model.choice.settings.modes) return &model;
+    const int modes = cell.settings.modes == 0 ? model.choice.settings.modes : cell.settings.modes;
+    const auto is_model = [&](const Reference& r) {
+        return r.choice.settings.modes == modes && is_matched(r.choice.settings.options) == is_matched(cell.settings.options);
+    };
     for (const Reference& r : truth.coarser)
-        if (cell.settings.modes == r.choice.settings.modes) return &r;
-    return cell.settings.modes == truth.reference.choice.settings.modes ? &truth.reference : nullptr;
+        if (is_model(r)) return &r;
+    if (is_model(truth.reference)) return &truth.reference;
+    return model.choice.settings.modes == modes ? &model : nullptr;
 }
 
 }  // namespace jvari::bench::study

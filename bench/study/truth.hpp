@@ -1,7 +1,8 @@
 // What every error is measured against: the motion of the scene, and not of the model that a comparison happens to carry.
 //
 // A string cut off at 133 modes is another string: its nut force after half a second has little to do with that of the scene. So the
-// reference does not take its modes from the cells. From those below 20 kHz, and from the points that stand for a profile unasked, both are
+// reference does not take its modes from the cells, nor their compliance: unless one was asked for it is matched where the reference can
+// carry that, which is nearer with the same modes. From those below 20 kHz, and from the points that stand for a profile unasked, both are
 // doubled until what is still left out moves the headline figure by less than `settled`, or until the next doubling would cost more than
 // `budget`. compare and suite do this alike, and alike at every point of a sweep.
 //
@@ -29,7 +30,8 @@ struct Truth {
 Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, int jobs, const store::Listener&,
                 double time_limit = HUGE_VAL);
 
-// Of those that were run the one with the cell's modes, or nullptr. `model`: with those that cells take unasked (0: each its own).
+// Of those that were run the one with the cell's modes and compliance, or nullptr. `model`: with the modes that cells take unasked (0: each
+// its own); it serves for both compliances where the truth has none with these.
 const Reference* of_modes(const Cell&, const Reference& model, const Truth&);
 
 }  // namespace jvari::bench::study

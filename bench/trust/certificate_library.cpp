@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/store/records.hpp"
+#include "reference/references.hpp"
 #include "scenes/installed.hpp"
 #include "schemes/making.hpp"
 
@@ -87,24 +88,45 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
         return most;
     };
     t.figure.assign(c.taps.size(), {store::nan, store::nan, store::nan});
+    std::vector<double> at_least(c.taps.size(), store::nan);
+    if (is_matched(options)) {  // how far others confirm the same program with own compliance, before a sensitive motion multiplies that
+        Certificate::Options own = options;
+        std::erase_if(own, [](const auto& o) { return is_matched({o}); });
+        const Trust unmatched = trust_of(kept, reference, own, until);
+        for (std::size_t k = 0; k < unmatched.figure.size(); ++k) at_least[k] = unmatched.figure[k][0];
+        t.against = unmatched.against;
+    }
     const auto ends = window_ends(until);
     std::vector<std::string> names;
     for (std::size_t k = 0; k < c.taps.size(); ++k)
         for (std::size_t w = 0; w < ends.size(); ++w) {
             const Largest most = largest(k, ends[w]);
             if (!most.other) continue;
-            t.figure[k][w] = most.difference;
+            t.figure[k][w] = std::fmax(most.difference, at_least[k]);
             if (const std::string name = name_of(*most.other); std::find(names.begin(), names.end(), name) == names.end())
                 names.push_back(name);
         }
-    for (const auto& p : c.pairs)  // whichever reference was doubled: they share the model
-        if (const Certificate::Entry& e = c.entries[p.first]; !e.doubled.empty()) {
-            t.left_out.resize(c.taps.size(), {0, 0, 0});
-            for (std::size_t k = 0; k < c.taps.size(); ++k)
-                for (std::size_t w = 0; w < ends.size(); ++w)
-                    t.left_out[k][w] += and_further_ones * covering(p.taps[k].relative_l2, ends[w], std::min(mine->reached, e.reached));
-            t.doubled += (t.doubled.empty() ? "" : " and ") + e.doubled;
-        }
+    for (std::size_t i = 0; i < c.entries.size(); ++i) {
+        const Certificate::Entry& e = c.entries[i];
+        if (e.doubled.empty()) continue;
+        const auto pair_with = [&](bool matched) {  // whichever reference was doubled: they share the model
+            return std::ranges::find_if(c.pairs, [&](const Certificate::Pair& p) {
+                return p.first == static_cast<int>(i) && is_matched(c.entries[p.second].options) == matched;
+            });
+        };
+        const auto from = pair_with(is_matched(mine->options)), step = pair_with(is_matched(e.options));
+        if (from == c.pairs.end() || step == c.pairs.end()) continue;
+        const double further = (is_matched(e.options) ? matched_and_further_ones : and_further_ones) - 1;
+        t.left_out.resize(c.taps.size(), {0, 0, 0});
+        for (std::size_t k = 0; k < c.taps.size(); ++k)
+            for (std::size_t w = 0; w < ends.size(); ++w) {
+                const auto changed = [&](const Certificate::Pair& p) {
+                    return covering(p.taps[k].relative_l2, ends[w], std::min(mine->reached, e.reached));
+                };
+                t.left_out[k][w] += changed(*from) + further * changed(*step);
+            }
+        t.doubled += (t.doubled.empty() ? "" : " and ") + e.doubled;
+    }
     for (const std::string& name : names) t.against += (t.against.empty() ? "" : ", ") + name;
     if (!t.any()) t.missing = fmt::format("the certificate of this scene has nothing for {} over {:.6g} s", reference, until);
     return t;

@@ -50,9 +50,9 @@ TEST(CertificateFile, ReadsBackToWhatItWasWrittenFrom) {
     EXPECT_EQ(json_of(*back), json_of(kept));
     EXPECT_TRUE(std::isnan(back->certificate.entries[0].wall_seconds));
     bench::trust::read_costs(path, *back);
-    ASSERT_EQ(back->certificate.entries.size(), 6u);  // the last has twice the modes
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(back->certificate.entries[i].wall_seconds, kept.certificate.entries[i].wall_seconds);
-    EXPECT_EQ(back->certificate.entries[4].estimate[1].back(), kept.certificate.entries[4].estimate[1].back());
+    ASSERT_EQ(back->certificate.entries.size(), 8u);  // the last has twice the modes
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(back->certificate.entries[i].wall_seconds, kept.certificate.entries[i].wall_seconds);
+    EXPECT_EQ(back->certificate.entries[6].estimate[1].back(), kept.certificate.entries[6].estimate[1].back());
     EXPECT_EQ(back->certificate.pairs[3].taps[2].until, kept.certificate.pairs[3].taps[2].until);
 }
 
@@ -335,6 +335,27 @@ TEST(Trust, OfTheSceneHasWhatDoublingModesAndPointsChanges) {
     c.entries.back().reached = 0.02;                 // it failed there: of more nothing is known
     EXPECT_TRUE(std::isnan(bench::trust::trust_of(kept, "one", {}, 0.1).of_scene(0, 2)));
     EXPECT_FALSE(std::isnan(bench::trust::trust_of(kept, "one", {}, 0.1).of_scene(0, 0)));
+}
+
+TEST(Trust, OfTheSceneIsTheDifferenceFromTheMatchedOneOfTwiceTheModesAndWhatThatLeavesOut) {
+    bench::trust::KeptCertificate kept = by_hand();
+    Certificate& c = kept.certificate;
+    const Certificate::Options matched{{"compliance", "matched"}};
+    c.entries.push_back({"one", matched, 0, {}, 0.1, 0, {}, {}, {}});
+    c.entries.push_back({"one", matched, 0, {}, 0.1, 0, {}, {}, "modes"});
+    c.pairs.push_back({6, 0, {all(2e-2)}});
+    c.pairs.push_back({6, 5, {all(1e-3)}});
+    const auto left_out = [&kept](const char* name, const Certificate::Options& options) {
+        return bench::trust::trust_of(kept, name, options, 0.1).left_out.at(0)[0];
+    };
+    for (const char* name : {"one", "two"}) EXPECT_DOUBLE_EQ(left_out(name, {}), 2e-2 + (matched_and_further_ones - 1) * 1e-3) << name;
+    EXPECT_DOUBLE_EQ(left_out("one", matched), matched_and_further_ones * 1e-3);
+    EXPECT_TRUE(std::isnan(bench::trust::trust_of(kept, "one", matched, 0.1).in_model(0, 0)));  // no other run is matched
+    c.entries.push_back({"one", {{"window", "0.5"}, matched.front()}, 0, {}, 0.1, 0, {}, {}, {}});
+    c.pairs.push_back({7, 5, {all(1e-6)}});  // and own compliance is known to 0.1 only
+    EXPECT_DOUBLE_EQ(bench::trust::trust_of(kept, "one", matched, 0.1).in_model(0, 0), 1e-1);
+    c.pairs.back().taps[0] = all(0.2);
+    EXPECT_DOUBLE_EQ(bench::trust::trust_of(kept, "one", matched, 0.1).in_model(0, 0), 0.2);
 }
 
 TEST(Trust, OfAReferenceThatStandsAloneIsItsLargestDifferenceFromItself) {

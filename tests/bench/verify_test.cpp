@@ -44,7 +44,7 @@ TEST_F(Verify, ARecordOfThisProgramComesBackToTheLastDigit) {
 }
 
 TEST_F(Verify, ALastDigitIsLostOnTheSameProgramAndRoundingOnAnother) {
-    change("cells.csv", "(,0\\.0\\d{9,})\\d(,)", "$014$02");  // the last digit of the first error
+    change("cells.csv", "(,0\\.0\\d{9,})[0-35-9](,)", "$014$02");  // the last digit of an error
     const auto same = verified();
     EXPECT_EQ(same.code, 4) << same.out;
     change("manifest.json", "\"sources\": \"..", "\"sources\": \"zz");

@@ -240,21 +240,26 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
     CertifySettings settings{std::min(model_modes, modes_for(c.scene, {})), c.settings.tap_rate, 0, {}, [&](double) { look(); }};
     at("certificate about the scene");
     const Certificate certificate = certify(c.scene, settings);
-    const bench::trust::Trust trust = bench::trust::trust_of(bench::trust::KeptCertificate{"", "", certificate}, best->name, {},
-                                                             std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate);
+    const auto trust_in = [&](const OptionValues& options) {
+        return bench::trust::trust_of(bench::trust::KeptCertificate{"", "", certificate}, best->name, options,
+                                      std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate);
+    };
+    const bench::trust::Trust trust = trust_in({});
+    const auto matching = matched(*best, c.scene, {});
     if (trust.doubled != (profile ? "modes and points" : "modes")) return;  // there are no more modes than those that were measured
-    RunOptions options;
-    options.progress = [&](long, long) { look(); };
-    const auto larger = [&](int modes, int points) {
-        Settings s{0, c.settings.tap_rate, modes * certificate.modes, {}};
+    RunOptions looked_at;
+    looked_at.progress = [&](long, long) { look(); };
+    const auto larger = [&](int modes, int points, const OptionValues& options) {
+        Settings s{0, c.settings.tap_rate, modes * certificate.modes, options};
         if (profile) s.options = {{nodes_option.name, std::to_string(points * std::stoi(nodes_option.fallback))}};
         try {
-            return run(*best, c.scene, s, options);
+            return run(*best, c.scene, s, looked_at);
         } catch (const BadScene&) {
             throw FewerWereMeasured{};
         }
     };
-    const Run r = larger(1, 1), half = larger(scene_multiple / 2, 2), truth = larger(scene_multiple, 4);
+    const OptionValues nearer = matching.value_or(OptionValues{});
+    const Run r = larger(1, 1, {}), half = larger(scene_multiple / 2, 2, nearer), truth = larger(scene_multiple, 4, nearer);
     for (const Run* each : {&r, &half, &truth})
         if (each->status.outcome != Outcome::ok) return;
     std::vector<double> off, floor;
@@ -264,13 +269,17 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
                       norm(r.trace.column(k)));
     for (const Agreement& a : certificate.floor) floor.push_back(above_floor * std::max(floor_displacement, a.relative_l2.back()));
     ++tally.judged;
-    for (const Claim& x : claims(trust, truth.trace, r.trace, off, floor, true)) {
-        if (!(x.claimed < 1)) continue;  // as large as the motion itself: nothing is claimed
-        ++tally.claims;
-        tally.worst_claim = std::max(tally.worst_claim, x.ratio());
-        if (!(x.ratio() < claim_allowed))
-            finding(best->name, x.tap + " of the scene: error " + text(x.is) + ", certified to " + text(x.claimed));
-    }
+    const auto hold = [&](const bench::trust::Trust& claimed, const Trace& trace) {
+        for (const Claim& x : claims(claimed, truth.trace, trace, off, floor, true)) {
+            if (!(x.claimed < 1)) continue;  // as large as the motion itself: nothing is claimed
+            ++tally.claims;
+            tally.worst_claim = std::max(tally.worst_claim, x.ratio());
+            if (!(x.ratio() < claim_allowed))
+                finding(best->name, x.tap + " of the scene: error " + text(x.is) + ", certified to " + text(x.claimed));
+        }
+    };
+    hold(trust, r.trace);
+    if (matching) hold(trust_in(*matching), larger(1, 1, *matching).trace);
 } catch (const PastItsLimit&) {
     ++tally.ended;
 } catch (const Refusal&) {

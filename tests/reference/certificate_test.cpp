@@ -114,48 +114,60 @@ TEST(Oversampled, RefusesMultiplesThatDoNotHalveTwice) {
     EXPECT_THROW(oversampled(scheme("modal_two_point"), release(1e-3), {44100, 44100, 10, {}}, 2), Refusal);
 }
 
+const Certificate::Options matched_alone{{"compliance", "matched"}};
+
 TEST(Certificate, ShowsThatTheReferencesAgree) {
     CertifySettings settings{40, 44100, 64 * 44100.0, {}};
     int announced = 0;
     settings.progress = [&](const std::string&, int done, int of) {
         EXPECT_EQ(done, announced++);
-        EXPECT_EQ(of, 7);
+        EXPECT_EQ(of, 9);
     };
     const Certificate c = certify(release(6e-3), settings);
-    EXPECT_EQ(announced, 7);
-    ASSERT_EQ(c.entries.size(), 6u);
+    EXPECT_EQ(announced, 9);
+    ASSERT_EQ(c.entries.size(), 8u);
     EXPECT_EQ(c.entries[0].reference, "exact_contact");
     EXPECT_EQ(c.entries[2].reference, "sundials");
-    EXPECT_EQ(c.entries[4].reference, "oversampled modal_spatial_newton");
-    EXPECT_EQ(c.entries[5].doubled, "modes");
-    ASSERT_EQ(c.pairs.size(), 11u);  // the last with the default of its own reference alone
-    EXPECT_EQ(c.pairs.back().first, 5);
-    EXPECT_EQ(c.pairs.back().second, 0);
+    EXPECT_EQ(c.entries[4].options, matched_alone);
+    EXPECT_EQ(c.entries[6].reference, "oversampled modal_spatial_newton");
+    EXPECT_EQ(c.entries[7].doubled, "modes");
+    EXPECT_EQ(c.entries[7].options, matched_alone);
+    ASSERT_EQ(c.pairs.size(), 13u);  // 10 of own compliance, 1 matched; the last two with the defaults of their own reference alone
+    for (std::size_t k = 0; k < 11; ++k) {
+        const bool first = is_matched(c.entries[c.pairs[k].first].options), second = is_matched(c.entries[c.pairs[k].second].options);
+        EXPECT_EQ(first, second) << k;
+    }
+    for (const auto& [pair, with] : {std::pair(11, 0), std::pair(12, 4)}) {
+        EXPECT_EQ(c.pairs[pair].first, 7);
+        EXPECT_EQ(c.pairs[pair].second, with);
+    }
     for (const auto& e : c.entries) {
         EXPECT_EQ(e.status.outcome, Outcome::ok);
         EXPECT_GT(e.wall_seconds, 0);
         EXPECT_NEAR(e.reached, 6e-3, 1e-4);
     }
     for (const auto& pair : c.pairs) {
-        if (pair.first >= 4) continue;
+        if (pair.first >= 6) continue;
         EXPECT_LT(pair.taps[0].relative_l2.back(), 1e-9) << pair.first << " " << pair.second;  // nut
         EXPECT_LT(pair.taps[2].relative_l2.back(), 1e-6) << pair.first << " " << pair.second;  // bridge
         EXPECT_NEAR(pair.taps[0].until[2], 6e-3, 1e-4);
     }
-    for (int k = 0; k < 4; ++k) EXPECT_LT(c.pairs[9].taps[k].relative_l2.back(), 10 * c.entries[4].estimate[k].back());
+    for (int k = 0; k < 4; ++k) EXPECT_LT(c.pairs[10].taps[k].relative_l2.back(), 10 * c.entries[6].estimate[k].back());
     EXPECT_GT(c.floor[0].relative_l2.back(), 1e-13);
     EXPECT_LT(c.floor[0].relative_l2.back(), 1e-10);
 }
 
-TEST(Certificate, OfOneReferenceAloneHasItsTwoAccuraciesAndTwiceTheModes) {
+TEST(Certificate, OfOneReferenceAloneHasItsTwoAccuraciesOwnAndMatchedAndTwiceTheModes) {
     CertifySettings settings{20, 44100, 0, {}};
     settings.only = "exact_contact";
     const Certificate c = certify(release(3e-3), settings);
-    ASSERT_EQ(c.entries.size(), 3u);
+    ASSERT_EQ(c.entries.size(), 5u);
     for (const auto& e : c.entries) EXPECT_EQ(e.reference, "exact_contact");
-    ASSERT_EQ(c.pairs.size(), 2u);
-    EXPECT_LT(c.pairs[0].taps[0].relative_l2.back(), 1e-10);
-    EXPECT_GT(c.pairs[0].taps[0].relative_l2.back(), 0);
+    ASSERT_EQ(c.pairs.size(), 4u);
+    for (const int pair : {0, 1}) {
+        EXPECT_LT(c.pairs[pair].taps[0].relative_l2.back(), 1e-10);
+        EXPECT_GT(c.pairs[pair].taps[0].relative_l2.back(), 0);
+    }
     settings.only = "exact_linear";  // which represents no contact
     EXPECT_THROW(certify(release(3e-3), settings), Refusal);
 }
@@ -164,15 +176,24 @@ TEST(Certificate, OfOneReferenceAloneHasItsTwoAccuraciesAndTwiceTheModes) {
 TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
     const Scene scene = release(10e-3);
     const Certificate c = certify(scene, {60, 44100, 0, {}, {}});
-    const Certificate::Pair& doubled = c.pairs.back();
+    const Certificate::Pair &from_own = c.pairs[c.pairs.size() - 2], &doubled = c.pairs.back();
     ASSERT_EQ(c.entries[doubled.first].doubled, "modes");
-    const auto trace = [&scene](int modes) { return run(exact_contact, scene, {0, 44100, modes, {}}).trace; };
-    const Trace model = trace(60), twice = trace(120), string = trace(600);
+    const auto trace = [&scene](int modes, const Certificate::Options& options) {
+        return run(exact_contact, scene, {0, 44100, modes, options}).trace;
+    };
+    const Trace own = trace(60, {}), model = trace(60, matched_alone), twice = trace(120, matched_alone),
+                string = trace(600, matched_alone);
     for (int k = 0; k < model.taps(); ++k) {
-        EXPECT_DOUBLE_EQ(doubled.taps[k].relative_l2.back(), relative_difference(twice.column(k), model.column(k), 44100, 1));
-        EXPECT_LT(relative_difference(model.column(k), string.column(k), 44100, 1), and_further_ones * doubled.taps[k].relative_l2.back());
+        const double further = (and_further_ones - 1) * doubled.taps[k].relative_l2.back();
+        for (const auto& [trace, pair] : {std::pair(&own, &from_own), std::pair(&model, &doubled)}) {
+            const double changed = pair->taps[k].relative_l2.back();
+            EXPECT_DOUBLE_EQ(changed, relative_difference(twice.column(k), trace->column(k), 44100, 1));
+            EXPECT_LT(relative_difference(string.column(k), trace->column(k), 44100, 1),
+                      changed + further);  // of the norm of what is trusted
+        }
     }
-    EXPECT_GT(doubled.taps[0].relative_l2.back(), 1e-2);
+    EXPECT_GT(from_own.taps[0].relative_l2.back(), 1e-2);
+    EXPECT_LT(doubled.taps[2].relative_l2.back(), 0.1 * from_own.taps[2].relative_l2.back());
 
     Scene profile = scene;
     profile.duration = 2e-3;

@@ -62,10 +62,24 @@ std::optional<std::size_t> least_cost(const store::Table& cells, const store::Ro
     return least(rows, which, [&](std::size_t i) { return cells.number(i, "cost_s_per_s"); });
 }
 
+// Of the scene's other taps those by which a cell is surely within it: "; by y02: ..., 0.16 %"
+std::string by_other_taps(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
+    std::string text;
+    for (const std::string& column : cells.columns) {
+        if (!column.starts_with(goal.measure + "_")) continue;
+        const Goal same{column, goal.most};
+        if (const auto i = least_cost(cells, rows, [&](std::size_t k) { return same.met(cells, k); }))
+            text += fmt::format("{} by {}: {}, {}", text.empty() ? ";" : ",", column.substr(goal.measure.size() + 1),
+                                store::run_name(cells, *i), percent(bound_of(cells, *i, column).most()));
+    }
+    return text;
+}
+
 // Why it cannot be decided who is within `goal`.
 std::string why_unknown(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
     const double certificate = bound_of(cells, rows.front(), goal.measure).certificate;
-    if (!std::isnan(certificate)) return fmt::format("the reference is known to {} only", percent(certificate));
+    if (!std::isnan(certificate))
+        return fmt::format("the reference is known to {} only{}", percent(certificate), by_other_taps(cells, rows, goal));
     const auto seems = least_cost(cells, rows, [&](std::size_t i) { return cells.number(i, goal.measure) <= goal.most; });
     return "the uncertainty of the reference is unknown" +
            (seems ? fmt::format("; measured against it, the cheapest is {}, {}", store::run_name(cells, *seems),
