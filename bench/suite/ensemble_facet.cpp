@@ -11,9 +11,7 @@
 #include "bench/store/system/memo.hpp"
 #include "reference/certificate.hpp"
 #include "reference/references.hpp"
-#include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
-#include "schemes/making.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::suite {
@@ -60,11 +58,10 @@ store::Table ensemble_rows(const MeasuredCell& c) {
     t.columns = {"kind", "where", "reference", "candidate", "p", "apart"};
     const Descriptor* reference = best_reference(c.scene);
     if (!reference) return t;
-    const int own = c.settings.modes > 0 ? c.settings.modes : modes_for(c.scene, c.settings);
-    const int asked = c.set.reference_modes.value_or(0);
-    const Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : own, {}};
+    const Settings settings = beside(c, *reference);
     static store::Memo<Runs> references;  // all cells of a scene share theirs
-    const std::string key = fmt::format("{} {} {} {} {}", reference->name, scene_hash(c.scene), settings.tap_rate, settings.modes, c.tap);
+    const std::string key = fmt::format("{} {} {} {} {} {}", reference->name, scene_hash(c.scene), settings.tap_rate, settings.modes, c.tap,
+                                        store::options_text(settings.options));
     const Runs& theirs = references.get(key, [&] { return runs_of(*reference, c.scene, settings, c.tap, 0); });
     const Runs mine = runs_of(c.scheme, c.scene, c.settings, c.tap, ensemble_runs);
     int apart = 0;

@@ -1,5 +1,7 @@
 #include "bench/suite/facet.hpp"
 
+#include "schemes/making.hpp"
+
 namespace jvari::bench::suite {
 
 std::span<const Facet> facets() {
@@ -19,6 +21,14 @@ std::span<const Facet> facets() {
         {"centroid", "of a tap's power spectrum, frame by frame", centroid_rows, nullptr, centroid_table},
     };
     return all;
+}
+
+Settings beside(const MeasuredCell& c, const Descriptor& reference) {
+    const int asked = c.set.reference_modes.value_or(0), own = c.settings.modes > 0 ? c.settings.modes : modes_for(c.scene, c.settings);
+    Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : own, {}};
+    for (const auto& [option, values] : c.set.varied)
+        if (option.scheme == reference.name && values.size() == 1) settings.options.emplace_back(option.name, values[0]);
+    return settings;
 }
 
 }  // namespace jvari::bench::suite

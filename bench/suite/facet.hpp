@@ -23,6 +23,9 @@ struct MeasuredCell {  // a cell whose accuracy run reached its end or its failu
     const CellSet& set;
 };
 
+// How the reference of a set is run beside the cell: the cell's rows; its modes where the set says no number; the options the set gives it.
+Settings beside(const MeasuredCell&, const Descriptor& reference);
+
 struct Facet {
     const char* name;
     const char* meaning;
@@ -58,8 +61,7 @@ store::Table dispersion_rows(const MeasuredCell&);
 // ---- Is a cell statistically the reference, where waveforms forget their start? Scheme and reference each run 32 times, every initial
 // shape and pluck scaled by 1 + 1e-4 u with u between -1 and 1, no start twice; analysis/ensemble.hpp tells the two apart, trait by trait.
 // No string is let go twice alike to 1e-4. Much less of a spread is not forgotten within a quarter of a second: by 1e-6 the reference is
-// told from itself where its start moves by 1e-5. The reference has the modes of the cell, or reference_modes where the suite says a
-// number; it is the first that represents the scene.
+// told from itself where its start moves by 1e-5. The reference is the first that represents the scene.
 
 constexpr int ensemble_runs = 32;
 constexpr double ensemble_spread = 1e-4;  // of the start

@@ -107,10 +107,7 @@ store::Table motion_rows(const MeasuredCell& c) {
     if (own.status.outcome != Outcome::ok) return t;
     std::vector<std::string> row = row_of(scene, own.trace), theirs(columns.size());
     if (const Descriptor* reference = c.reference ? best_reference(scene) : nullptr) {
-        const int asked = c.set.reference_modes.value_or(0);
-        Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : c.settings.modes, {}};
-        for (const auto& [option, values] : c.set.varied)
-            if (option.scheme == reference->name && values.size() == 1) settings.options.emplace_back(option.name, values[0]);
+        const Settings settings = beside(c, *reference);
         static store::Memo<Run> references;  // all cells of a scene share theirs
         const std::string key = fmt::format("{} {} {} {} {}", reference->name, scene_hash(scene), settings.tap_rate, settings.modes,
                                             store::options_text(settings.options));
