@@ -25,7 +25,7 @@ function points_of(rows, error, cost, series = "series") {
     const rate = number(c.rate), modes = number(c.modes), x = number(c[cost]) * (cost === "rate" ? 1e-3 : 1), y = error_of(c, error), differ = several.has(c.series);
     const side = which => timed(cost) && number(c.cost_s_per_s) > 0 ? finite(x * number(c["cost_" + which]) / number(c.cost_s_per_s)) : null;
     const label = place_label(rate, modes, differ), from = side("lower"), to = side("upper"), bounded = c.bounds[error] ? "\u2264 " : "";
-    return {series: c.series, problem: c.problem, n: c.n, x: finite(x), y: finite(y), from, to, label, rate: finite(rate), modes: finite(modes), status: c.status, flags: c.flags ?? "",
+    return {series: c.series, problem: c.problem, n: c.n, x: finite(x), y: finite(y), uncertain: is_percent(error) ? number(c["certificate" + error.slice(5)]) || 0 : 0, from, to, label, rate: finite(rate), modes: finite(modes), status: c.status, flags: c.flags ?? "",
             trusted: c.trusted, may_win: c.may_win, control: looks.get(c.series).control, order: finite(Number.isNaN(rate) ? modes : differ ? x : rate),
             told: told([["scheme", spoken(c.series)], ["rate", kilohertz(rate)], ["modes", c.modes], ["error", Number.isFinite(y) ? bounded + error_text(y, error) : ""],
                         ["cost", Number.isFinite(x) ? cost_text(x, cost) : ""], ["quartiles", from === null ? "" : cost === "cost_s_per_s" ? `${time_text(from)} to ${time_text(to)}` : `${digits(from, 3)} to ${digits(to, 3)}`],
@@ -39,9 +39,9 @@ const is_sound = p => p.status === "ok" && p.x > 0 && p.y > 0;
 function main_series(all) {
   const names = in_order(all.map(p => p.series)), looks = looks_of(names), sound = all.filter(p => is_sound(p) && p.trusted && !p.control);
   if (names.length <= 8) return names;
-  const behind = new Map();  // times the cost of the cheapest that is as accurate
+  const behind = new Map();  // times the cost of the cheapest that may be as accurate
   for (const p of sound) {
-    const least = Math.min(...sound.filter(other => other.y <= p.y).map(other => other.x));
+    const least = Math.min(...sound.filter(other => other.y <= p.y + p.uncertain + other.uncertain).map(other => other.x));
     behind.set(p.series, Math.min(behind.get(p.series) ?? Infinity, p.x / least));
   }
   const chosen = [], hues = new Set();
