@@ -13,13 +13,12 @@
 namespace jvari::bench::suite {
 namespace {
 
-store::Table rows_of(const char* scheme, double rate) {
+store::Table rows_of(const char* scheme, double rate, const OptionValues& options = {}, const CellSet& set = {}) {
     static const compare::Catalogue catalogue;
     Scene scene = read_scene("guitar_over_fret");
     scene.duration = 0.1;
-    const CellSet set;
     const Trace none;
-    const Settings settings{rate, 44100, 40, {}};
+    const Settings settings{rate, 44100, 40, options};
     return ensemble_rows({scene, catalogue.find(scheme), settings, none, nullptr, 0, set});
 }
 int apart(const store::Table& t) {
@@ -34,6 +33,13 @@ TEST(EnsembleFacet, DoesNotTellTheReferenceFromItselfThoughNoStartIsTheSame) {
     int other = 0;
     for (std::size_t i = 1; i < t.rows.size(); ++i) other += t.at(i, "reference") != t.at(i, "candidate");
     EXPECT_GT(2 * other, static_cast<int>(t.rows.size()));  // medians of other runs
+}
+
+TEST(EnsembleFacet, RunsTheReferenceWithTheOptionsOfTheSet) {
+    CellSet set;
+    set.varied = {{{"exact_contact", "compliance", ""}, {"matched"}}};
+    EXPECT_EQ(apart(rows_of("exact_contact", 0, {{"compliance", "matched"}}, set)), 0);
+    EXPECT_GT(apart(rows_of("exact_contact", 0, {{"compliance", "matched"}})), 10);
 }
 
 TEST(EnsembleFacet, TellsASchemeThatIsAnotherString) {
