@@ -29,14 +29,16 @@ std::optional<OptionValues> matched(const Descriptor& reference, const Scene& sc
                                Features(Feature::tension_modulation) | Features(Feature::rigid_barrier);  // rigid: matched unasked
     const Features needed = needed_by(scene);
     const auto is_compliance = [](const auto& o) { return o.first == compliance_option.name; };
-    if (!declares(reference, compliance_option.name) || std::any_of(options.begin(), options.end(), is_compliance) || needed.any(never)) return {};
+    if (!declares(reference, compliance_option.name) || std::any_of(options.begin(), options.end(), is_compliance) || needed.any(never))
+        return {};
     if (!needed.has(Feature::lumped_barrier) && !needed.has(Feature::thread)) return {};
     options.emplace_back(compliance_option.name, "matched");
     return options;
 }
 
 bool is_matched(const OptionValues& options) {
-    return std::find(options.begin(), options.end(), std::pair<std::string, std::string>(compliance_option.name, "matched")) != options.end();
+    return std::find(options.begin(), options.end(), std::pair<std::string, std::string>(compliance_option.name, "matched")) !=
+           options.end();
 }
 
 }  // namespace jvari
