@@ -7,8 +7,9 @@ set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${1:-$source/build/mutants}
 [ $# -gt 0 ] && shift
+mkdir -p "$folder/source"
+folder=$(cd "$folder" && pwd)  # tests are started in it
 copy=$folder/source build=$folder/source/build/release
-mkdir -p "$copy"
 for file in $(cd "$source" && git ls-files --cached --others --exclude-standard); do  # what is the same keeps its date and its object
     cmp -s "$source/$file" "$copy/$file" && continue
     mkdir -p "$(dirname "$copy/$file")"
