@@ -26,8 +26,8 @@ std::span<const Facet> facets() {
 Settings beside(const MeasuredCell& c, const Descriptor& reference) {
     const int asked = c.set.reference_modes.value_or(0), own = c.settings.modes > 0 ? c.settings.modes : modes_for(c.scene, c.settings);
     Settings settings{0, c.settings.tap_rate, asked > 0 ? asked : own, {}};
-    for (const auto& [option, values] : c.set.varied)
-        if (option.scheme == reference.name && values.size() == 1) settings.options.emplace_back(option.name, values[0]);
+    for (const study::ReferenceChoice& choice : c.references)
+        if (choice.scheme->name == reference.name) settings.options = choice.settings.options;
     return settings;
 }
 

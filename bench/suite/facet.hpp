@@ -7,6 +7,7 @@
 #include <span>
 
 #include "bench/store/records.hpp"
+#include "bench/study/reference.hpp"
 #include "bench/suite/suite_file.hpp"
 #include "schemes/scheme.hpp"
 #include "schemes/trace.hpp"
@@ -21,9 +22,11 @@ struct MeasuredCell {  // a cell whose accuracy run reached its end or its failu
     const Trace* reference;  // on the same rows; nullptr where there is none
     int tap;                 // that the set of cells names, else the scene's first
     const CellSet& set;
+    std::span<const study::ReferenceChoice> references{};  // of the cell's point, with the options that they were given
 };
 
-// How the reference of a set is run beside the cell: the cell's rows; its modes where the set says no number; the options the set gives it.
+// How a facet runs a reference beside the cell: on the cell's rows, with its modes where the set says no number, and with the options that
+// the suite gives this reference.
 Settings beside(const MeasuredCell&, const Descriptor& reference);
 
 struct Facet {
