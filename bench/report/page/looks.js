@@ -43,8 +43,8 @@ function looks_of(names) {
   return new Map(names.map(name => {
     const k = known().get(scheme_in(name));
     if (k) return [name, {...k, colour: families[k.family][2], shape: shapes[k.place % shapes.length], dash: dash_of(name.slice(scheme_in(name).length))}];
-    const place = unknown.indexOf(name), string = [...known()].find(([known_name]) => name.startsWith(known_name + "_"))?.[1];  // of a pairing, which is of its family
-    const of = !string ? -1 : string.control ? other_family : string.family;
+    const place = unknown.indexOf(name), begins = families.findIndex(([, prefix]) => prefix !== null && name.startsWith(prefix));  // a pairing is of its string's family
+    const of = begins < 0 && [...known().keys()].some(string => name.startsWith(string + "_")) ? other_family : begins;
     const hue = of >= 0 ? of : place === 0 ? other_family : (place - 1) % control_family;  // else the families' hues with other markers
     return [name, {family: of >= 0 ? of : other_family, control: false, colour: families[hue][2], shape: shapes[(place + 3) % shapes.length], dash: of >= 0 ? dash_of(name.slice(scheme_in(name).length)) : [1, 0]}];
   }));
