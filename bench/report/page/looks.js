@@ -2,7 +2,7 @@
 // was given. Controls are thin and grey. Names that are no scheme (elements, plugins) take what is left, in the order of the alphabet.
 //
 // Colours: found by a search for the largest least distance in CIELAB between families, as seen with normal sight and without one kind of cones
-// (Machado, Oliveira & Fernandes 2009), at a contrast of 3 or more to the page. tests/browser/looks.mjs measures both.
+// (Machado, Oliveira & Fernandes 2009), at a contrast of 3 or more to the page. tests/browser/page.mjs measures both.
 const families = [  // name, how its schemes' names begin, colour on a light page and on a dark one; in the order of legends
   ["two-point", "modal_two_point", "#0d44e1", "#3799e1"], ["quadratised", "modal_quadratised", "#480588", "#9a38f7"], ["splitting", "modal_strang", "#0b9ccb", "#bcf1f4"],
   ["spatial", "modal_spatial", "#0a722e", "#25ff90"], ["grid", "finite_difference", "#c07c00", "#e0a326"], ["sitar", "sitar_", "#610a2d", "#da0a42"],
