@@ -9,7 +9,8 @@ namespace jvari {
 
 namespace {
 constexpr double slowest = 0.70710678118654752, fastest = 0.25;  // ratios of a doubling to the one before: orders 1/2 and 2
-}
+constexpr double least_left_of_matched = 1.2;
+}  // namespace
 
 double relative_difference(std::span<const double> a, std::span<const double> b, double rate, double until) {
     const auto within = [&](std::span<const double> x) {
@@ -27,11 +28,11 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
     return result;
 }
 
-double left_after(double last, double before) {
+double left_after(double last, double before, bool matched) {
     const double ratio = last / before;
     if (!(ratio <= slowest)) return (and_further_ones - 1) * std::fmax(last, before);
     const double seen = std::max(ratio, fastest);
-    return last * seen / (1 - seen);
+    return last * std::max(seen / (1 - seen), matched ? least_left_of_matched : 0);
 }
 
 }  // namespace jvari

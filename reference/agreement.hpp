@@ -24,7 +24,8 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
 
 // What all further doublings change, by what the last one changed and the one before it (NaN: there was none). They are a geometric series
 // whose ratio is the one observed: at least a quarter, as of order two, since one pair can agree by chance. With one doubling, or where
-// they do not get smaller so fast, the order is one half, and the larger of the two counts.
-double left_after(double last, double before);
+// they do not get smaller so fast, the order is one half, and the larger of the two counts. Matched modes converge unevenly, so at
+// least 1.2 times the last change is left: after a doubling that changed C3's bridge force by e, 1.08 e was left.
+double left_after(double last, double before, bool matched);
 
 }  // namespace jvari

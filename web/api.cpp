@@ -151,6 +151,6 @@ JV double jv_error(const Kept* a, const Kept* b, int tap, double from, double to
 JV double jv_horizon(const Kept* a, const Kept* b, int tap) {
     return horizon(a->run.trace.column(tap), b->run.trace.column(tap), b->run.trace.tap_rate);
 }
-JV double jv_left_after(double last, double before) {
-    return left_after(last, before);
+JV double jv_left_after(double last, double before, int matched) {
+    return left_after(last, before, matched != 0);
 }

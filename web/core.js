@@ -35,7 +35,7 @@ function jvari_core(module) {
         },
         error: (a, b, tap, from = 0, to = 1e300) => call("jv_error", "number", a.handle, b.handle, tap, from, to),
         horizon: (a, b, tap) => call("jv_horizon", "number", a.handle, b.handle, tap),
-        left_after: (last, before) => call("jv_left_after", "number", last, before),
+        left_after: (last, before, matched) => call("jv_left_after", "number", last, before, matched),
         memory: () => module.HEAPF64.length * 8
     };
 }

@@ -53,7 +53,7 @@ async function reference_of(state, scene, go_on) {
     if (reference?.key === key) return reference;
     forget();
     if (!scene.reference) return null;
-    const {nut} = headline_of(scene), options = options_of(scene.reference, "matched"), runs = [];
+    const {nut} = headline_of(scene), options = options_of(scene.reference, "matched"), matched = options.length, runs = [];
     const run = (modes, more = {}) => {  // its energy costs eight times as much as its motion, and half of the modes hold all of it but 0.2 %
         const made = jvari.run({scene: state.text, overrides: state.overrides, scheme: scene.reference, modes, options, duration: state.window, ...more});
         runs.push(made);
@@ -64,10 +64,10 @@ async function reference_of(state, scene, go_on) {
         await go_on();
         const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)});
         await go_on();
-        let best = base, left = jvari.left_after(change(base, half), NaN);
+        let best = base, left = jvari.left_after(change(base, half), NaN, matched);
         if (!dear(scene)) {
             best = run(2 * modes, {shape: state.shape});
-            left = jvari.left_after(change(best, base), change(base, half));
+            left = jvari.left_after(change(best, base), change(base, half), matched);
             await go_on();
         }
         const picture = {...pictured(best, scene, state.shape.length), stored: balance_of(half).stored};

@@ -18,7 +18,6 @@
 namespace jvari::bench::study {
 
 namespace {
-constexpr double least_left = 1.2;      // of a doubling of matched modes, which converge unevenly: C3's bridge force left 1.08 of one
 constexpr int most_modes_found = 4096;  // beyond, a stiff string's highest frequency makes the work grow faster than modes^2
 
 struct Size {
@@ -76,8 +75,7 @@ trust::Trust trust_of(const trust::Trust& solved, const Reference& last, const s
             const bool covered = w == 2 || end <= until + 1e-6;
             const auto changed = [&](const Run& a, const Run& b) { return change(a, b, static_cast<int>(k), end); };
             const double before = coarser.size() > 1 ? changed(fewer, coarser[coarser.size() - 2].run) : store::nan;
-            const double last_change = changed(more, fewer), least = is_matched(last.choice.settings.options) ? least_left : 0;
-            t.left_out[k][w] = covered ? std::fmax(left_after(last_change, before), least * last_change) : store::nan;
+            t.left_out[k][w] = covered ? left_after(changed(more, fewer), before, is_matched(last.choice.settings.options)) : store::nan;
             if (std::isnan(t.figure[k][w]) && covered) t.figure[k][w] = changed(last.moved, more);  // beyond the certificate, too
         }
     t.doubled = of.points > 0 ? "modes and points" : "modes";

@@ -16,6 +16,7 @@
 #include "bench/study/judgement.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
+#include "reference/references.hpp"
 
 namespace jvari::bench::trim {
 
@@ -45,7 +46,7 @@ double uncertainty(const study::Truth& t, int tap, std::size_t measure) {
         return study::error_of(measure, t.coarser[last - 1].run.trace.column(tap), more.run.trace.column(tap), of.run.trace.tap_rate);
     };
     const std::size_t n = t.coarser.size();
-    return n == 0 ? store::nan : left_after(changed(n), n > 1 ? changed(n - 1) : store::nan);
+    return n == 0 ? store::nan : left_after(changed(n), n > 1 ? changed(n - 1) : store::nan, is_matched(of.choice.settings.options));
 }
 }  // namespace
 

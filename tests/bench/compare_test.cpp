@@ -542,12 +542,14 @@ TEST(Truth, AGivenNumberIsTakenWithItsHalfAndItsQuarterToTellWhatItLeavesOut) {
 }
 
 TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
-    EXPECT_NEAR(left_after(1e-3, 3e-3), 5e-4, 1e-12);      // 1/3 + 1/9 + ...
-    EXPECT_NEAR(left_after(1e-6, 1e-1), 1e-6 / 3, 1e-18);  // no better than order two, since one pair can agree by chance
-    EXPECT_NEAR(left_after(1e-3, nan), 2.5e-3, 1e-12);     // one doubling: order one half
-    EXPECT_NEAR(left_after(1e-3, 1.1e-3), 2.75e-3, 1e-12);
-    EXPECT_NEAR(left_after(3e-3, 1e-3), 7.5e-3, 1e-12);  // they do not get smaller
-    EXPECT_EQ(left_after(0, 0), 0);
+    EXPECT_NEAR(left_after(1e-3, 3e-3, false), 5e-4, 1e-12);      // 1/3 + 1/9 + ...
+    EXPECT_NEAR(left_after(1e-6, 1e-1, false), 1e-6 / 3, 1e-18);  // no better than order two, since one pair can agree by chance
+    EXPECT_NEAR(left_after(1e-3, nan, false), 2.5e-3, 1e-12);     // one doubling: order one half
+    EXPECT_NEAR(left_after(1e-3, 1.1e-3, false), 2.75e-3, 1e-12);
+    EXPECT_NEAR(left_after(3e-3, 1e-3, false), 7.5e-3, 1e-12);  // they do not get smaller
+    EXPECT_EQ(left_after(0, 0, false), 0);
+    EXPECT_NEAR(left_after(1e-3, 3e-3, true), 1.2e-3, 1e-12);  // matched modes converge unevenly
+    EXPECT_NEAR(left_after(1e-3, nan, true), 2.5e-3, 1e-12);
 }
 
 TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {

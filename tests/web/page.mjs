@@ -74,6 +74,8 @@ const parts = {
         for (const p of points.filter(p => cell_of(p)?.status === "ok")) ++compared, apart = Math.max(apart, Math.abs(p.error / cell_of(p).error_l2_50ms - 1));
         console.log(`  ${compared} errors are those of jvari compare to ${apart.toExponential(1)} of them`);
         expect(compared === 20 && apart < 1e-6, `${compared} errors agree to ${apart}`);
+        const known_to = [points[0].uncertainty, told.cells[0].certificate_l2_50ms];
+        expect(Math.abs(known_to[0] / known_to[1] - 1) < 1e-4, `the reference is known to ${known_to[0]} here, to ${known_to[1]} there`);
 
         // The rule: on the program's own errors and costs the page's verdict is the program's, ties and all.
         const of_program = told.cells.filter(c => c.status === "ok" && c.flags === "").map(c => ({scheme: c.scheme, compliance: c.options.replace("compliance=", ""), rate: c.rate, outcome: "ok", error: c.error_l2_50ms,
