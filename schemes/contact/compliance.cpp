@@ -3,11 +3,13 @@
 // on panels that grow geometrically from every place where the integrand has a kink or a boundary layer of width 1/l.
 #include "schemes/contact/compliance.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "scenes/barrier.hpp"
 #include "scenes/modes.hpp"
@@ -128,56 +130,77 @@ double radiation_resistance(const String& s, const Footprint& at, int kept) {
 namespace {
 constexpr int further_modes = 8;  // times as many as are kept: what is beyond adds 1/500 to E, and to C from its closed form
 
-// R of C^-1 D + R (D' - v), mass v' = R (D' - v), where its admittance is that of the cut modes at one real frequency: the least over all.
-// There both touch. On an ideal string that is at infinity, and R the wave resistance. With stiffness and footprints R is larger, and
-// hardly changes near three times the frequency of the last mode kept. `none`: of a single cut mode, which has no resistance.
-double touching_resistance(const Modes& modes, int kept, const std::vector<double>& g, double C, double E, double none) {
-    const double mass = E / (C * C), last = modes.omega0[kept - 1];
-    double least = std::numeric_limits<double>::infinity();
-    double beyond = C;  // of the modes that are not summed, whose share in C falls as 1/omega^2
-    for (int i = modes.count() - 1; i >= kept; --i) beyond -= g[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
-    for (double s = last; s < further_modes * last; s *= 1.1) {
-        const double x_end = s / modes.omega0.back();
-        double slower = beyond * (1 - std::atan(x_end) / x_end);  // C - H
-        for (int i = modes.count() - 1; i >= kept; --i) {
-            const double square = modes.omega0[i] * modes.omega0[i];
-            slower += g[i] * g[i] / (modes.mass * square) * s * s / (square + s * s);
+// What the cut modes answer to a force on a point, or on a pattern of points.
+struct Answer {
+    const Modes& modes;
+    int kept;
+    std::vector<double> g;
+    double C;  // under a steady force, with those that are not summed, whose share falls as 1/omega^2 [m/N]
+
+    double square(int i) const { return modes.omega0[i] * modes.omega0[i]; }
+    double yield(int i) const { return g[i] * g[i] / (modes.mass * square(i)); }
+
+    // R of C^-1 D + R (D' - v), E/C^2 v' = R (D' - v), where its admittance is that of the cut modes at one real frequency: the least over
+    // all. There both touch. On an ideal string that is at infinity, and R the wave resistance. With stiffness and footprints R is larger,
+    // and hardly changes near three times the frequency of the last mode kept. `none`: of a single cut mode, which has no resistance.
+    double touching_resistance(double none) const {
+        double E = 0, beyond = C, least = std::numeric_limits<double>::infinity();
+        for (int i = modes.count() - 1; i >= kept; --i) beyond -= yield(i), E += yield(i) / square(i);
+        const double mass = E / (C * C), last = modes.omega0[kept - 1];
+        for (double s = last; s < further_modes * last; s *= 1.1) {
+            const double x_end = s / modes.omega0.back();
+            double slower = beyond * (1 - std::atan(x_end) / x_end);  // C - H
+            for (int i = modes.count() - 1; i >= kept; --i) slower += yield(i) * s * s / (square(i) + s * s);
+            const double x = mass * s * C * (C - slower) * s / slower - 1;  // M s^2/(1/H - 1/C) - 1
+            if (slower < C && x > 1e-6) least = std::min(least, mass * s / x);
         }
-        const double x = mass * s * C * (C - slower) * s / slower - 1;  // M s^2/(1/H - 1/C) - 1
-        if (slower < C && x > 1e-6) least = std::min(least, mass * s / x);
+        return std::isfinite(least) ? least : none;
     }
-    return std::isfinite(least) ? least : none;
-}
+
+    // The mass that stands for the inertia of the cut modes, (1/C - 1/H(i omega))/omega^2 at the frequencies of the kept ones, each of which
+    // weighs g^2/omega, by as much as a blow moves it; and of that the share of the modes below `nyquist`.
+    double mass(double nyquist) const {
+        double sum = 0, weights = 0, E = 0, below = 0;
+        const int every = 1 + kept / 128;
+        for (int k = kept - 1 - every / 2; k >= 0; k -= every) {
+            double more = 0;  // (H - C)/omega^2
+            for (int i = modes.count() - 1; i >= kept; --i) more += yield(i) / (square(i) - square(k));
+            const double weight = g[k] * g[k] / modes.omega0[k];
+            sum += weight * more / (C * (C + more * square(k)));
+            weights += weight;
+        }
+        for (int i = modes.count() - 1; i >= kept; --i) {
+            E += yield(i) / square(i);
+            if (modes.omega0[i] < nyquist) below += yield(i) / square(i);
+        }
+        return weights > 0 ? sum / weights * below / E : 0;
+    }
+};
 }  // namespace
 
 CutModes cut_modes(const String& s, std::span<const Footprint> points, int kept, double nyquist) {
     const auto* table = measured(s);
     const int all = table ? static_cast<int>(table->frequency_hz.size()) : further_modes * kept;
     if (all <= kept) return {};
-    const Modes modes = modes_of(s, all);
-    const std::size_t n = points.size();
-    std::vector<std::vector<double>> g;
-    for (const Footprint& p : points) g.push_back(footprint_weights(modes, p.position, p.width));
     CutModes cut;
+    const Modes& modes = cut.modes = modes_of(s, all);
+    const std::size_t n = points.size();
+    for (const Footprint& p : points) cut.g.push_back(footprint_weights(modes, p.position, p.width));
     for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = 0; b < n; ++b) {
             double C = table ? 0 : static_deflection(s, points[a], points[b]), E = 0, below = 0;  // below half the sample rate
             for (int i = all - 1; i >= 0; --i) {
-                const double square = modes.omega0[i] * modes.omega0[i], own = g[a][i] * g[b][i] / (modes.mass * square);
+                const double square = modes.omega0[i] * modes.omega0[i], own = cut.g[a][i] * cut.g[b][i] / (modes.mass * square);
                 if (i < kept) C -= table ? 0 : own;
                 else {
                     if (table) C += own;
-                    E += own / square;
-                    if (modes.omega0[i] < nyquist) below += own;
+                    if (modes.omega0[i] < nyquist) below += own, E += own / square;
                 }
             }
             // Of the modes beyond `all` those above the half rate have C as 1/omega.
             const double part = table ? 1 : std::min(1.0, modes.omega0[all - 1] / nyquist);
             cut.C.push_back(C), cut.E.push_back(E), cut.folded.push_back((C - below) * part);
         }
-    for (std::size_t a = 0; a < n; ++a)
-        cut.resistance.push_back(
-            touching_resistance(modes, kept, g[a], cut.C[a * n + a], cut.E[a * n + a], 2 * std::sqrt(s.tension * s.linear_density)));
     return cut;
 }
 
@@ -223,29 +246,48 @@ void refuse_soft(const std::string& who, double bb, double bc, double cc) {
     if (!(bb * cc >= bc * bc)) refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
 }
 
-// Of all points pressed alike: each has the row sums of C and E, so that neighbours share a mass and a damper. Modes above half the sample
-// rate fold down to any frequency: sampled, they are a spring with a damper of dt/2 over their compliance. No mass follows its point faster
-// than in a step, and in a step of constant velocity by what is exact, 1 - exp(-x).
-std::vector<Ladder> ladders(const String& s, const std::vector<double>& C, const CutModes& cut, std::size_t n, double dt) {
-    std::vector<Ladder> all(n);
-    for (std::size_t a = 0; a < n; ++a) {
-        if (cut.C.empty()) {
-            all[a].damper = std::sqrt(s.tension * s.linear_density);
-            continue;
-        }
-        const auto row = [&](const std::vector<double>& m) {
-            double sum = 0;
-            for (std::size_t b = 0; b < n; ++b) sum += std::abs(m[a * n + b]);
-            return sum;
-        };
-        const double yields = row(C), yields_cut = row(cut.C);
-        if (!(yields > 0 && yields_cut > 0)) continue;
-        all[a].damper = 0.5 * dt * row(cut.folded) / (yields * yields);
-        all[a].mass = row(cut.E) / (yields_cut * yields_cut);
-        const double follows = dt > 0 ? std::min(cut.resistance[a] * dt / all[a].mass, 1.0) : 0;  // x
-        all[a].resistance = dt > 0 ? 2 * all[a].mass / dt * std::tanh(0.5 * follows) : cut.resistance[a];
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Square power_of(const std::vector<double>& m, int n, double power) {  // of what is more than rounding of a symmetric, positive matrix
+    const SymmetricParts parts = symmetric_parts(m, n);
+    const Eigen::Map<const Square> vectors(parts.vector.data(), n, n);  // in rows
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
+    for (int k = 0; k < n; ++k)
+        if (parts.value[k] > 1e-9 * parts.value[n - 1]) values[k] = std::pow(parts.value[k], power);
+    return vectors.transpose() * values.asDiagonal() * vectors;
+}
+
+// The patterns are those in which C and E of the cut modes are both diagonal. Modes above half the sample rate fold down to any frequency:
+// sampled, they are a spring with a damper of dt/2 over their compliance, without inertia. In a step of constant velocity a mass takes up
+// what is exact, 1 - exp(-R dt/M).
+Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& cut, int n, int kept, double dt) {
+    Ladder l;
+    for (auto* v : {&l.mass, &l.resistance}) v->assign(n, 0.0);
+    for (auto* m : {&l.damper, &l.V}) m->assign(static_cast<std::size_t>(n) * n, 0.0);
+    const double Z = std::sqrt(s.tension * s.linear_density);
+    Eigen::Map<Square> damper(l.damper.data(), n, n), patterns(l.V.data(), n, n);
+    if (cut.C.empty()) {
+        damper = Z * Square::Identity(n, n);
+        return l;
     }
-    return all;
+    const Square stiff = power_of(C, n, -1), white = power_of(cut.C, n, -0.5);
+    const Eigen::Map<const Square> folded(cut.folded.data(), n, n), E(cut.E.data(), n, n);
+    damper = 0.5 * dt * stiff * folded * stiff;
+    const Square slow = white * E * white;
+    const SymmetricParts parts = symmetric_parts({slow.data(), slow.data() + slow.size()}, n);
+    const Square V = Eigen::Map<const Square>(parts.vector.data(), n, n) * white;
+    for (int k = 0; k < n; ++k) {
+        const double length = std::copysign(V.row(k).norm(), V(k, 0));  // a point that is alone moves with its mass
+        if (!(length != 0 && parts.value[k] > 0)) continue;
+        patterns.row(k) = V.row(k) / length;
+        std::vector<double> g(cut.modes.count());
+        for (int a = 0; a < n; ++a)
+            for (std::size_t i = 0; i < g.size(); ++i) g[i] += patterns(k, a) * cut.g[a][i];
+        const Answer answer{cut.modes, kept, std::move(g), 1 / (length * length)};
+        const double mass = l.mass[k] = answer.mass(std::numbers::pi / dt);
+        if (mass > 0) l.resistance[k] = 2 * mass / dt * std::tanh(0.5 * dt * answer.touching_resistance(2 * Z) / mass);
+    }
+    return l;
 }
 
 MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, const OwnResponse& own) {
@@ -271,10 +313,13 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
                              const OwnResponse& own) {
     MissingMatrix m = difference(s, sites, taps, own);
     const int n = sites.points();
-    const CutModes cut = cut_modes(s, std::span(sites.forces).first(n), kept, dt > 0 ? std::numbers::pi / dt : HUGE_VAL);
+    const auto put_ladder = [&] {
+        if (dt > 0 && n > 0)
+            m.ladder = ladder_of(s, m.C, cut_modes(s, std::span(sites.forces).first(n), kept, std::numbers::pi / dt), n, kept, dt);
+    };
     if (n <= 1 + (m.thread ? 1 : 0)) {
-        m.ladder = ladders(s, m.C, cut, n, dt);
         refuse_soft(who, m.contacts > 0 ? m.C.front() : 0, n == 2 ? m.C[1] : 0, m.thread ? m.C.back() : 0);
+        put_ladder();
         return m;
     }
     std::vector<double> symmetric(m.C);
@@ -289,7 +334,7 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
             for (int k = 0; k < n; ++k) sum += parts.vector[k * n + a] * std::max(parts.value[k], 0.0) * parts.vector[k * n + b];
             m.C[a * n + b] = m.C[b * n + a] = sum;  // symmetric to the last bit
         }
-    m.ladder = ladders(s, m.C, cut, n, dt);
+    put_ladder();
     return m;
 }
 

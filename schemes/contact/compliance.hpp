@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/modes.hpp"
 #include "schemes/making.hpp"
 #include "schemes/scheme.hpp"
 
@@ -40,19 +41,19 @@ double radiation_resistance(const String&, const Footprint&, int kept);
 // What the points see of the modes beyond the first `kept`, as matrices over the points: their static yield C and inertia E, the sums of
 // g g'/(m omega^2) and g g'/(m omega^4), and the part of C whose modes lie above `nyquist` [rad/s]. Empty where no mode is left out.
 struct CutModes {
-    std::vector<double> C, E, folded;  // [m/N], [m s^2/N], [m/N]
-    std::vector<double> resistance;    // of the damper in each point's ladder [kg/s]
+    Modes modes;                         // those kept and, after them, as many of those cut as are summed
+    std::vector<std::vector<double>> g;  // of each point
+    std::vector<double> C, E, folded;    // [m/N], [m s^2/N], [m/N]
 };
 CutModes cut_modes(const String&, std::span<const Footprint> points, int kept, double nyquist);
 
-// The element of a point: a spring C, beside it a damper, beside both a mass behind a damper.
-//     F = C^-1 D + damper D' + resistance (D' - v),     mass v' = resistance (D' - v)
+// What stands beside the spring C, where D' is the velocity of the points: a damper, and masses behind dampers. Each mass belongs to a
+// pattern V_k of the points.
+//     F = C^-1 D + damper D' + sum of V_k resistance_k (V_k.D' - v_k),     mass_k v_k' = resistance_k (V_k.D' - v_k)
 struct Ladder {
-    double damper = 0, resistance = 0;  // [kg/s]
-    double mass = 0;                    // [kg]
-    // v follows the point by v' = rate v + what is known. Then both dampers resist a velocity of the point by:
-    double resists(double rate) const { return damper + branch(rate); }
-    double branch(double rate) const { return mass > 0 ? 1 / (1 / resistance + 1 / (rate * mass)) : 0; }  // rate [1/s]
+    std::vector<double> damper;            // points x points [kg/s]
+    std::vector<double> V;                 // as many patterns as points, x points; of unit length, their first not negative
+    std::vector<double> mass, resistance;  // of each pattern [kg], [kg/s]; 0: none
 };
 
 double static_nut_force(const String&, const Footprint& force);  // of 1 N [1]
@@ -88,13 +89,14 @@ struct MissingMatrix {
     std::vector<double> pluck;              // on each point; empty without a pluck [m/N]
     std::vector<std::vector<double>> taps;  // per tap of the scene, of each point and then the pluck; empty for what is no linear tap
     double excess = 0;                      // [m/N]
-    std::vector<Ladder> ladder;             // of each point
+    Ladder ladder;                          // of a scheme that steps
+
+    int points() const { return contacts + (thread ? 1 : 0); }
 
     double on_tap(std::size_t k, const double* force, double F_e) const {  // force: of each point
         if (taps[k].empty()) return 0;
-        const std::size_t points = contacts + (thread ? 1 : 0);
-        double sum = pluck.empty() ? 0 : taps[k][points] * F_e;
-        for (std::size_t p = 0; p < points; ++p) sum += taps[k][p] * force[p];
+        double sum = pluck.empty() ? 0 : taps[k][points()] * F_e;
+        for (int p = 0; p < points(); ++p) sum += taps[k][p] * force[p];
         return sum;
     }
 };

@@ -21,7 +21,8 @@
 //
 // Where the contacts' forces are known before the step (explicit_rule.hpp), D is that of the instant by which they go, and D' the backward
 // difference of second order (3 D - 4 D- + D--)/(2 dt), v' likewise. Midpoints would alternate for ever there: a stiff contact says what D
-// is, and not by how much it moves. With F = P + R D' - B v_0, v_0 = (4 v- - v--)/3 and q = R/dt C (2 P- - P--/2) + B v_0,
+// is, and not by how much it moves. Backward differences damp by themselves, so the damper of the folded modes goes, and no mass follows
+// its point faster than in the two steps that they span. With F = P + R D' - B v_0, v_0 = (4 v- - v--)/3 and q = R/dt C (2 P- - P--/2) + B v_0,
 // P = W (F + q), W = (1 + 3/2 R C/dt)^-1, S = C W.
 #pragma once
 
@@ -80,8 +81,7 @@ public:
     }
     void put_in_series(const MissingMatrix& missing, int levels) {  // levels: how many of them a step spans
         const double dt = span_ / levels;
-        Series z(Residual(missing, known_before ? 4 * dt / 3 : span_));
-        for (const Ladder& l : z.ladder) z.in_step.emplace_back(l, z.span);
+        Series z(known_before ? Residual(by_backward_differences(missing, dt), 4 * dt / 3) : Residual(missing, span_));
         std::vector<double> theta = theta_;
         for (std::size_t i = 0; i < theta.size(); ++i) {
             if (known_before) z.K[i] *= 0.5, z.W[i] *= 0.5;
@@ -302,19 +302,22 @@ private:
         for (std::size_t a = 0; a < n; ++a) {
             older[a] = at.older[a] + Residual::times(z.C, a, P, n);
             now[a] = series_levels_ == 1 ? older[a] : at.now[a] + Residual::times(z.C, a, P_now, n);
-            q[a] = P[a] - z.in_step[a].branch * v[a];
+            q[a] = P[a] - z.pulled(a, v, n);
         }
         for (std::size_t a = 0; a < n; ++a) free[a] = at.free[a] - Residual::times(z.K, a, q.data(), n);
         const bool converged = solve_touching({older.data(), now.data(), free.data()}, force);
         for (std::size_t a = 0; a < n; ++a) q[a] = force[a] - q[a];
-        double lost = 0;
+        Numbers<few>& moved = free;
         for (std::size_t a = 0; a < n; ++a) {
-            const double moved = Residual::times(z.K, a, q.data(), n);
-            lost += z.in_step[a].lost(moved, v[a]);
-            z.in_step[a].follow(moved, v[a]);
+            moved[a] = Residual::times(z.K, a, q.data(), n);
             P[a] += Residual::times(z.W, a, q.data(), n);
         }
-        z.lost = lost;
+        z.lost = z.damped(moved.data(), n) * z.rate;
+        for (std::size_t k = 0; k < n; ++k) {
+            const double along = Residual::times(z.V, k, moved.data(), n);
+            z.lost += z.masses[k].lost(along, v[k]);
+            z.masses[k].follow(along, v[k]);
+        }
         if (series_levels_ == 2) z.P[0].swap(z.P[1]), z.v[0].swap(z.v[1]);
         return converged;
     }
@@ -327,11 +330,10 @@ private:
         const double *P_now = z.P[0].data(), *v_now = z.v[0].data();
         Numbers<few> older(z.older), now(z.now), free(z.free), q(z.q), past(z.past), alone(z.alone);
         for (std::size_t a = 0; a < n; ++a) {
-            const LadderStep& l = z.in_step[a];
             past[a] = 2 * Residual::times(z.C, a, P_now, n) - 0.5 * Residual::times(z.C, a, P, n);  // D' = (3/2 D - that)/dt
             alone[a] = v_now[a] + (v_now[a] - v[a]) * (1.0 / 3);
-            q[a] = l.branch * alone[a] + (l.damper + l.branch) * past[a] * z.rate;
         }
+        for (std::size_t a = 0; a < n; ++a) q[a] = z.pulled(a, alone.data(), n) + Residual::times(z.R, a, past.data(), n) * z.rate;
         const auto speed = [&](double D, std::size_t a) { return (1.5 * D - past[a]) * z.rate; };
         for (std::size_t a = 0; a < n; ++a) {  // without forces D = S q
             const double D = Residual::times(z.K, a, q.data(), n);
@@ -341,19 +343,21 @@ private:
         }
         const bool converged = solve_touching({older.data(), now.data(), free.data()}, force);
         for (std::size_t a = 0; a < n; ++a) q[a] += force[a];
-        double lost = 0;
-        for (std::size_t a = 0; a < n; ++a) {
-            const LadderStep& l = z.in_step[a];
-            const double moves = speed(Residual::times(z.K, a, q.data(), n), a), behind = moves - alone[a], pulls = l.branch * behind;
-            lost += span_ * (l.damper * moves * moves + pulls * pulls * l.mobility);
-            v[a] = alone[a] + 0.5 * l.share * behind;
-            if (threaded_ && a + 1 == n) {
-                z.thread_moved = at.free[a] + span_ * moves;
-                for (std::size_t c = 0; c < n; ++c) z.thread_moved += (theta_[a * n + c] - z.on_thread * z.K[a * n + c]) * force[c];
-            }
+        Numbers<few>& moves = now;
+        for (std::size_t a = 0; a < n; ++a) moves[a] = speed(Residual::times(z.K, a, q.data(), n), a);
+        if (threaded_) {
+            const std::size_t c = n - 1;
+            z.thread_moved = at.free[c] + span_ * moves[c];
+            for (std::size_t b = 0; b < n; ++b) z.thread_moved += (theta_[c * n + b] - z.on_thread * z.K[c * n + b]) * force[b];
+        }
+        z.lost = span_ * z.damped(moves.data(), n);
+        for (std::size_t k = 0; k < n; ++k) {
+            const MassStep& m = z.masses[k];
+            const double behind = Residual::times(z.V, k, moves.data(), n) - alone[k], pulls = m.branch * behind;
+            z.lost += span_ * pulls * pulls * m.mobility;
+            v[k] = alone[k] + 0.5 * m.share * behind;
         }
         for (std::size_t a = 0; a < n; ++a) P[a] = Residual::times(z.W, a, q.data(), n);
-        z.lost = lost;
         z.P[0].swap(z.P[1]), z.v[0].swap(z.v[1]);
         return converged;
     }
@@ -371,8 +375,7 @@ private:
     };
     struct Series : Residual {
         explicit Series(Residual r) : Residual(std::move(r)) {}
-        std::array<std::vector<double>, 2> P, v;  // at the two levels [N], [m/s]
-        std::vector<LadderStep> in_step;
+        std::array<std::vector<double>, 2> P, v;  // at the two levels, of points [N] and patterns [m/s]
         std::vector<double> older, now, free;  // of the points where they touch [m]
         std::vector<double> q, past, alone;    // workspaces [N], [m], [m/s]
         double rate = 1;                       // of its levels [1/s]

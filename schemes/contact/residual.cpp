@@ -1,35 +1,45 @@
 #include "schemes/contact/residual.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 namespace jvari {
 
-Residual::Residual(const MissingMatrix& m, double span_) : points(m.ladder.size()), C(m.C), W(m.C), K(m.C), ladder(m.ladder), span(span_) {
+Residual::Residual(const MissingMatrix& m, double span_)
+    : points(m.points()), C(m.C), W(m.C), K(m.C), R(m.C), damper(m.ladder.damper), V(m.ladder.V), span(span_) {
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const auto n = static_cast<Eigen::Index>(points);
-    const Eigen::Map<const Matrix> c(C.data(), n, n);
-    Eigen::VectorXd r(n);
-    for (Eigen::Index a = 0; a < n; ++a) r[a] = ladder[a].resists(2 / span);
-    const Matrix w = (r.asDiagonal() * c / span + 0.5 * Matrix::Identity(n, n)).inverse(), k = c * w;
-    Eigen::Map<Matrix>(W.data(), n, n) = w;
-    Eigen::Map<Matrix>(K.data(), n, n) = 0.5 * (k + k.transpose());
+    const auto of = [n](std::vector<double>& x) { return Eigen::Map<Matrix>(x.data(), n, n); };
+    Eigen::VectorXd branch(n);
+    for (Eigen::Index k = 0; k < n; ++k) branch[k] = masses.emplace_back(m.ladder.mass[k], m.ladder.resistance[k], span).branch;
+    of(R) = of(damper) + of(V).transpose() * branch.asDiagonal() * of(V);
+    const Matrix w = (of(R) * of(C) / span + 0.5 * Matrix::Identity(n, n)).inverse(), k = of(C) * w;
+    of(W) = w;
+    of(K) = 0.5 * (k + k.transpose());
+}
+
+MissingMatrix by_backward_differences(MissingMatrix m, double dt) {
+    std::fill(m.ladder.damper.begin(), m.ladder.damper.end(), 0.0);
+    for (std::size_t k = 0; k < m.ladder.mass.size(); ++k)
+        m.ladder.resistance[k] = std::min(m.ladder.resistance[k], m.ladder.mass[k] / (2 * dt));
+    return m;
 }
 
 ResidualPair::ResidualPair(const MissingMatrix& m, double span) {
-    const bool contact = m.contacts > 0;
-    if (contact) C_bb = m.C.front(), b_ = LadderStep(m.ladder.front(), span);
-    if (m.thread) C_cc = m.C.back(), c_ = LadderStep(m.ladder.back(), span);
-    if (contact && m.thread) C_bc = m.C[1];
+    const Residual of(m, span);
+    const bool contact = m.contacts > 0, both = contact && m.thread;
+    if (contact) C_bb = of.C[0], K_bb = of.K[0], W_bb = of.W[0], damper_bb = of.damper[0];
+    if (m.thread) K_cc = of.K.back(), W_cc = of.W.back(), damper_cc = of.damper.back();
+    if (both) K_bc = of.K[1], W_bc = of.W[1], W_cb = of.W[2], damper_bc = of.damper[1];
     if (contact && !m.pluck.empty()) C_be = m.pluck.front();
     if (m.thread && !m.pluck.empty()) C_ce = m.pluck.back();
-    const double R_b = (b_.damper + b_.branch) / span, R_c = (c_.damper + c_.branch) / span;
-    const double bb = R_b * C_bb + 0.5, bc = R_b * C_bc, cb = R_c * C_bc, cc = R_c * C_cc + 0.5, det = bb * cc - bc * cb;
-    W_bb = cc / det, W_bc = -bc / det, W_cb = -cb / det, W_cc = bb / det;
-    K_bb = C_bb * W_bb + C_bc * W_cb;
-    K_bc = C_bb * W_bc + C_bc * W_cc;
-    K_cc = C_bc * W_bc + C_cc * W_cc;
-    const double stiff = C_bb * C_cc - C_bc * C_bc;
-    if (stiff > 0) stiff_bb = C_cc / stiff, stiff_bc = -C_bc / stiff, stiff_cc = C_bb / stiff;
+    for (std::size_t k = 0; k < of.points; ++k) {
+        m_[k] = of.masses[k];
+        if (contact) b_[k] = of.V[k * of.points];
+        if (m.thread) c_[k] = of.V[(k + 1) * of.points - 1];
+    }
+    const double C_bc = both ? of.C[1] : 0, C_cc = m.thread ? of.C.back() : 0, det = C_bb * C_cc - C_bc * C_bc;
+    if (det > 0) stiff_bb = C_cc / det, stiff_bc = -C_bc / det, stiff_cc = C_bb / det;
     else if (C_bb > 0) stiff_bb = 1 / C_bb;
     else if (C_cc > 0) stiff_cc = 1 / C_cc;
 }

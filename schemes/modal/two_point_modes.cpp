@@ -45,7 +45,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
     refuse_above_nyquist(descriptor, modes, settings.sample_rate);
     const int count = m_.modes = modes.count();
     m_.size = (count + modal_padding - 1) / modal_padding * modal_padding;
-    const double xi = dt_ * dt_ / (2 * modes.mass);
+    const bool matched = choice_option(settings, compliance_option) == "matched";
     std::vector<double> A, B, scale, own;  // scale: sqrt(J/xi)
     AlignedVector c(m_.size), loss(m_.size);
     for (AlignedVector* a : {&J_, &y0_, &u0_, &push_}) a->assign(m_.size, 0.0);
@@ -57,10 +57,12 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
         B.push_back(Bi);
         c[i] = 4 * Ai / J;
         loss[i] = 2 * Bi / J;
-        scale.push_back(std::sqrt(J / xi));
+        // Frequency and decay fix A and B, not the mass. Matched, sqrt(k m) of mass m and stiffness 4 m A/dt^2 is the true mode's.
+        const double mass = modes.mass * (matched ? 0.5 * dt_ * modes.omega0[i] / std::sqrt(Ai) : 1);
+        scale.push_back(std::sqrt(J / (dt_ * dt_ / (2 * mass))));
         y0_[i] = shape[i] * scale[i];
         u0_[i] = -2 * Ai / J * y0_[i];                     // (42) with q = 0
-        own.push_back(dt_ * dt_ / (4 * modes.mass * Ai));  // (42) with s = 0
+        own.push_back(dt_ * dt_ / (4 * mass * Ai));  // (42) with s = 0
         free_modes_.push_back(two_point_mode(Ai, Bi, dt_));
         offset_ = std::max(offset_, lead_at_start(modes.omega0[i], modes.sigma[i], Ai, Bi));
     }
@@ -115,7 +117,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
         }
         taps_.push_back(std::move(t));
     }
-    if (choice_option(settings, compliance_option) == "matched") p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
+    if (matched) p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
     else if (p_.contacts.count() == 1 && !on_body) compliance_ = relative_compliance(modes, s, own);
     for (auto* v : {&older_, &free_}) v->assign(g_.size(), 0.0);
     if (p_.contacts.count() <= 1 && !on_body) {

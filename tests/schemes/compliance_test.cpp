@@ -13,6 +13,7 @@
 #include "schemes/contact/compliance.hpp"
 #include "schemes/contact/residual.hpp"
 #include "schemes/making.hpp"
+#include "schemes/modal/modal_compliance.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 #include "tests/c3.hpp"
@@ -431,35 +432,98 @@ TEST(Radiation, ResistanceIsThatOfTheCutModesOfAnIdealString) {
                 3e-3);  // eight times as many modes leave 1/8^3
 }
 
-// Its inverse begins with (1/C)(1 + x^2/3 ...): C^-1 beside a mass of 1/(3 C omega_M^2), and ends with the wave resistance 2 Z0.
-TEST(Radiation, MassAndDamperAreThoseOfTheCutModesOfAnIdealString) {
-    String s = c3_release().strings.front();
+// What is missing of a string whose kept modes are exact in time.
+MissingMatrix cut_from(const Scene& scene, int kept, double dt) {
+    const Modes modes = modes_of(scene.strings.front(), kept);
+    std::vector<double> own;
+    for (double omega : modes.omega0) own.push_back(1 / (modes.mass * omega * omega));
+    return modal_missing_matrix(scheme("modal_two_point"), scene, modes, dt, own);
+}
+
+// Its inverse is C^-1 (1 + x^2/3 ...), and C^-1 x/atanh(x) at a real frequency below the cut: a mass that grows from 1/(3 C omega_M^2). Its
+// mean over the kept modes, of weight g^2/omega, stands in the ladder, but for the 1/64 of E that lies above half the sample rate, four
+// times omega_M. A quarter of C lies there, which the damper has.
+TEST(Radiation, TheLadderIsThatOfTheCutModesOfAnIdealString) {
+    Scene scene = c3_release();
+    String& s = scene.strings.front();
     s.bending_stiffness = 0;
+    s.thread.reset();
+    bridge(scene).position = 0.3, bridge(scene).width = 0;
     constexpr int kept = 400;
-    const Footprint place{0.3, 0};
-    const double Z0 = std::sqrt(s.tension * s.linear_density), last = modes_of(s, kept).omega0.back();
-    const CutModes cut = cut_modes(s, {&place, 1}, kept, 4 * last);
-    EXPECT_NEAR(cut.C[0] * std::numbers::pi * Z0 * last, 1, 5e-3);
-    EXPECT_NEAR(cut.E[0] / (cut.C[0] * cut.C[0]) * 3 * last / (std::numbers::pi * Z0), 1, 1e-2);
-    EXPECT_NEAR(cut.folded[0] / cut.C[0], 0.25, 5e-3);  // of modes above four times the last: C falls as 1/omega
-    EXPECT_GT(cut.resistance[0], 2 * Z0);
-    EXPECT_LT(cut.resistance[0], 2.4 * Z0);
+    const double Z0 = std::sqrt(s.tension * s.linear_density), last = modes_of(s, kept).omega0.back(), C = 1 / (std::numbers::pi * Z0 * last),
+                 dt = std::numbers::pi / (4 * last);
+    const MissingMatrix missing = cut_from(scene, kept, dt);
+    EXPECT_NEAR(missing.C[0] / C, 1, 5e-3);
+    EXPECT_NEAR(missing.ladder.damper[0] * 2 * C / (0.25 * dt), 1, 1e-2);
+    double mean = 0, weights = 0;
+    for (int k = 1; k <= kept; ++k) {
+        const double x = (k - 0.5) / kept, weight = std::pow(std::sin(0.3 * std::numbers::pi * k), 2) / x;
+        mean += weight * (1 - x / std::atanh(x)) / (x * x);
+        weights += weight;
+    }
+    const double mass = missing.ladder.mass[0];
+    EXPECT_NEAR(mass * C * last * last * weights / mean, 63.0 / 64, 1e-2);
+    EXPECT_EQ(missing.ladder.V[0], 1);
+    const double R = 2 * mass / dt * std::atanh(0.5 * dt * missing.ladder.resistance[0] / mass);
+    EXPECT_GT(R, 2 * Z0);
+    EXPECT_LT(R, 2.4 * Z0);
+}
+
+// Two points near each other have a pattern that moves them alike and one that moves them apart: as many masses as matter, none shared.
+TEST(Radiation, PatternsMakeInertiaAndComplianceOfTheCutModesDiagonal) {
+    const Scene scene = c3_release();
+    const double dt = 1 / 176400.0;
+    const Ladder ladder = cut_from(scene, 133, dt).ladder;
+    const CutModes cut = cut_modes(scene.strings.front(), sites_of(scene).forces, 133, std::numbers::pi / dt);
+    const auto between = [&](const std::vector<double>& m, int j, int k) {
+        double sum = 0;
+        for (int a = 0; a < 2; ++a)
+            for (int b = 0; b < 2; ++b) sum += ladder.V[2 * j + a] * m[2 * a + b] * ladder.V[2 * k + b];
+        return sum;
+    };
+    for (const auto* m : {&cut.C, &cut.E}) {
+        EXPECT_LT(std::abs(between(*m, 0, 1)), 1e-9 * std::sqrt(between(*m, 0, 0) * between(*m, 1, 1)));
+        EXPECT_GT(std::abs((*m)[1]), 0.1 * (*m)[0]);
+    }
+    for (int k = 0; k < 2; ++k) {
+        const double C = between(cut.C, k, k), least = between(cut.E, k, k) / (C * C);
+        EXPECT_GT(ladder.mass[k], least);
+        EXPECT_LT(ladder.mass[k], 1.3 * least);
+    }
 }
 
 // The mass takes up what it lags behind in a step, all that is stored and lost adds up, and nothing is lost by a slow motion.
-TEST(Radiation, ALadderTakesFromAStepWhatItStoresAndLoses) {
-    const double span = 1 / 44100.0;
-    const Ladder ladder{0.1, 2e-6 / span, 2e-6};
-    const LadderStep in_step(ladder, span);
+TEST(Radiation, AMassTakesFromAStepWhatItStoresAndLoses) {
+    const double span = 1 / 44100.0, mass = 2e-6;
+    const MassStep in_step(mass, mass / span, span);
     double v = 0.3;
     for (const double moved : {1e-5, -3e-6, 4e-5}) {
-        const double before = v, force = in_step.damper * moved / span + in_step.branch * (moved / span - v);
-        const double lost = in_step.lost(moved, v);
+        const double before = v, force = in_step.branch * (moved / span - v), lost = in_step.lost(moved, v);
         in_step.follow(moved, v);
         EXPECT_GE(lost, 0);
-        EXPECT_NEAR(force * moved, lost + 0.5 * ladder.mass * (v * v - before * before), 1e-15 * ladder.mass);
+        EXPECT_NEAR(force * moved, lost + 0.5 * mass * (v * v - before * before), 1e-15 * mass);
     }
-    EXPECT_NEAR(ladder.branch(2 / 1e-9), ladder.resistance, 1e-4 * ladder.resistance);
+    EXPECT_NEAR(MassStep(mass, mass / span, 1e-9).branch, mass / span, 1e-4 * mass / span);
+}
+
+// Of what frequency and decay leave open, matched modes have the true impedance m omega: 1 N for a step moves a mode by cos(omega dt/2) of
+// what a blow of dt N s does, as if half of it fell at either end of the step. So under a steady force it yields by x/tan(x), x = omega
+// dt/2, of what the true mode does; as published (eq 42) by its square.
+TEST(Compliance, MatchedModesHaveTheTrueImpedance) {
+    Scene scene = c3_release();
+    String& s = scene.strings.front();
+    s.damping = {};
+    s.thread.reset();
+    bridge(scene).position = 0.3, bridge(scene).width = 0;
+    const Modes modes = modes_of(s, 100);
+    const auto g = footprint_weights(modes, 0.3, 0);
+    double own = 0;
+    for (int i = 0; i < modes.count(); ++i) {
+        const double x = 0.5 * modes.omega0[i] / 44100;
+        own += g[i] * g[i] * x / std::tan(x) / (modes.mass * modes.omega0[i] * modes.omega0[i]);
+    }
+    const double missing = fact(make_scheme(scheme("modal_two_point"), scene, at(44100, 100))->facts(), "series_compliance");
+    EXPECT_NEAR(missing / (static_deflection(s, {0.3, 0}, {0.3, 0}) - own), 1, 1e-9);
 }
 
 TEST(Compliance, SchemesThatAreTooSoftSaySo) {
