@@ -157,8 +157,8 @@ struct Answer {
         return std::isfinite(least) ? least : none;
     }
 
-    // The mass that stands for the inertia of the cut modes, (1/C - 1/H(i omega))/omega^2 at the frequencies of the kept ones, each of which
-    // weighs g^2/omega, by as much as a blow moves it; and of that the share of the modes below `nyquist`.
+    // The mass that stands for the inertia of the cut modes, (1/C - 1/H(i omega))/omega^2 at the frequencies of the kept ones, each of
+    // which weighs g^2/omega, by as much as a blow moves it; and of that the share of the modes below `nyquist`.
     double mass(double nyquist) const {
         double sum = 0, weights = 0, E = 0, below = 0;
         const int every = 1 + kept / 128;

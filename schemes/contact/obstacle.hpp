@@ -22,8 +22,8 @@
 // Where the contacts' forces are known before the step (explicit_rule.hpp), D is that of the instant by which they go, and D' the backward
 // difference of second order (3 D - 4 D- + D--)/(2 dt), v' likewise. Midpoints would alternate for ever there: a stiff contact says what D
 // is, and not by how much it moves. Backward differences damp by themselves, so the damper of the folded modes goes, and no mass follows
-// its point faster than in the two steps that they span. With F = P + R D' - B v_0, v_0 = (4 v- - v--)/3 and q = R/dt C (2 P- - P--/2) + B v_0,
-// P = W (F + q), W = (1 + 3/2 R C/dt)^-1, S = C W.
+// its point faster than in the two steps that they span. With F = P + R D' - B v_0, v_0 = (4 v- - v--)/3 and q = R/dt C (2 P- - P--/2) + B
+// v_0, P = W (F + q), W = (1 + 3/2 R C/dt)^-1, S = C W.
 #pragma once
 
 #include <algorithm>
@@ -376,12 +376,12 @@ private:
     struct Series : Residual {
         explicit Series(Residual r) : Residual(std::move(r)) {}
         std::array<std::vector<double>, 2> P, v;  // at the two levels, of points [N] and patterns [m/s]
-        std::vector<double> older, now, free;  // of the points where they touch [m]
-        std::vector<double> q, past, alone;    // workspaces [N], [m], [m/s]
-        double rate = 1;                       // of its levels [1/s]
-        double on_thread = 1, lags = 0;        // lags: r_c/phi [s]
-        double lost = 0;                       // in the last step [J]
-        double thread_moved = 0;               // in it, of what is known before [m]
+        std::vector<double> older, now, free;     // of the points where they touch [m]
+        std::vector<double> q, past, alone;       // workspaces [N], [m], [m/s]
+        double rate = 1;                          // of its levels [1/s]
+        double on_thread = 1, lags = 0;           // lags: r_c/phi [s]
+        double lost = 0;                          // in the last step [J]
+        double thread_moved = 0;                  // in it, of what is known before [m]
         void rest() {
             for (auto* levels : {&P, &v})
                 for (auto& x : *levels) std::fill(x.begin(), x.end(), 0.0);

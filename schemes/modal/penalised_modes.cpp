@@ -16,8 +16,8 @@ PenalisedModes::Sides PenalisedModes::sides(double k_b) const {
                 G.back() += p_.update.gain_of(j) * p_.update.ports[a].weights[j] * p_.update.ports[b].weights[j] /
                             (2 * (2 - p_.three_point.loss[j]) - p_.three_point.kappa[j]);
         }
-    const Residual yields =
-        points().series ? Residual(by_backward_differences(*points().series, points().dt), 0.5 * points().dt) : Residual();  // whose K is 2 C (1 + 4 R C/dt)^-1
+    const Residual yields = points().series ? Residual(by_backward_differences(*points().series, points().dt), 0.5 * points().dt)
+                                            : Residual();  // whose K is 2 C (1 + 4 R C/dt)^-1
     const auto C = [&yields, n](int a, int b) { return yields.K.empty() ? 0 : 0.5 * yields.K[a * n + b]; };
     Sides of{1 / k_b + C(0, 0), G[0]};
     if (!points().threads.empty()) {

@@ -61,7 +61,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
         const double mass = modes.mass * (matched ? 0.5 * dt_ * modes.omega0[i] / std::sqrt(Ai) : 1);
         scale.push_back(std::sqrt(J / (dt_ * dt_ / (2 * mass))));
         y0_[i] = shape[i] * scale[i];
-        u0_[i] = -2 * Ai / J * y0_[i];                     // (42) with q = 0
+        u0_[i] = -2 * Ai / J * y0_[i];               // (42) with q = 0
         own.push_back(dt_ * dt_ / (4 * mass * Ai));  // (42) with s = 0
         free_modes_.push_back(two_point_mode(Ai, Bi, dt_));
         offset_ = std::max(offset_, lead_at_start(modes.omega0[i], modes.sigma[i], Ai, Bi));

@@ -214,10 +214,10 @@ TEST(Maps, WhereAnExplicitSchemeWithItsComplianceMatchedLosesLastingContactIsKno
         x = { key = "rate", values = [44100, 58800, 88200, 132300] }
         modes = 80
         options = { "modal_explicit_penalty:compliance" = "matched" }
-        duration = 0.05
+        duration = 0.1
         reference = "none"
         theory = "penalty_limit"
-        refine = 7
+        refine = 9
     )",
                                                                 "a.toml");
     int compared = 0;

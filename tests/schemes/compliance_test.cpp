@@ -450,8 +450,8 @@ TEST(Radiation, TheLadderIsThatOfTheCutModesOfAnIdealString) {
     s.thread.reset();
     bridge(scene).position = 0.3, bridge(scene).width = 0;
     constexpr int kept = 400;
-    const double Z0 = std::sqrt(s.tension * s.linear_density), last = modes_of(s, kept).omega0.back(), C = 1 / (std::numbers::pi * Z0 * last),
-                 dt = std::numbers::pi / (4 * last);
+    const double Z0 = std::sqrt(s.tension * s.linear_density), last = modes_of(s, kept).omega0.back(),
+                 C = 1 / (std::numbers::pi * Z0 * last), dt = std::numbers::pi / (4 * last);
     const MissingMatrix missing = cut_from(scene, kept, dt);
     EXPECT_NEAR(missing.C[0] / C, 1, 5e-3);
     EXPECT_NEAR(missing.ladder.damper[0] * 2 * C / (0.25 * dt), 1, 1e-2);
