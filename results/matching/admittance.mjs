@@ -1,7 +1,7 @@
 // What a contact sees of a string, over frequency: draws admittance.svg beside this file, and admittance.csv with what is drawn.
 //     node results/matching/admittance.mjs
 // Displacement at the contact per newton, mean over a step, of a force that is constant over each step: of the true string (6000 modes, exact in
-// time), of the modes below 20 kHz by the two-point step (van Walstijn et al. 2016, eqs 32-38), the difference of the two, and the ladder
+// time), of the modes below 20 kHz by the matched two-point step (van Walstijn et al. 2016, eqs 32-38, with true impedances), the difference of the two, and the ladder
 // that stands for it (docs/compliance-matching.md). On a circle |z| > 1 three mode spacings outside, so that single resonances blur.
 import { writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -35,10 +35,10 @@ function exact({ omega, sigma, yields }, z, h) {
     const below = plus(plus(times(z, z), times([-2 * c, 0], z)), [e * e, 0]);
     return times([yields / omega ** 2, 0], over(plus(times([1 - c - s, 0], z), [e * e + s - c, 0]), below));
 }
-// and by the two-point step: (z - 1)(z - 1 + l) + c z
+// and by the two-point step: (z - 1)(z - 1 + l) + c z, with A of eq 33, and the gain by which sqrt(k m) of the mode is the true one
 function stepped({ omega, sigma, yields }, z, h) {
     const e = Math.exp(-sigma * h), l = 1 - e * e, c = 2 - l - 2 * e * Math.cos(Math.sqrt(omega ** 2 - sigma ** 2) * h);
-    const gain = 0.5 * yields * h * h * (1 - c / 4 - l / 2), back = plus(z, [-1, 0]);
+    const byJ = 1 - c / 4 - l / 2, gain = 0.5 * yields * h * h * byJ * (Math.sqrt(c / 4 / byJ) / ((omega * h) / 2)), back = plus(z, [-1, 0]);
     return times([gain, 0], over(plus(z, [1, 0]), plus(times(back, plus(back, [l, 0])), times([c, 0], z))));
 }
 
@@ -52,22 +52,28 @@ for (const c of contacts) for (const rate of rates) {
         const there = sum(beyond, (m) => m.yields / (m.omega ** 2 + s ** 2));
         return (mass * s) / ((mass * s * s) / (1 / there - 1 / cut) - 1);
     });
-    const branch = ((2 * mass) / h) * Math.tanh(Math.min((Math.min(...touching) * h) / mass, 1) / 2);
+    const nyquist = Math.PI / h, kept_ones = modes.slice(0, kept), inertia = (some) => sum(some, (m) => atRest(m) / m.omega ** 2);
+    const heavier = sum(kept_ones, ({ omega, yields }) => {
+        const more = sum(beyond, (m) => atRest(m) / (m.omega ** 2 - omega ** 2));
+        return ((yields / omega) * more) / (cut * (cut + more * omega ** 2));
+    }) / sum(kept_ones, (m) => m.yields / m.omega);
+    const held = (heavier * inertia(beyond.filter((m) => m.omega < nyquist))) / inertia(beyond);
+    const branch = ((2 * held) / h) * Math.tanh((Math.min(...touching) * h) / held / 2);
     const own = sum(modes.slice(0, kept), (m) => stepped(m, [1 + 1e-9, 0], h)[0]), C = sum(modes, atRest) - own;
-    const damper = ((h / 2) * sum(beyond.filter((m) => m.omega > Math.PI / h), atRest)) / C ** 2;
+    const damper = ((h / 2) * sum(beyond.filter((m) => m.omega > nyquist), atRest)) / C ** 2;
     const blur = Math.exp(((3 * Math.PI) / c.L) * Math.sqrt(c.T / c.mu) * h);
     for (let k = 0; k < points; ++k) {
         const phase = (Math.PI * (k + 0.5)) / points, z = [blur * Math.cos(phase), blur * Math.sin(phase)], mean = times([0.5, 0], plus(z, [1, 0]));
         const total = (some, of) => times(mean, some.map((m) => of(m, z, h)).reduce(plus));
         const truth = total(modes, exact), scheme = total(modes.slice(0, kept), stepped), missing = plus(truth, times([-1, 0], scheme));
         const speed = times([2 / h, 0], over(plus(z, [-1, 0]), plus(z, [1, 0])));
-        const behind = over([mass * branch, 0], plus([branch, 0], times(speed, [mass, 0])));
+        const behind = over([held * branch, 0], plus([branch, 0], times(speed, [held, 0])));
         const element = over([1, 0], plus([1 / C, 0], times(speed, plus([damper, 0], times(speed, behind)))));
         const lines = { "true string": truth, "modes and step": scheme, "what is missing": missing, ladder: element };
         for (const [line, [re, im]] of Object.entries(lines))
             table.push({ contact: c.name, rate, line, frequency_hz: (phase * rate) / (2 * Math.PI), admittance_m_per_N: Math.hypot(re, im) });
     }
-    console.log(`${c.name}, ${rate} Hz: ${kept} modes, C ${C.toExponential(2)} m/N, damper ${damper.toPrecision(3)} and ${branch.toPrecision(3)} kg/s, mass ${mass.toExponential(2)} kg`);
+    console.log(`${c.name}, ${rate} Hz: ${kept} modes, C ${C.toExponential(2)} m/N, damper ${damper.toPrecision(3)} and ${branch.toPrecision(3)} kg/s, mass ${held.toExponential(2)} kg`);
 }
 const rounded = (x) => Number(x.toPrecision(4));
 const columns = Object.keys(table[0]);

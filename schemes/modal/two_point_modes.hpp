@@ -4,8 +4,9 @@
 //     s = u + sum_p g_p F_p,   y <- y + s,   u <- s + sum_p g_p F_p - loss s - c y;   r_p = g_p.s, Theta_pq = g_p.g_q
 //
 // which is one fused pass over the modes for one contact and a thread (kernels/modal_two_point_kernel.hpp). Here J = 1 + A + B, c = 4 A/J,
-// loss = 2 B/J, xi = dt^2/2m, and A, B of eq 33 (exact) or 32. The momentum is q = J u/2 + A y = J (u/2 + c y/4). On a body that moves
-// (schemes/body) its acceleration is one more force.
+// loss = 2 B/J, xi = dt^2/2m, and A, B of eq 33 (exact) or 32. With compliance=matched m is the mass by which the mode has its true
+// impedance (docs/compliance-matching.md). The momentum is q = J u/2 + A y = J (u/2 + c y/4). On a body that moves (schemes/body) its
+// acceleration is one more force.
 #pragma once
 
 #include "schemes/driver/string_step.hpp"
