@@ -113,7 +113,7 @@ function front_labels(front, all) {
 function work_precision_spec(choice, print) {
   const rows = of_scene(cells(), choice.scene), {column: error, title} = chosen_error(rows, choice), cost = choice.cost_field, every = points_of(rows, error, cost, "line");
   const names = choice.every ? in_order(every.map(p => p.series)) : main_series(every), all = every.filter(p => names.includes(p.series)), sound = all.filter(is_sound);
-  const bands = bands_of(rows, error), front = front_of(rows, error, cost), failed = all.filter(p => p.x > 0 && p.status !== "ok");
+  const bands = bands_of(rows, error), front = front_of(rows, error, cost).filter(f => all.some(p => p.n === f.n)), failed = all.filter(p => p.x > 0 && p.status !== "ok");
   const {color, shape, strokeDash} = encodings_of(names), drawn = names.filter(name => sound.some(p => p.series === name) || failed.some(p => p.series === name));
   const time = "datum.value < 1 ? format(1000*datum.value, ',~r') + ' ms' : format(datum.value, ',~r') + ' s'", opacity = brought_out;
   const lines = (which, strokeWidth) => ({data: {values: sound.filter(p => p.control === which)}, mark: {type: "line", strokeWidth}, encoding: {color, strokeDash, order: {field: "order"}, opacity}});
