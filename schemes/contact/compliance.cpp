@@ -108,25 +108,6 @@ double static_nut_force(const String& s, const Footprint& force) {
     return force.position / s.length;  // the balance of moments about the other end
 }
 
-double radiation_resistance(const String& s, const Footprint& at, int kept) {
-    constexpr int further = 8;  // times as many modes: what they add to C_cut - H falls as 1/i^3
-    const auto* table = measured(s);
-    const int all = table ? static_cast<int>(table->frequency_hz.size()) : further * kept;
-    const double none = std::sqrt(s.tension * s.linear_density);
-    if (all <= kept) return none;
-    const Modes modes = modes_of(s, all);
-    const auto g = footprint_weights(modes, at.position, at.width);
-    const double frequency = modes.omega0[kept - 1] / 3;
-    double yield = table ? 0 : static_deflection(s, at, at), slower = 0;  // C_cut, and C_cut - H
-    for (int i = 0; i < all; ++i) {
-        const double square = modes.omega0[i] * modes.omega0[i], own = g[i] * g[i] / (modes.mass * square);
-        if (i < kept) yield -= table ? 0 : own;
-        else if (table) yield += own;
-        if (i >= kept) slower += own * frequency * frequency / (square + frequency * frequency);
-    }
-    return yield > slower && slower > 0 ? slower / (yield * (yield - slower) * frequency) : none;
-}
-
 namespace {
 constexpr int further_modes = 8;  // times as many as are kept: what is beyond adds 1/500 to E, and to C from its closed form
 
@@ -139,20 +120,30 @@ struct Answer {
 
     double square(int i) const { return modes.omega0[i] * modes.omega0[i]; }
     double yield(int i) const { return g[i] * g[i] / (modes.mass * square(i)); }
+    double last() const { return modes.omega0[kept - 1]; }
+    double slower(double s) const {  // C - H at a real frequency s, of those that are summed; what the others add falls as 1/i^3
+        double sum = 0;
+        for (int i = modes.count() - 1; i >= kept; --i) sum += yield(i) * s * s / (square(i) + s * s);
+        return sum;
+    }
+    double inertia(double nyquist) const {  // E of those below
+        double sum = 0;
+        for (int i = modes.count() - 1; i >= kept; --i)
+            if (modes.omega0[i] < nyquist) sum += yield(i) / square(i);
+        return sum;
+    }
 
     // R of C^-1 D + R (D' - v), E/C^2 v' = R (D' - v), where its admittance is that of the cut modes at one real frequency: the least over
     // all. There both touch. On an ideal string that is at infinity, and R the wave resistance. With stiffness and footprints R is larger,
     // and hardly changes near three times the frequency of the last mode kept. `none`: of a single cut mode, which has no resistance.
     double touching_resistance(double none) const {
-        double E = 0, beyond = C, least = std::numeric_limits<double>::infinity();
-        for (int i = modes.count() - 1; i >= kept; --i) beyond -= yield(i), E += yield(i) / square(i);
-        const double mass = E / (C * C), last = modes.omega0[kept - 1];
-        for (double s = last; s < further_modes * last; s *= 1.1) {
-            const double x_end = s / modes.omega0.back();
-            double slower = beyond * (1 - std::atan(x_end) / x_end);  // C - H
-            for (int i = modes.count() - 1; i >= kept; --i) slower += yield(i) * s * s / (square(i) + s * s);
-            const double x = mass * s * C * (C - slower) * s / slower - 1;  // M s^2/(1/H - 1/C) - 1
-            if (slower < C && x > 1e-6) least = std::min(least, mass * s / x);
+        const double mass = inertia(HUGE_VAL) / (C * C);
+        double beyond = C, least = std::numeric_limits<double>::infinity();
+        for (int i = modes.count() - 1; i >= kept; --i) beyond -= yield(i);
+        for (double s = last(); s < further_modes * last(); s *= 1.1) {
+            const double x_end = s / modes.omega0.back(), lag = beyond * (1 - std::atan(x_end) / x_end) + slower(s);
+            const double x = mass * s * C * (C - lag) * s / lag - 1;  // M s^2/(1/H - 1/C) - 1
+            if (lag < C && x > 1e-6) least = std::min(least, mass * s / x);
         }
         return std::isfinite(least) ? least : none;
     }
@@ -160,7 +151,7 @@ struct Answer {
     // The mass that stands for the inertia of the cut modes, (1/C - 1/H(i omega))/omega^2 at the frequencies of the kept ones, each of
     // which weighs g^2/omega, by as much as a blow moves it; and of that the share of the modes below `nyquist`.
     double mass(double nyquist) const {
-        double sum = 0, weights = 0, E = 0, below = 0;
+        double sum = 0, weights = 0;
         const int every = 1 + kept / 128;
         for (int k = kept - 1 - every / 2; k >= 0; k -= every) {
             double more = 0;  // (H - C)/omega^2
@@ -169,14 +160,19 @@ struct Answer {
             sum += weight * more / (C * (C + more * square(k)));
             weights += weight;
         }
-        for (int i = modes.count() - 1; i >= kept; --i) {
-            E += yield(i) / square(i);
-            if (modes.omega0[i] < nyquist) below += yield(i) / square(i);
-        }
-        return weights > 0 ? sum / weights * below / E : 0;
+        return weights > 0 ? sum / weights * inertia(nyquist) / inertia(HUGE_VAL) : 0;
     }
 };
 }  // namespace
+
+double radiation_resistance(const String& s, const Footprint& at, int kept) {
+    const double none = std::sqrt(s.tension * s.linear_density);
+    const CutModes cut = cut_modes(s, {&at, 1}, kept, HUGE_VAL);
+    if (cut.C.empty()) return none;
+    const Answer answer{cut.modes, kept, cut.g.front(), cut.C.front()};
+    const double frequency = answer.last() / 3, slower = answer.slower(frequency);
+    return answer.C > slower && slower > 0 ? slower / (answer.C * (answer.C - slower) * frequency) : none;
+}
 
 CutModes cut_modes(const String& s, std::span<const Footprint> points, int kept, double nyquist) {
     const auto* table = measured(s);

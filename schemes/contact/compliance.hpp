@@ -38,8 +38,9 @@ double static_deflection(const String&, const Footprint& at, const Footprint& fo
 // of the last mode kept. Where no mode is left out, half the wave resistance of the string, sqrt(T mu). For schemes from outside.
 double radiation_resistance(const String&, const Footprint&, int kept);
 
-// What the points see of the modes beyond the first `kept`, as matrices over the points: their static yield C and inertia E, the sums of
-// g g'/(m omega^2) and g g'/(m omega^4), and the part of C whose modes lie above `nyquist` [rad/s]. Empty where no mode is left out.
+// What the points see of the modes beyond the first `kept`, as matrices over the points: their static yield C, the sum of g g'/(m omega^2);
+// `folded`, the part of C whose modes lie above `nyquist` [rad/s]; and E, the inertia of the others, the sum of g g'/(m omega^4). Empty
+// where no mode is left out.
 struct CutModes {
     Modes modes;                         // those kept and, after them, as many of those cut as are summed
     std::vector<std::vector<double>> g;  // of each point
