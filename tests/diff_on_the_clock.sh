@@ -6,7 +6,7 @@
 jvari=$1 honest=$2 slow=$3 repeats=${4:-10}
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT || exit 2
 compare() {  # PLUGIN OUT
-    "$jvari" compare free_string --schemes honest,modal_two_point,modal_two_point_trapezoidal,modal_spatial_newton,modal_strang,finite_difference_explicit \
+    "$jvari" compare free_string --schemes honest,modal_two_point,modal_two_point_trapezoidal,modal_spatial_newton,finite_difference_explicit \
         --rates 44100,88200,176400 --duration 0.1 --repeats 5 --quiet --plugin "$1" --out "$work/$2" >"$work/log" 2>&1 ||
         { cat "$work/log" >&2; exit 2; }
 }

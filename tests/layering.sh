@@ -21,7 +21,7 @@ forbid "the seam sees no scheme" '#include "schemes/(body|contact|modal|spatial|
 forbid "contacts see the seam alone" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/contact)
 forbid "a moving body sees contacts and the seam" '#include "schemes/(modal|spatial|grid|sitar)/' $(files schemes/body)
 forbid "modal schemes see contacts and the seam" '#include "schemes/(spatial|grid|sitar)/' $(files schemes/modal)
-forbid "kernels of modes see no scheme" '#include "schemes/modal/(modal_[^s]|modal_strang|three)' $(files schemes/modal/kernels)
+forbid "kernels of modes see no scheme" '#include "schemes/modal/(modal_[^s]|three)' $(files schemes/modal/kernels)
 forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(grid|sitar)/' $(files schemes/spatial)
 forbid "the problem of schemes from outside sees contacts and the seam" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/open)
 forbid "grids see contacts and the seam" '#include "schemes/(modal|spatial|sitar)/' $(files schemes/grid)

@@ -55,7 +55,6 @@ const tours = {
         {say: "The scheme is built so that no energy is lost or gained unaccounted for. The ledger closes to rounding.", set: {...c3, ...with_scheme("modal_two_point")}, number: energy_and_error},
         {say: "At eight times the sample rate the ledger closes as well, and the error stops falling: it comes from the modes that are left out.", set: {rate: 352800}, number: energy_and_error},
         {say: "The same holds for another scheme with exact energy, the implicit grid.", set: with_scheme("finite_difference_theta"), number: energy_and_error},
-        {say: "A splitting scheme promises no energy, and its ledger is open. Its motion is closer to the exact one than those of the schemes before.", set: with_scheme("modal_strang", 352800), number: energy_and_error},
         {say: "An exact energy keeps a scheme from exploding. It does not tell how wrong the motion is.", set: with_scheme("modal_two_point", 88200, "matched"), number: energy_and_error}]},
     explode: {title: "The explicit scheme explodes: find the boundary", steps: [
         {say: "This control takes the contact force from the step before. With a soft bridge it runs.", set: {...c3, set: {"string.0.barrier.0.stiffness": "1e4"}, ...with_scheme("modal_explicit_penalty")}, number: error_now},

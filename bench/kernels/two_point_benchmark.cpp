@@ -68,21 +68,15 @@ void step(benchmark::State& state) {
     time_rows(state, *scheme);
     state.counters["error"] = error;
 }
-// The same with what is missing of the string's compliance in series, and the explicit form that it makes possible with the modes that are
-// stable there. Their errors are in docs/compliance-matching.md: there is no plain form to take them against.
-using Words = decltype(Settings::options);
-void matched(benchmark::State& state, const std::string& name, int modes, Words options) {
-    const Scene scene = three_taps();
+// The same with what is missing of the string's compliance in series. Its errors are in docs/compliance-matching.md: there is no plain form
+// to take them against.
+void matched(benchmark::State& state) {
     Settings s = settings();
-    s.modes = modes;
-    s.options = std::move(options);
-    const auto& all = schemes();
-    const auto scheme = make_scheme(*std::find_if(all.begin(), all.end(), [&](const Descriptor& d) { return d.name == name; }), scene, s);
-    time_rows(state, *scheme);
+    s.options = {{"compliance", "matched"}};
+    time_rows(state, *fused(three_taps(), s));
 }
 BENCHMARK(step<fused>)->Name("two_point/fused");
-BENCHMARK_CAPTURE(matched, two_point, "modal_two_point", 133, Words{{"compliance", "matched"}});
-BENCHMARK_CAPTURE(matched, strang_40_modes, "modal_strang", 40, Words{});
+BENCHMARK(matched)->Name("matched/two_point");
 BENCHMARK(step<plain<double>>)->Name("two_point/plain_eigen");
 
 // Strings as runs of one and as one scene: four of different pitch, four times those, and an ensemble of sixteen that differ in how they

@@ -29,7 +29,6 @@ public:
     int count() const { return static_cast<int>(laws_.size()); }
     const std::vector<Thread>& laws() const { return laws_; }
     const One& one() const { return one_; }
-    double phi(int t) const { return phi_[t]; }                                      // [N/m]
     double coupling(int a, int t) const { return coupling_[a * count() + t]; }       // theta_bc of contact a [m/N]
     double answer(int t, int a) const { return answer_[t * contacts_ + a]; }         // beta
     std::vector<double> between_contacts(std::span<const double> theta) const;       // the threads yielding: contacts x contacts

@@ -18,12 +18,6 @@
 // K = C W,
 //     D+ = D + K (F - Q),   P+ = P + W (F - Q),   points at reading + C P,   r = free - K Q + (Theta + K) F,
 // the equation above with Theta + K for Theta. (P' C P + v' M v)/2 is stored, and what LadderStep says is lost.
-//
-// Where the contacts' forces are known before the step (explicit_rule.hpp), D is that of the instant by which they go, and D' the backward
-// difference of second order (3 D - 4 D- + D--)/(2 dt), v' likewise. Midpoints would alternate for ever there: a stiff contact says what D
-// is, and not by how much it moves. Backward differences damp by themselves, so the damper of the folded modes goes, and no mass follows
-// its point faster than in the two steps that they span. With F = P + R D' - B v_0, v_0 = (4 v- - v--)/3 and q = R/dt C (2 P- - P--/2) + B
-// v_0, P = W (F + q), W = (1 + 3/2 R C/dt)^-1, S = C W.
 #pragma once
 
 #include <algorithm>
@@ -80,32 +74,16 @@ public:
         return {elastic, threads, theta, 0.5 * span_, levels_};
     }
     void put_in_series(const MissingMatrix& missing, int levels) {  // levels: how many of them a step spans
-        const double dt = span_ / levels;
-        Series z(known_before ? Residual(by_backward_differences(missing, dt), 4 * dt / 3) : Residual(missing, span_));
+        Series z(Residual(missing, span_));
         std::vector<double> theta = theta_;
-        for (std::size_t i = 0; i < theta.size(); ++i) {
-            if (known_before) z.K[i] *= 0.5, z.W[i] *= 0.5;
-            theta[i] += z.K[i];
-        }
-        if (known_before && threaded_) {  // to which D is r of another share: k + 3/2 r_c/dt for phi
-            const std::size_t n = z.points - 1;
-            z.on_thread = (law().stiffness + 1.5 * law().damping / dt) / threads_.phi(0);
-            for (std::size_t a = 0; a <= n; ++a)
-                for (std::size_t c = 0; c <= n; ++c)
-                    if (a == n || c == n) theta[a * z.points + c] += (z.on_thread - 1) * z.K[a * z.points + c];
-        }
+        for (std::size_t i = 0; i < theta.size(); ++i) theta[i] += z.K[i];
         *this = Obstacle(Contacts(contacts_), std::vector(threads_.laws()), theta, span_, levels_);
-        if constexpr (known_before) rule_.put_in_series(yield_alone(z));
-        z.span = known_before ? dt : span_;
-        z.rate = 1 / z.span;
-        if (known_before && threaded_) z.lags = law().damping / threads_.phi(0);
+        z.rate = 1 / span_;
         series_levels_ = levels;
-        for (auto* v : {&z.P[0], &z.P[1], &z.v[0], &z.v[1], &z.older, &z.now, &z.free, &z.q, &z.past, &z.alone}) v->assign(z.points, 0.0);
+        for (auto* v : {&z.P[0], &z.P[1], &z.v[0], &z.v[1], &z.older, &z.now, &z.free, &z.q}) v->assign(z.points, 0.0);
         series_ = std::move(z);
     }
 
-    // Of how many levels the potential is known when a row is written.
-    int levels_told() const { return series_ && known_before ? 1 : levels_; }
     int contacts() const { return contacts_.count(); }
     int points() const { return contacts() + threads_.count(); }
     int dofs() const { return rule_.dofs(); }
@@ -120,24 +98,21 @@ public:
     }
     void set(std::span<const double> theta) noexcept { rule_.set(theta); }  // of a step; without thread, contact loss and series
     void follow(const Obstacle& first) {                                    // after `first` made the first half step
-        if constexpr (!known_before) rule_ = first.rule_;                   // with its state, and other compliances
+        rule_ = first.rule_;                                                // with its state, and other compliances
         rule_.set(loss_.undamped());
         if (!series_) return;
         series_->rest();
         series_->P[1] = first.series_->P[0];
         series_->v[1] = first.series_->v[0];
-        if (known_before)  // the level before the first, so that D begins as by Euler's backward step
-            for (auto* x : {&series_->P[1], &series_->v[1]})
-                for (double& value : *x) value = -value;
     }
 
     // Forces on the string [N] out, one per point. False where the contacts did not converge. Allocates nothing.
     bool solve(const ReadingsBeforeStep& at, double* force) noexcept {
         lost_by_rule_ = 0;
         if (!series_) return solve_touching(at, force);
-        return points() == 1   ? solve_beside_series<1>(at, force)
-               : points() == 2 ? solve_beside_series<2>(at, force)
-                               : solve_beside_series<0>(at, force);
+        return points() == 1   ? solve_in_series<1>(at, force)
+               : points() == 2 ? solve_in_series<2>(at, force)
+                               : solve_in_series<0>(at, force);
     }
     bool start(const ReadingsBeforeStep& at, double* force) noexcept { return series_ ? solve(at, force) : solve_points<true>(at, force); }
 
@@ -153,8 +128,7 @@ public:
     double loss() const {  // of the last step [W]: of threads, of lossy contacts, of what is in series, of the rule
         double power = ((series_ ? series_->lost : 0) + loss_.lost()) / span_;
         power += levels_ * lost_by_rule_ / span_;
-        for (int t = 0; t < threads_.count(); ++t)
-            power += threads_.lost(t, series_ && known_before ? series_->thread_moved : threads_.moved(t, from_[t], pull_[t]));
+        for (int t = 0; t < threads_.count(); ++t) power += threads_.lost(t, threads_.moved(t, from_[t], pull_[t]));
         return power;
     }
     void forces(int level, double* force) const {  // of each point at that level, of what is in series
@@ -178,28 +152,14 @@ public:
     }
 
 private:
-    static constexpr bool known_before = requires(Rule rule, std::vector<double> S) { rule.put_in_series(S); };
-    const Thread& law() const { return threads_.laws().front(); }  // what is in series knows of one thread
     // eta of a contact at the level that the step is centred on, as its rule has it (obstacle_rule.hpp). thread: what the first pulls.
     double centre(int a, const ReadingsBeforeStep& at, double b, double thread) const {
         const double now = contacts_.heights[a] - at.now[a];
         if constexpr (!Rule::centred) return now;
         if (!series_) return levels_ == 1 ? now + 0.5 * b : now;
         if (!threaded_) return now;
-        const double S = series_->K[a * series_->points + contacts()];
-        return now - (S + (levels_ == 1 ? 0.5 * (threads_.coupling(a, 0) - series_->on_thread * S) : 0)) * thread;
-    }
-    // S between the contacts, the thread yielding too [m/N].
-    std::vector<double> yield_alone(const Residual& z) const {
-        const int n = contacts();
-        std::vector<double> S;
-        for (int a = 0; a < n; ++a)
-            for (int c = 0; c < n; ++c) {
-                S.push_back(z.K[a * z.points + c]);
-                if (threaded_)
-                    S.back() -= 0.5 * (z.K[a * z.points + n] * threads_.answer(0, c) + z.K[c * z.points + n] * threads_.answer(0, a));
-            }
-        return S;
+        const double K = series_->K[a * series_->points + contacts()];
+        return now - (K + 0.5 * (threads_.coupling(a, 0) - K)) * thread;
     }
 
     // One contact at most, which loses nothing, and a thread at most: the rule's closed form, without a detour by way of memory.
@@ -216,7 +176,7 @@ private:
                 double r = 0;
                 const GramSolution s = rule_.solve(before, &r, force);
                 tally_.force.note(force[0]);
-                tally_.deepest = std::max({tally_.deepest, known_before && series_ ? 0 : contacts_.heights[0] - at.now[0], eta - r});
+                tally_.deepest = std::max({tally_.deepest, contacts_.heights[0] - at.now[0], eta - r});
                 note(s);
                 converged = s.converged;
             }
@@ -260,8 +220,7 @@ private:
             for (int a = 0; a < n; ++a) {
                 for (int t = 0; t < m; ++t) pull_[t] -= threads_.answer(t, a) * force[a];
                 tally_.force.note(force[a]);
-                tally_.deepest =
-                    std::max({tally_.deepest, known_before && series_ ? 0 : contacts_.heights[a] - at.now[a], eta_[a] - r_[a]});
+                tally_.deepest = std::max({tally_.deepest, contacts_.heights[a] - at.now[a], eta_[a] - r_[a]});
             }
             note(s);
         } else {
@@ -322,51 +281,6 @@ private:
         return converged;
     }
 
-    template <std::size_t few>
-    bool solve_at_the_instant(const ReadingsBeforeStep& at, double* force) noexcept {
-        Series& z = *series_;
-        const std::size_t n = few > 0 ? few : z.points;
-        double *P = z.P[1].data(), *v = z.v[1].data();  // of the level before, and then of the new one
-        const double *P_now = z.P[0].data(), *v_now = z.v[0].data();
-        Numbers<few> older(z.older), now(z.now), free(z.free), q(z.q), past(z.past), alone(z.alone);
-        for (std::size_t a = 0; a < n; ++a) {
-            past[a] = 2 * Residual::times(z.C, a, P_now, n) - 0.5 * Residual::times(z.C, a, P, n);  // D' = (3/2 D - that)/dt
-            alone[a] = v_now[a] + (v_now[a] - v[a]) * (1.0 / 3);
-        }
-        for (std::size_t a = 0; a < n; ++a) q[a] = z.pulled(a, alone.data(), n) + Residual::times(z.R, a, past.data(), n) * z.rate;
-        const auto speed = [&](double D, std::size_t a) { return (1.5 * D - past[a]) * z.rate; };
-        for (std::size_t a = 0; a < n; ++a) {  // without forces D = S q
-            const double D = Residual::times(z.K, a, q.data(), n);
-            now[a] = at.now[a] + D + (levels_ == 1 ? 0.5 * at.free[a] : 0);
-            older[a] = at.older[a] + D;
-            free[a] = at.free[a] + (threaded_ && a + 1 == n ? z.lags * speed(D, a) : 0);
-        }
-        const bool converged = solve_touching({older.data(), now.data(), free.data()}, force);
-        for (std::size_t a = 0; a < n; ++a) q[a] += force[a];
-        Numbers<few>& moves = now;
-        for (std::size_t a = 0; a < n; ++a) moves[a] = speed(Residual::times(z.K, a, q.data(), n), a);
-        if (threaded_) {
-            const std::size_t c = n - 1;
-            z.thread_moved = at.free[c] + span_ * moves[c];
-            for (std::size_t b = 0; b < n; ++b) z.thread_moved += (theta_[c * n + b] - z.on_thread * z.K[c * n + b]) * force[b];
-        }
-        z.lost = span_ * z.damped(moves.data(), n);
-        for (std::size_t k = 0; k < n; ++k) {
-            const MassStep& m = z.masses[k];
-            const double behind = Residual::times(z.V, k, moves.data(), n) - alone[k], pulls = m.branch * behind;
-            z.lost += span_ * pulls * pulls * m.mobility;
-            v[k] = alone[k] + 0.5 * m.share * behind;
-        }
-        for (std::size_t a = 0; a < n; ++a) P[a] = Residual::times(z.W, a, q.data(), n);
-        z.P[0].swap(z.P[1]), z.v[0].swap(z.v[1]);
-        return converged;
-    }
-    template <std::size_t few>
-    bool solve_beside_series(const ReadingsBeforeStep& at, double* force) noexcept {
-        if constexpr (known_before) return solve_at_the_instant<few>(at, force);
-        else return solve_in_series<few>(at, force);
-    }
-
     struct Tally {  // over the solves since clear()
         ForceRange force;
         double deepest = 0, residual = 0;
@@ -377,11 +291,9 @@ private:
         explicit Series(Residual r) : Residual(std::move(r)) {}
         std::array<std::vector<double>, 2> P, v;  // at the two levels, of points [N] and patterns [m/s]
         std::vector<double> older, now, free;     // of the points where they touch [m]
-        std::vector<double> q, past, alone;       // workspaces [N], [m], [m/s]
-        double rate = 1;                          // of its levels [1/s]
-        double on_thread = 1, lags = 0;           // lags: r_c/phi [s]
+        std::vector<double> q;                    // workspace [N]
+        double rate = 1;                          // 1/span [1/s]
         double lost = 0;                          // in the last step [J]
-        double thread_moved = 0;                  // in it, of what is known before [m]
         void rest() {
             for (auto* levels : {&P, &v})
                 for (auto& x : *levels) std::fill(x.begin(), x.end(), 0.0);

@@ -76,15 +76,15 @@ protected:
 };
 
 // What a rule may have beside that: start(at, r, force), the first half of a three-point step, from rest, with half of Theta, where that is
-// not solve(); `Rigid`, the rule for barriers that do not give way; options, which it reads by choose(settings);
-// features that it approximates, or leaves out.
+// not solve(); `Rigid`, the rule for barriers that do not give way; `own_only`, where nothing can stand in series with its contacts;
+// options, which it reads by choose(settings); features that it approximates, or leaves out.
 template <class Rule>
 concept TakesRigid = requires {
     typename Rule::Rigid;
 };
 template <class Rule>
-concept RigidInSeriesOnly = requires {
-    Rule::rigid_in_series_only;
+concept OwnOnly = requires {
+    Rule::own_only;
 };
 
 template <class Rule>

@@ -1,28 +1,20 @@
 #include "schemes/contact/residual.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 
 namespace jvari {
 
-Residual::Residual(const MissingMatrix& m, double span_)
-    : points(m.points()), C(m.C), W(m.C), K(m.C), R(m.C), damper(m.ladder.damper), V(m.ladder.V), span(span_) {
+Residual::Residual(const MissingMatrix& m, double span)
+    : points(m.points()), C(m.C), W(m.C), K(m.C), damper(m.ladder.damper), V(m.ladder.V) {
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const auto n = static_cast<Eigen::Index>(points);
     const auto of = [n](std::vector<double>& x) { return Eigen::Map<Matrix>(x.data(), n, n); };
     Eigen::VectorXd branch(n);
     for (Eigen::Index k = 0; k < n; ++k) branch[k] = masses.emplace_back(m.ladder.mass[k], m.ladder.resistance[k], span).branch;
-    of(R) = of(damper) + of(V).transpose() * branch.asDiagonal() * of(V);
-    const Matrix w = (of(R) * of(C) / span + 0.5 * Matrix::Identity(n, n)).inverse(), k = of(C) * w;
+    const Matrix R = of(damper) + of(V).transpose() * branch.asDiagonal() * of(V);
+    const Matrix w = (R * of(C) / span + 0.5 * Matrix::Identity(n, n)).inverse(), k = of(C) * w;
     of(W) = w;
     of(K) = 0.5 * (k + k.transpose());
-}
-
-MissingMatrix by_backward_differences(MissingMatrix m, double dt) {
-    std::fill(m.ladder.damper.begin(), m.ladder.damper.end(), 0.0);
-    for (std::size_t k = 0; k < m.ladder.mass.size(); ++k)
-        m.ladder.resistance[k] = std::min(m.ladder.resistance[k], m.ladder.mass[k] / (2 * dt));
-    return m;
 }
 
 ResidualPair::ResidualPair(const MissingMatrix& m, double span) {

@@ -15,12 +15,11 @@ namespace jvari {
 struct MassStep {
     double branch = 0;           // 1/(1/resistance + span/(2 mass)) [kg/s]
     double share = 0, mass = 0;  // [1], [kg]
-    double mobility = 0;         // 1/resistance [s/kg]
     double span = 1;             // [s]
 
     MassStep() = default;
     MassStep(double mass_, double resistance, double span_) : mass(mass_), span(span_) {
-        if (mass > 0) mobility = 1 / resistance, branch = 1 / (mobility + 0.5 * span / mass), share = branch * span / mass;
+        if (mass > 0) branch = 1 / (1 / resistance + 0.5 * span / mass), share = branch * span / mass;
     }
     void follow(double moved, double& v) const { v += share * (moved / span - v); }
     double lost(double moved, double v) const {  // in a step, of v before it [J]
@@ -31,13 +30,11 @@ struct MassStep {
 
 struct Residual {
     std::size_t points = 0;
-    std::vector<double> C, W, K;    // points x points [m/N], [1], [m/N]
-    std::vector<double> R, damper;  // points x points: all that resists, and the part without masses [kg/s]
-    std::vector<double> V;          // patterns x points [1]
-    std::vector<MassStep> masses;   // of each pattern
-    double span = 1;                // of a step [s]
+    std::vector<double> C, W, K;   // points x points [m/N], [1], [m/N]
+    std::vector<double> damper;    // points x points: what resists without masses [kg/s]
+    std::vector<double> V;         // patterns x points [1]
+    std::vector<MassStep> masses;  // of each pattern
 
-    Residual() = default;
     Residual(const MissingMatrix&, double span);
 
     static double times(const std::vector<double>& m, std::size_t a, const double* x, std::size_t n) {
@@ -62,8 +59,6 @@ struct Residual {
         return sum;
     }
 };
-
-MissingMatrix by_backward_differences(MissingMatrix, double dt);  // what a scheme of such differences can have of it (obstacle.hpp)
 
 // The same of one contact b and a thread c, either of which may be absent, with its state: D, v of the patterns, and H of the next step, in
 // which D+ - D = K F - H.

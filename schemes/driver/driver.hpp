@@ -166,12 +166,11 @@ private:
 
     double stored() noexcept {
         double sum = string_->stored();
-        const int told = obstacle_.levels_told();
-        for (int level = 0; level < told; ++level) {
+        for (int level = 0; level < levels; ++level) {
             string_->reading(level, now_.data());
             if (const double F_e = plucked_in_series_ ? pluck_at(done_ + level) : 0; F_e != 0)
                 for (int p = 0; p < points().count(); ++p) now_[p] += points().series->pluck[p] * F_e;
-            sum += obstacle_.potential(now_.data(), level) / told;
+            sum += obstacle_.potential(now_.data(), level) / levels;
         }
         return sum;
     }
@@ -217,7 +216,7 @@ std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor&
             std::vector<double> start(string->points().count());
             string->reset();
             string->reading(0, start.data());
-            refuse_rigid(scheme, string->points(), start.data(), RigidInSeriesOnly<Rule>);
+            refuse_rigid(scheme, string->points(), start.data());
             return driven_as_told<typename Rule::Rigid>(std::move(string), settings, choose);
         }
     return driven_as_told<Rule>(std::move(string), settings, choose);

@@ -3,6 +3,8 @@
 #include <iterator>
 #include <list>
 
+#include "schemes/contact/compliance.hpp"
+
 namespace jvari {
 
 #define JVARI_STRING(name) extern const StringRow name;
@@ -12,12 +14,13 @@ namespace jvari {
 namespace {
 struct Column {
     const char *name, *source;
-    bool conserves;
+    bool conserves, own_only;
     std::span<const Option> options;
     std::span<const Approximation> approximates;
     Features leaves_out;
 };
-#define JVARI_ROW(name, Rule, source) {#name, source, Rule::conserves, options_of<Rule>(), approximations_of<Rule>(), left_out_by<Rule>()},
+#define JVARI_ROW(name, Rule, source) \
+    {#name, source, Rule::conserves, OwnOnly<Rule>, options_of<Rule>(), approximations_of<Rule>(), left_out_by<Rule>()},
 const Column columns[] = {JVARI_RULES(JVARI_ROW)};
 #undef JVARI_ROW
 
@@ -47,6 +50,12 @@ std::span<const T> both(std::span<const T> one, std::span<const T> other) {  // 
     kept.back().insert(kept.back().end(), other.begin(), other.end());
     return kept.back();
 }
+std::span<const Option> own_only(std::span<const Option> options) {  // without compliance=matched, kept for good
+    static std::list<std::vector<Option>> kept;
+    kept.emplace_back(options.begin(), options.end());
+    std::erase_if(kept.back(), [](const Option& o) { return std::string(o.name) == compliance_option.name; });
+    return kept.back();
+}
 }  // namespace
 
 std::vector<Pairing> pairings() {
@@ -69,7 +78,7 @@ const std::vector<Descriptor>& schemes_of_pairings() {
                 d.name = names.emplace_back(name_of(*row, columns[c])).c_str();
                 d.source = columns[c].source;
                 d.represents = d.represents - Feature::moving_body - columns[c].leaves_out;
-                d.options = both(d.options, columns[c].options);
+                d.options = both(columns[c].own_only ? own_only(d.options) : d.options, columns[c].options);
                 d.approximates = both(d.approximates, columns[c].approximates);
                 d.balance = columns[c].conserves ? Balance::exact : Balance::none;
                 d.make = row->makers[c];

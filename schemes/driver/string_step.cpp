@@ -45,10 +45,8 @@ void add_lumped(StringPoints& p, const String& s) {
     if (s.thread) p.positions.push_back(s.thread->position);
 }
 
-void refuse_rigid(const Descriptor& scheme, const StringPoints& p, const double* start, bool in_series_only) {
+void refuse_rigid(const Descriptor& scheme, const StringPoints& p, const double* start) {
     const auto refuse = [&](const std::string& why) { throw Refusal(std::string(scheme.name) + ": " + why); };
-    if (in_series_only && !p.series)
-        refuse("a rigid barrier needs compliance=matched, for a force that is known before the step needs something that gives way");
     for (int a = 0; a < p.contacts.count(); ++a) {
         if (!p.contacts.laws[a].rigid())
             refuse("a rigid barrier beside one that gives way; make all of them rigid, or give each a stiffness");

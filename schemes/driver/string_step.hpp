@@ -62,9 +62,8 @@ inline double heard_force(Quantity quantity, const StringPoints& p, const double
     }
 }
 
-// Of barriers one of which is rigid at least: refuses one that gives way beside it, a start inside it, and, where the rule can do with
-// nothing else, nothing in series.
-void refuse_rigid(const Descriptor&, const StringPoints&, const double* reading_at_start, bool in_series_only);
+// Of barriers one of which is rigid at least: refuses one that gives way beside it, and a start inside it.
+void refuse_rigid(const Descriptor&, const StringPoints&, const double* reading_at_start);
 
 struct Spent {                            // of one step
     double supplied = 0, dissipated = 0;  // by the pluck, and by the string's own losses [J]

@@ -97,7 +97,7 @@ TEST(CommandLine, HelpTeachesWithExamplesAndEndsWith0) {
 
 TEST(CommandLine, ARefusalEndsWith3AndNamesWhatIsMissing) {
     const Scratch scratch;
-    const Outcome o = jvari(scratch, "run sitar_parabola --scheme modal_strang --json");
+    const Outcome o = jvari(scratch, "run sitar_parabola --scheme exact_linear --json");
     EXPECT_TRUE(ends(o, 3, "profile barrier"));
     const auto json = nlohmann::json::parse(o.out);
     EXPECT_EQ(json.at("status"), "refused");

@@ -477,7 +477,7 @@ TEST(Plan, RatesThatHaveRowsInCommonAreOnOnePoint) {
 TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
     bench::compare::CompareRequest r;
     r.scene = "tanpura_c3_release";
-    r.schemes = {"modal_two_point", "modal_strang"};
+    r.schemes = {"modal_two_point", "modal_explicit_penalty"};
     r.rates = {44100};
     r.options = {{"", "compliance", "matched"}};
     const Scene scene = bench::compare::load_scene(r.scene, {}, {});

@@ -137,7 +137,7 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
     const std::string out = scratch / "stopped", cells = out + "/cells";
     const auto arguments = [](const std::string& folder, const std::string& more = "") {
         std::istringstream words(
-            "compare tanpura_c3_release --schemes modal_two_point,modal_strang --rates 44100,88200 --modes 40 --option compliance=own "
+            "compare tanpura_c3_release --schemes modal_two_point,modal_quadratised --rates 44100,88200 --modes 40 --option compliance=own "
             "--duration 0.05 --repeats 1 --reference-modes 40 --jobs 1 --out " +
             folder + more);
         return std::vector<std::string>(std::istream_iterator<std::string>(words), {});

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr const char* study = R"(
 [[cells]]
 scenes = ["tanpura_c3_release", "free_string"]
-schemes = ["modal_two_point", "modal_strang", "finite_difference_explicit"]
+schemes = ["modal_two_point", "modal_quadratised", "finite_difference_explicit"]
 rates = [44100, 88200]
 reference_modes = 266
 search = false
@@ -54,7 +54,7 @@ refine = 5
 [[map]]
 name = "tension"
 scene = "tanpura_c3_release"
-schemes = ["modal_two_point", "modal_strang"]
+schemes = ["modal_two_point", "modal_quadratised"]
 x = { key = "string.0.tension", values = [30, 40] }
 duration = 0.01
 reproduce = false
@@ -173,7 +173,7 @@ for p in $others; do wait $p || exit 6; done
 TEST(SharedFolder, TwoProgramsHaveEachTheirOwnCells) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\", \"two_point_bridge\"]\nschemes = [\"modal_two_point\", "
-                                         "\"modal_strang\"]\nrates = [44100, 88200]\nreference_modes = \"cell\"\nduration = 0.01\n";
+                                         "\"modal_quadratised\"]\nrates = [44100, 88200]\nreference_modes = \"cell\"\nduration = 0.01\n";
     const std::string suite = "$J suite a.toml --out ",
                       plugin = " --plugin " JVARI_HONEST;  // another program: its plugin counts into the key
     ASSERT_EQ(shell(scratch, suite + "whole --quiet").code, 0) << content(scratch / "stderr");

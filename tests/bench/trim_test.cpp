@@ -138,12 +138,12 @@ struct Cheapest {
 };
 Cheapest of_grid(trim::Judge& judge, const std::vector<int>& left_out) {
     Cheapest best;
-    for (const char* scheme : {"modal_two_point", "modal_strang"})
+    for (const char* scheme : {"modal_two_point", "modal_quadratised"})
         for (const bool matched : {false, true})
             for (const double rate : {44100.0, 88200.0, 176400.0, 352800.0})
                 for (int modes = 2; modes <= modes_below(judge.scene().strings[0], 20e3); ++modes) {
                     trim::Model m{left_out, &catalogue().find(scheme), {rate, 44100, modes, {}}};
-                    if (matched && scheme == std::string("modal_two_point")) m.settings.options = {{"compliance", "matched"}};
+                    if (matched) m.settings.options = {{"compliance", "matched"}};
                     const double cost = counted(m, judge.scene_of(m));
                     if (cost < best.cost && judge.within(judge.verdict(m, 0), 0)) best = {cost, m.settings_text()};
                 }
@@ -154,7 +154,8 @@ class NothingIsCheaper : public testing::TestWithParam<std::pair<const char*, co
 
 TEST_P(NothingIsCheaper, OnAGridByMoreThanAFifth) {
     trim::Judge judge(request(GetParam().first, GetParam().second), catalogue(), silent, counted);
-    const trim::Path path = trim::search(judge, {&catalogue().find("modal_two_point"), &catalogue().find("modal_strang")}, {0}, silent);
+    const trim::Path path =
+        trim::search(judge, {&catalogue().find("modal_two_point"), &catalogue().find("modal_quadratised")}, {0}, silent);
     ASSERT_TRUE(path.found);
     const trim::Step& last = path.steps.back();
     EXPECT_LE(last.error, judge.target().most);
@@ -215,7 +216,7 @@ TEST(Search, FindsTheSameModelWhateverAClocksNoise) {
         std::normal_distribution<double> normal;
         trim::Judge judge(request("tanpura_c3_release", "10%"), catalogue(), silent,
                           [&](const trim::Model& m, const Scene& left) { return counted(m, left) * std::exp(noise * normal(random)); });
-        const std::vector<const Descriptor*> two{&catalogue().find("modal_two_point"), &catalogue().find("modal_strang")};
+        const std::vector<const Descriptor*> two{&catalogue().find("modal_two_point"), &catalogue().find("modal_quadratised")};
         const trim::Model m = trim::search(judge, two, {0}, silent).steps.back().model;
         return std::pair(m.settings_text(), m.left_out);
     };
@@ -227,7 +228,7 @@ TEST(Search, FindsTheSameModelWhateverAClocksNoise) {
 TEST(Search, OfAnySchemeFindsTheCheapestAndPassesOverWhatDoesNotServe) {
     trim::Judge judge(request("tanpura_c3_release", "2%"), catalogue(), silent, counted);
     std::vector<const Descriptor*> any;
-    for (const char* name : {"finite_difference_explicit", "finite_difference_hamiltonian", "modal_strang", "modal_two_point"})
+    for (const char* name : {"finite_difference_explicit", "finite_difference_hamiltonian", "modal_quadratised", "modal_two_point"})
         any.push_back(&catalogue().find(name));
     const trim::Path path = trim::search(judge, any, {0}, silent);
     ASSERT_TRUE(path.found);
@@ -279,7 +280,7 @@ TEST(Search, OptionsThatAreNamedAreTriedInPlaceOfThoseThatTrimTriesByItself) {
     EXPECT_EQ(names({{"", "compliance", "own"}, {"", "compliance", "matched"}}),
               (Names{"modal_two_point compliance=own", "modal_two_point compliance=matched"}));
     EXPECT_EQ(names({{"modal_two_point", "compliance", "matched"}}), Names{"modal_two_point compliance=matched"});
-    EXPECT_EQ(names({{"modal_strang", "compliance", "own"}}).size(), 2u);  // of another
+    EXPECT_EQ(names({{"modal_quadratised", "compliance", "own"}}).size(), 2u);  // of another
     trim::Request r = request("tanpura_c3_release", "5%");
     r.scheme = "modal_two_point";
     r.options = {{"", "compliance", "own"}};

@@ -54,7 +54,7 @@ TEST(Unwritable, AMessageThatDoesNotGetOutChangesNothing) {
     for (const char* stream : {"2> /dev/full", "2>&-"}) {
         EXPECT_EQ(shell(scratch, std::string("$J run free_string --scheme nope ") + stream).code, 2);
         EXPECT_EQ(shell(scratch, small_comparison + " " + stream).code, 0);  // with a note
-        const Outcome o = shell(scratch, std::string("$J run sitar_parabola --scheme modal_strang --json ") + stream);
+        const Outcome o = shell(scratch, std::string("$J run sitar_parabola --scheme exact_linear --json ") + stream);
         EXPECT_EQ(o.code, 3);
         EXPECT_EQ(nlohmann::json::parse(o.out).at("exit_code"), 3);
     }

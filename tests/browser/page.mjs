@@ -112,7 +112,7 @@ test("noise floor and certificate are of the scene and the error that is shown",
 test("a band is of the reference of all points or not there", () => {
     const bands = second => {
         const of = of_cells("cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n" +
-            `1,a,modal_strang,,44100,10,ok,,0.1,0.002,1,1,1\n2,a,exact_contact,,,10,ok,,0.0007,${second},1,1,1\n`);
+            `1,a,modal_quadratised,,44100,10,ok,,0.1,0.002,1,1,1\n2,a,exact_contact,,,10,ok,,0.0007,${second},1,1,1\n`);
         return of("bands_of(cells(), 'error_l2_50ms')").certificate;
     };
     assert.equal(bands("0.002"), 0.002);
@@ -171,11 +171,11 @@ test("errors are offered only where there is a finite value, and the headline co
     assert.deepEqual(sample()("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')")[0].told, {scheme: "a", rate: "44.1 kHz", modes: "133", error: "1\u00a0%", cost: "10 ms per second (100 \u00d7 faster than real time)", quartiles: "9 ms to 11 ms"});
 });
 test("of modes and rates the best of each scheme are one line", () => {
-    const row = (cell, modes, rate, status, error, cost) => `${cell},a,modal_strang,compliance=own,${rate},${modes},${status},,${error},0,${cost},${cost},${cost}\n`;
+    const row = (cell, modes, rate, status, error, cost) => `${cell},a,modal_quadratised,compliance=own,${rate},${modes},${status},,${error},0,${cost},${cost},${cost}\n`;
     const of = of_cells("cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n" +
         row(1, 10, 44100, "ok", 0.1, 1) + row(2, 10, 88200, "ok", 0.08, 2) + row(3, 20, 88200, "ok", 0.02, 1.9) /* beats the second */ + row(4, 20, 176400, "not_needed", 0.03, ""));
     const all = of("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s', 'line')");
-    assert.deepEqual(all.map(p => [p.series, p.label]), [["modal_strang compliance=own", "10 modes, 44.1 kHz"], ["modal_strang compliance=own", "20 modes, 88.2 kHz"]]);
+    assert.deepEqual(all.map(p => [p.series, p.label]), [["modal_quadratised compliance=own", "10 modes, 44.1 kHz"], ["modal_quadratised compliance=own", "20 modes, 88.2 kHz"]]);
     assert.ok(of("verdicts()")[0].sentences.some(s => s.startsWith("3 of 4 runs succeeded, 1 left out")));
 });
 test("the legend has what is drawn and nothing else", () => {
@@ -214,12 +214,12 @@ test("what is swept has a chart of error along it", () => {
     assert.deepEqual([...drawn].sort(), expected.sort());
 });
 test("error falls along modes in one line for each scheme", () => {
-    const of = of_cells("cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms\n1,a,modal_strang,,88200,10,ok,,0.1\n2,a,modal_strang,,88200,20,ok,,0.01\n" +
+    const of = of_cells("cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms\n1,a,modal_quadratised,,88200,10,ok,,0.1\n2,a,modal_quadratised,,88200,20,ok,,0.01\n" +
         "3,a,finite_difference_theta,,88200,155,ok,,0.1\n4,a,finite_difference_theta,,176400,225,ok,,0.05\n");  // a grid: its nodes go with the rate
     const {charts} = section(of, "sweep"), {spec} = charts[0].spec(first(charts[0]), false);
     assert.equal(charts.length, 1);
     assert.equal(spec.encoding.x.axis.title, "modes");
-    assert.deepEqual(rows_of(spec, "line").map(p => [p.series, p.at, p.y]), [["modal_strang", 10, 0.1], ["modal_strang", 20, 0.01]]);
+    assert.deepEqual(rows_of(spec, "line").map(p => [p.series, p.at, p.y]), [["modal_quadratised", 10, 0.1], ["modal_quadratised", 20, 0.01]]);
     assert.equal(charts[0].twins[0].file, "sweep-modes.svg");
 });
 test("orders are those of the file where it has them, else of the cells", () => {
@@ -300,7 +300,7 @@ test("steps to a trimmed scene have the look of their schemes", () => {
 });
 
 // ---- Looks
-const registry = [["modal_two_point", false], ["modal_quadratised", false], ["modal_strang", false], ["modal_spatial_newton", false], ["finite_difference_theta", false], ["finite_difference_explicit", false],
+const registry = [["modal_two_point", false], ["modal_quadratised", false], ["modal_spatial_newton", false], ["finite_difference_theta", false], ["finite_difference_explicit", false],
                   ["sitar_fdm", false], ["modal_explicit_penalty", true], ["exact_contact", false]];
 const linear = hex => [1, 3, 5].map(k => parseInt(hex.slice(k, k + 2), 16) / 255).map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);  // sRGB, IEC 61966-2-1
 const times = (m, v) => m.map(row => row.reduce((sum, x, k) => sum + x * v[k], 0));

@@ -80,8 +80,8 @@ class Module(unittest.TestCase):
             jvari.run("tanpura_c3", "sitar_waveguide")
         with self.assertRaisesRegex(jvari.UsageError, "option"):
             jvari.run("tanpura_c3", "modal_two_point", options={"complience": "own"})
-        with self.assertRaisesRegex(jvari.UsageError, "modal_strang:compliance: this run is of modal_two_point"):
-            jvari.run("tanpura_c3", "modal_two_point", options={"modal_strang:compliance": "own"})
+        with self.assertRaisesRegex(jvari.UsageError, "modal_quadratised:compliance: this run is of modal_two_point"):
+            jvari.run("tanpura_c3", "modal_two_point", options={"modal_quadratised:compliance": "own"})
         with self.assertRaisesRegex(jvari.SceneError, "string.0.tension.*expected"):
             jvari.scene("tanpura_c3").set("string.0.tension", -3)
         with self.assertRaisesRegex(jvari.SceneError, "did you mean"):

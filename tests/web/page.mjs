@@ -88,7 +88,7 @@ const parts = {
         }
 
         const made = (scheme, cost, spread, error) => ({scheme, compliance: "own", rate: 44100, outcome: "ok", error, uncertainty: 0.01, cost, lower: cost - spread, upper: cost + spread});
-        const v = await see(`verdict(${JSON.stringify([made("modal_two_point", 2, 0.2, 0.05), made("modal_quadratised", 2.3, 0.2, 0.04), made("modal_strang", 3, 0.2, 0.05), made("sitar_fdm", 1, 0.2, 0.095), made("modal_explicit_penalty", 0.5, 0.2, 0.01)])}, 0.1)`);
+        const v = await see(`verdict(${JSON.stringify([made("modal_two_point", 2, 0.2, 0.05), made("modal_quadratised", 2.3, 0.2, 0.04), made("modal_spatial_newton", 3, 0.2, 0.05), made("sitar_fdm", 1, 0.2, 0.095), made("modal_explicit_penalty", 0.5, 0.2, 0.01)])}, 0.1)`);
         expect(v.best.scheme === "modal_quadratised" && String(v.ties.map(p => p.scheme)) === "modal_two_point" && String(v.perhaps.map(p => p.scheme)) === "sitar_fdm",
                `where quartiles touch the more accurate is named and the other a tie, a control does not win, what may be within is named: ${JSON.stringify(v)}`);
 

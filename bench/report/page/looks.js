@@ -4,7 +4,7 @@
 // Colours: found by a search for the largest least distance in CIELAB between families, as seen with normal sight and without one kind of cones
 // (Machado, Oliveira & Fernandes 2009), at a contrast of 3 or more to the page. tests/browser/page.mjs measures both.
 const families = [  // name, how its schemes' names begin, colour on a light page and on a dark one; in the order of legends
-  ["two-point", "modal_two_point", "#0d44e1", "#3799e1"], ["quadratised", "modal_quadratised", "#480588", "#9a38f7"], ["splitting", "modal_strang", "#0b9ccb", "#bcf1f4"],
+  ["two-point", "modal_two_point", "#0d44e1", "#3799e1"], ["quadratised", "modal_quadratised", "#480588", "#9a38f7"],
   ["spatial", "modal_spatial", "#0a722e", "#25ff90"], ["grid", "finite_difference", "#c07c00", "#e0a326"], ["sitar", "sitar_", "#610a2d", "#da0a42"],
   ["control", null, "#767676", "#8d959c"], ["other", null, "#81347f", "#994195"]];
 const control_family = families.length - 2, other_family = families.length - 1;
