@@ -165,7 +165,6 @@ std::string motion_of(const std::string& theory) {
     if (theory == "grid_limit") return "any motion: it is of the grid alone";
     if (theory == "penalty_limit")
         return "lasting contact; where the string parts from the barrier, failures were seen to begin 16 to 71 % off";
-    if (theory == "equal_shares") return "motion without losses that starts in one mode and has had time to spread over all";
     return "any motion: it is of the highest mode alone";
 }
 

@@ -57,9 +57,7 @@ Bracket bisect(Bracket b, int times, bool whole, VerdictAt verdict_at);
 //
 // Of the schemes in the program:
 //   grid_limit      the spacing of the grid is the least that is stable (finite_difference.hpp)
-//   penalty_limit   the highest root of the string in lasting contact passes z = -1 (modal_controls.cpp)
-//   equal_shares    without losses, started in one mode: the gain of true energy that is there once the obstacle has given every mode the
-//                   same share of the energy that the scheme conserves is what judgement.hpp allows (modal_controls.cpp)
+//   penalty_limit   the highest root of the string in lasting contact passes z = -1 (modal_explicit_penalty.cpp)
 
 std::vector<std::string> theories();
 

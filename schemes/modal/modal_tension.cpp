@@ -282,7 +282,7 @@ std::unique_ptr<Scheme> made_two_point(const Descriptor& descriptor, const Scene
     return driven(std::make_unique<StretchingTwoPoint<quadratised>>(descriptor, scene, settings), settings);
 }
 std::unique_ptr<Scheme> made_three_point(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    return driven(std::make_unique<StretchingThreePoint>(problem_of_modes(descriptor, scene, settings, {impulse_gain, true})), settings);
+    return driven(std::make_unique<StretchingThreePoint>(problem_of_modes(descriptor, scene, settings, impulse_gain)), settings);
 }
 
 constexpr Features represented = (modal_features - Feature::thread) | Features(Feature::several_barriers) | Feature::tension_modulation;

@@ -12,7 +12,7 @@ double impulse_gain(double omega0, double sigma, double dt) {
     return std::exp(-sigma * dt) * (square > 0 ? std::sin(h) / h : square < 0 ? std::sinh(h) / h : 1);
 }
 
-void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings& settings, const ModalGain& gain) {
+void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings& settings, ModalGain gain) {
     const String& s = p.string();
     const bool linear = p.points.contacts.count() == 0 && !s.thread;
     p.initial = initial_displacement(p.modes, s);
@@ -22,8 +22,8 @@ void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings
     u.kappa = p.three_point.kappa;
     u.gain = p.three_point.gain;
     for (int j = 0; j < p.modes.count(); ++j) {
-        if (gain.over_plain) u.over_plain.push_back(gain.over_plain(p.modes.omega0[j], p.modes.sigma[j], p.dt));
-        p.W.push_back(gain.adapted ? p.dt * p.dt / u.gain_of(j) : p.modes.mass);
+        if (gain) u.over_plain.push_back(gain(p.modes.omega0[j], p.modes.sigma[j], p.dt));
+        p.W.push_back(gain ? p.dt * p.dt / u.gain_of(j) : p.modes.mass);
     }
     if (s.thread) {
         u.ports.push_back({footprint_weights(p.modes, s.thread->position, s.thread->width), 0});
@@ -51,7 +51,7 @@ void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings
         p.facts.push_back({facts::static_compliance, relative_compliance(p.modes, s, own)});
 }
 
-ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const ModalGain& gain) {
+ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& scene, const Settings& settings, ModalGain gain) {
     ThreePointProblem p;
     p.scene = scene;
     p.scene.strings.front() = with_profile_points(scene.strings.front(), settings);

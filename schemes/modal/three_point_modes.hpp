@@ -28,10 +28,8 @@
 
 namespace jvari {
 
-struct ModalGain {                                                           // of a mode [m/N]
-    double (*over_plain)(double omega0, double sigma, double dt) = nullptr;  // over dt^2/m; nullptr: 1
-    bool adapted = false;                                                    // W = dt^2/gain, by which any gain balances; else m
-};
+// Of a mode, over dt^2/m. nullptr: 1. A gain that differs from mode to mode balances with W = dt^2/gain in place of m.
+using ModalGain = double (*)(double omega0, double sigma, double dt);
 double impulse_gain(double omega0, double sigma, double dt);  // dt R sin(omega dt)/(m omega), over dt^2/m
 
 // What one scene and setting come to before a form is chosen.
@@ -51,9 +49,9 @@ struct ThreePointProblem {
 };
 // The modes as they are, their points by the weights of their footprints, a profile by points of its own. Refuses modes above half the
 // rate.
-ThreePointProblem problem_of_modes(const Descriptor&, const Scene&, const Settings&, const ModalGain& = {});
+ThreePointProblem problem_of_modes(const Descriptor&, const Scene&, const Settings&, ModalGain = nullptr);
 // p with points and update.ports for its contacts: the rest of both, and what follows from them.
-void complete(ThreePointProblem& p, const Descriptor&, const Settings&, const ModalGain& = {});
+void complete(ThreePointProblem& p, const Descriptor&, const Settings&, ModalGain = nullptr);
 
 template <class Form>
 class ThreePointModesBy {

@@ -170,31 +170,6 @@ TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
     EXPECT_TRUE(says(bench::map::maps_text(run), "theory holds for lasting contact;"));
 }
 
-TEST(Maps, TrueEnergyOfTheImpulseInvariantControlIsGainedBelowTheRateOfEqualShares) {
-    const bench::suite::Suite suite = bench::suite::parse_suite(R"(
-        [[map]]
-        name = "a"
-        scene = "tanpura_c3_release"
-        schemes = ["modal_impulse_invariant", "modal_two_point"]
-        x = { key = "rate", values = [88200, 705600] }
-        y = { key = "string.0.initial.number", values = [60, 133] }
-        set = { "string.0.damping.law" = "none", "string.0.thread.damping" = 0, "string.0.barrier.0.position" = 0.137 }
-        modes = 133
-        duration = 0.1
-        reference = "none"
-        theory = "equal_shares"
-        refine = 7
-    )",
-                                                                "a.toml");
-    const bench::map::MapRun run = run_of(suite);
-    ASSERT_EQ(run.boundaries.size(), 1u);  // none of mode 60: equal shares are less than its own. None of the scheme that balances
-    const bench::map::Boundary& b = run.boundaries[0];
-    EXPECT_EQ(b.y, "133");
-    EXPECT_EQ(b.low, bench::study::Verdict::energy_gaining);
-    EXPECT_EQ(b.high, bench::study::Verdict::flagged);  // its ledger is open there too
-    EXPECT_LT(std::abs(b.relative_difference()), 0.05) << b.theory;
-}
-
 TEST(Maps, ASteppedReferenceIsMadeForEachRateAndAContinuousOneOnce) {
     const bench::compare::Catalogue catalogue;
     const bench::map::Trials trials(catalogue);

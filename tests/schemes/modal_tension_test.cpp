@@ -164,10 +164,10 @@ TEST(ModalTension, IsThePlainStringWhereItHardlyStretches) {
     stretching.strings[0].axial_stiffness = 1e-8;
     plain.strings[0].axial_stiffness = 0;
     for (const std::string name : forms) {
-        const bool three = name == forms[2];
-        const jvari::Run of =
-            three ? ran("modal_impulse_invariant", plain, 88200, 40, {{"energy", "adapted"}}) : ran("modal_two_point", plain, 88200, 40);
-        for (const int tap : {0, 1, 2})
+        const bool three = name == forms[2];  // no plain string has its gains: without contacts
+        if (three) stretching.strings[0].barriers.clear(), plain.strings[0].barriers.clear();
+        const jvari::Run of = ran("modal_two_point", plain, 88200, 40);
+        for (int tap = 0; tap < (three ? 2 : 3); ++tap)
             EXPECT_LT(difference(ran(name, stretching, 88200, 40).trace.column(tap), of.trace.column(tap)), 1e-7) << name << tap;
     }
 }
