@@ -43,7 +43,6 @@ struct FactName {
     FACT(energy_gap, "J", "largest difference of the energy with psi from the true one")                                               \
     FACT(rigid_barrier, "", "1: the barrier is rigid, its stiffness and exponent play no part")                                        \
     FACT(rigid_stiffness, "N/m", "stiffness of the stiffest spring that stands for a rigid barrier")                                  \
-    FACT(law_misfit, "", "largest relative error of the contact's force by its pieces")                                               \
     FACT(bridge_nodes, "", "nodes under the bridge")                                                                                   \
     FACT(bridge_length_error, "m", "length of the bridge on the grid less the scene's")                                                \
     FACT(bridge_energy_added, "J", "energy that the bridge rule gave the string")                                                      \

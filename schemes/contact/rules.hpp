@@ -5,12 +5,10 @@
 #include "schemes/contact/explicit_rule.hpp"
 #include "schemes/contact/gradient_rule.hpp"
 #include "schemes/contact/moreau_jean_rule.hpp"
-#include "schemes/contact/piecewise_rule.hpp"
 #include "schemes/contact/quadratised_rule.hpp"
 
 // ROW(name, class, source)
 #define JVARI_RULES(ROW)                                                                                                           \
     ROW(quadratised, QuadratisedRule<Quadratisation::released>, "Ducceschi et al. 2021, psi released in full where it would pull") \
-    ROW(piecewise, PiecewiseRule, "Bhanuprakash et al. 2024: discrete gradient of a potential that is quadratic piece by piece")   \
     ROW(moreau_jean, MoreauJeanRule, "Moreau 1988, Jean 1999: rigid contact with a coefficient of restitution")                    \
     ROW(penalty, ExplicitRule, "the contact force known before the step (conditionally stable control)")

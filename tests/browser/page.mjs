@@ -366,8 +366,8 @@ test("a scheme looks the same in any company and like no other", () => {
         if (control) assert.equal(look.colour, of("families").at(-2)[2]);
     }
     const beside_others = name => of("looks_of")(["another plugin", "a plugin", name]).get(name).colour;
-    assert.equal(beside_others("finite_difference_theta_piecewise"), all.get("finite_difference_theta").colour);
-    assert.equal(beside_others("modal_three_point_piecewise"), of("families").at(-1)[2]);  // no family begins like it
+    assert.equal(beside_others("finite_difference_theta_quadratised"), all.get("finite_difference_theta").colour);
+    assert.equal(beside_others("modal_three_point_moreau_jean"), of("families").at(-1)[2]);  // no family begins like it
     const dash = name => of("looks_of")([name]).get(name).dash, forms = ["", " compliance=own", " compliance=matched", " compliance=own tolerance=1e-6", " compliance=matched tolerance=1e-6"];
     assert.equal(new Set(forms.map(form => dash("exact_contact" + form).join())).size, forms.length);
     for (const form of [" compliance=own", " compliance=matched"]) assert.deepEqual(dash(`exact_contact${form} tolerance=1e-6`).slice(0, 2), dash("modal_two_point" + form));

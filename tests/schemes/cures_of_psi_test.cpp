@@ -1,62 +1,15 @@
-// Contacts by pieces of a quadratic potential, and the cures of psi, against what they must be equal to.
+// The cures of psi, against what they must be equal to.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "scenes/scene_file.hpp"
-#include "schemes/contact/piecewise_rule.hpp"
 #include "schemes/contact/quadratised_rule.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
-#include "tests/schemes/contact_points.hpp"
 
 namespace jvari {
 namespace {
-
-// With exponent 1 there is nothing to be replaced; with others force and increment are the discrete gradient's to the tolerance.
-TEST(Piecewise, IsTheDiscreteGradientOfItsPotential) {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<double> unit(-1, 1);
-    for (const double alpha : {1.0, 1.3, 1.5, 2.0, 3.0})
-        for (const double tolerance : {1e-2, 1e-4}) {
-            const ContactLaw law{1e5 * std::pow(1e-5, 1 - alpha), alpha};
-            const PiecewiseLaw pieces(law, tolerance);
-            for (int draw = 0; draw < 2000; ++draw) {
-                const double eta = unit(random) * std::pow(10, -4 + 2 * unit(random)),
-                             b = unit(random) * std::pow(10, -4 + 2 * unit(random)), theta = std::pow(10, -5 + 3 * unit(random));
-                const ContactSolution got = pieces.solve(eta, b, theta), want = solve_contact(law, eta, b, theta);
-                const double size = std::abs(eta) + std::abs(b), work = pieces.potential(eta) - pieces.potential(eta - got.r);
-                EXPECT_GE(got.force, 0);
-                EXPECT_NEAR(got.r, -b + theta * got.force, 1e-10 * size) << alpha << " " << eta << " " << b << " " << theta;
-                EXPECT_NEAR(got.force * got.r, work, 1e-10 * (pieces.potential(eta) + pieces.potential(eta - got.r) + 1e-30)) << alpha;
-                EXPECT_NEAR(got.r, want.r, 2 * (alpha == 1 ? 1e-10 : tolerance) * (size + std::abs(want.r))) << alpha;
-            }
-            EXPECT_LE(pieces.misfit(), tolerance);
-        }
-}
-
-TEST(Piecewise, SeveralContactsAreSolvedTogether) {
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> unit(-1, 1);
-    for (int draw = 0; draw < 100; ++draw) {
-        Points p;
-        for (int a = 0; a < 3; ++a) p.contacts.add({1e8, 1.5}, 0, 0);
-        couple(p, random, 1e-3);
-        PiecewiseRule rule(p.contacts.laws, p.theta, 1);
-        double eta[3], b[3], r[3], F[3];
-        for (int a = 0; a < 3; ++a) eta[a] = 1e-5 * unit(random), b[a] = 1e-5 * unit(random);
-        ASSERT_TRUE(rule.solve({eta, eta, b}, r, F).converged);
-        double work = 0, stored = 0;
-        for (int a = 0; a < 3; ++a) {
-            work += F[a] * r[a];
-            stored += rule.potential(a, eta[a]) - rule.potential(a, eta[a] - r[a]);
-            double moved = -b[a];
-            for (int c = 0; c < 3; ++c) moved += p.theta[a * 3 + c] * F[c];
-            EXPECT_NEAR(r[a], moved, 1e-17);
-        }
-        EXPECT_NEAR(work, stored, 1e-9 * (std::abs(work) + 1e-12));
-    }
-}
 
 jvari::Run cured(const char* variant, const char* levels, const char* lambda0, double rate) {
     for (const Descriptor& d : schemes())
