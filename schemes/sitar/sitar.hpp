@@ -62,9 +62,8 @@ void lay_bridge(SitarString&, const String&, double plucked);
 // The shape at t = 0 [m], continued beyond both ends as the waves need it: odd about x = 0 and x = L.
 double initial_shape(const String&, double x);
 
-// What the lattice of sitar_fdm does with a node that would pass the profile (sitar_fdm.cpp).
-enum class BridgeRule { clamping, giving_back, reversing, characteristic };
-std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor&, const Scene&, const Settings&);  // the last, for the reference
+// The lattice of sitar_fdm by the rule of the reference (sitar_fdm.cpp).
+std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor&, const Scene&, const Settings&);
 
 // Where a tap reads: (1 - weight) of `node` and weight of the next.
 struct SitarTap {

@@ -6,15 +6,9 @@
 // some d >= 0, an impulse Z d that leaves to both sides and never pulls; there the returning wave alone is set. With `old` for loss^2 y-,
 //
 //   sitar_fdm (12)              y+ = profile, the node is put back on it                           loses energy
-//   waveguide_passive           y+ = profile, F = 2 Z v of the wave that comes in; what that took  none is lost or won
-//                               is given back at the node's next turn, two steps later
-//   waveguide_reversing         y+ = old                                                           none is lost or won, a wrong motion
 //   characteristic_lattice (reference/)  y+ + old = max(2 profile, loss (y_{m+1} + y_{m-1}))       tends to the motion on a flat wall
 //
-// The last is of Schatzman & Bercovier, "Numerical approximation of a wave equation with unilateral constraints", Math. Comp. 53, 1989.
-// Where a whole stretch meets the barrier at once the second throws it back as it came, as a rigid wall does, without a law of impact.
-// Where the contact runs along a flat wall faster than the waves, as after a pluck off the middle, its waves leave exchanged, to the right
-// what should leave to the left, however fine it is: points at rest push along the string as well, and a wall does not.
+// The latter is of Schatzman & Bercovier, "Numerical approximation of a wave equation with unilateral constraints", Math. Comp. 53, 1989.
 //
 // Left out: any stiffness of the contact, a fractional length, the second polarisation (the paper's FDM has one).
 #include <algorithm>
@@ -27,6 +21,8 @@ namespace jvari {
 
 namespace {
 
+enum class BridgeRule { clamping, characteristic };  // of a node that would pass the profile
+
 struct Grid {
     SitarString string;
     std::vector<SitarTap> taps;
@@ -37,16 +33,11 @@ struct Grid {
 template <BridgeRule rule>
 class SitarFdm final : public Scheme {
 public:
-    explicit SitarFdm(Grid g) : g_(std::move(g)), s_(g_.string), now_(s_.cells + 1), before_(s_.cells + 1) {
-        if (rule == BridgeRule::giving_back)
-            for (auto& taken : taken_) taken.resize(s_.profile.size());
-        reset();
-    }
+    explicit SitarFdm(Grid g) : g_(std::move(g)), s_(g_.string), now_(s_.cells + 1), before_(s_.cells + 1) { reset(); }
     void reset() noexcept override {
         steps_ = 0;
         ledger_ = {};
         slopes_dissipated_ = 0;
-        for (auto& taken : taken_) std::fill(taken.begin(), taken.end(), 0.0);
         for (int m = 0; m <= s_.cells; ++m) now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(g_.scene_string, m * s_.dx);
         before_.front() = before_.back() = 0;
         for (int m = 1; m < s_.cells; ++m) before_[m] = 0.5 / s_.step_loss * (now_[m - 1] + now_[m + 1]);  // y_r = y_l = y/2
@@ -58,8 +49,7 @@ public:
             double finite = 0;
             for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(g_.taps[k]);
             if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
-            if (out.energy)
-                write_energy(out, row, s_.wave_energy(slopes() + lent()), 0, s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
+            if (out.energy) write_energy(out, row, s_.wave_energy(slopes()), 0, s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
             slopes_dissipated_ = 0;
             ledger_.next_row();
             for (int k = 0; k < g_.steps_per_row; ++k) {
@@ -70,7 +60,7 @@ public:
         }
         return {};
     }
-    int dofs() const override { return static_cast<int>(now_.size() + before_.size() + 2 * taken_[0].size()); }
+    int dofs() const override { return static_cast<int>(now_.size() + before_.size()); }
     std::vector<Fact> facts() const override {
         std::vector<Fact> facts = s_.facts;
         if (!s_.profile.empty()) ledger_.report(facts);
@@ -89,38 +79,20 @@ private:
         slopes_ *= loss2;
         ++steps_;
     }
-    // By how much the rule moves node m up, which would be at y [m].
-    double lift(int m, double y, double old) noexcept {
-        const double profile = s_.profile[m - 1], d = profile - y;
-        if constexpr (rule == BridgeRule::clamping) return std::max(0.0, d);
-        if constexpr (rule == BridgeRule::reversing) return d > 0 ? old - y : 0;
-        if constexpr (rule == BridgeRule::characteristic) return std::max(0.0, 2 * profile - (y + old));
-        double& taken = taken_[steps_ % 2][m - 1];
-        if (taken > 0) {  // 2 d (y + d - old) = taken
-            const double half = 0.5 * (y - old), root = std::sqrt(half * half + 0.5 * taken), back = 0.5 * taken;
-            taken = 0;
-            return half > 0 ? back / (root + half) : root - half;
-        }
-        if (d <= 0) return 0;
-        taken = std::max(0.0, 2 * d * (old - profile));
-        return d;
-    }
     // An impulse Z d at the node. Nodes do not see one another.
     void meet_bridge() noexcept {
         const double loss = s_.step_loss;
-        double moved = 0, change = 0, lent = 0;
+        double moved = 0, change = 0;
         for (int m = 1; m <= static_cast<int>(s_.profile.size()); ++m) {
-            const double left = loss * before_[m - 1], right = loss * before_[m + 1];
-            const double owed = rule == BridgeRule::giving_back ? taken_[steps_ % 2][m - 1] : 0;
-            const double d = lift(m, now_[m], left + right - now_[m]);
-            if (d <= 0) continue;
-            change += 2 * d * (now_[m] - right + now_[m] - left + d);
-            if constexpr (rule == BridgeRule::giving_back) lent += taken_[steps_ % 2][m - 1] - owed;
-            now_[m] = rule == BridgeRule::clamping ? s_.profile[m - 1] : now_[m] + d;
+            const double left = loss * before_[m - 1], right = loss * before_[m + 1], y = now_[m], old = left + right - y;
+            const double profile = s_.profile[m - 1], d = rule == BridgeRule::clamping ? profile - y : 2 * profile - (y + old);
+            if (!(d > 0)) continue;
+            change += 2 * d * (y - right + y - left + d);
+            now_[m] = rule == BridgeRule::clamping ? profile : y + d;
             moved += d;
         }
         slopes_ += change;
-        ledger_.exchange(s_.wave_energy(change + lent));
+        ledger_.exchange(s_.wave_energy(change));
         ledger_.impulse += s_.impedance() * moved;
         ledger_.force.note(s_.impedance() * moved / s_.dt);
     }
@@ -132,12 +104,6 @@ private:
             const double r = now_[m] - s_.step_loss * before_[m + 1], l = now_[m + 1] - s_.step_loss * before_[m];
             sum += r * r + l * l;
         }
-        return sum;
-    }
-    double lent() const {
-        double sum = 0;
-        for (const auto& taken : taken_)
-            for (const double t : taken) sum += t;
         return sum;
     }
     double velocity(int m) const {
@@ -159,7 +125,6 @@ private:
     Grid g_;
     const SitarString& s_;
     std::vector<double> now_, before_;  // y at the nodes [m]
-    std::vector<double> taken_[2];      // what the barrier owes the nodes 1, 2, ... of this step, and of the next [m^2]
     double slopes_ = 0;                 // slopes() as it should be
     double slopes_dissipated_ = 0;      // since the last row [m^2]
     long steps_ = 0;
@@ -182,30 +147,22 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     return std::make_unique<SitarFdm<rule>>(std::move(g));
 }
 
-template <BridgeRule rule>
-constexpr Descriptor lattice(const char* name, const char* source, Balance balance) {
-    return {.name = name,
-            .source = source,
-            .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
-                          Features(Feature::initial_shape) | Feature::rigid_profile,
-            .balance = balance,
-            .clock = Clock::stepped,
-            .make = made<rule>,
-            .options = options,
-            .approximates = approximates,
-            .note = "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so."};
-}
 }  // namespace
 
 std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     return made<BridgeRule::characteristic>(descriptor, scene, settings);
 }
 
-extern const Descriptor sitar_fdm = lattice<BridgeRule::clamping>("sitar_fdm", "Deshmukh & Rayavarapu, eqs 6-12", Balance::to_tolerance);
-extern const Descriptor waveguide_passive = lattice<BridgeRule::giving_back>(
-    "waveguide_passive", "Krishnaswamy & Smith 2003 on the lattice of Deshmukh & Rayavarapu, eq 9: F = 2 Z v where it touches",
-    Balance::exact);
-extern const Descriptor waveguide_reversing = lattice<BridgeRule::reversing>(
-    "waveguide_reversing", "y+ = y- where a node would pass: keeps the energy, and tends to a wrong motion (control)", Balance::exact);
+extern const Descriptor sitar_fdm = {
+    .name = "sitar_fdm",
+    .source = "Deshmukh & Rayavarapu, eqs 6-12",
+    .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+                  Features(Feature::initial_shape) | Feature::rigid_profile,
+    .balance = Balance::to_tolerance,
+    .clock = Clock::stepped,
+    .make = made<BridgeRule::clamping>,
+    .options = options,
+    .approximates = approximates,
+    .note = "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so."};
 
 }  // namespace jvari

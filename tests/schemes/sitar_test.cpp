@@ -346,7 +346,7 @@ TEST(SitarStatements, TheVariantsReadAndRun) {
         }
         ++read;
     }
-    EXPECT_EQ(read, 9);
+    EXPECT_EQ(read, 8);
 }
 
 TEST(SitarStatements, TheBridgeExcitesThePartialsThatAPluckAtTheMiddleSilences) {
