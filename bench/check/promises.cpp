@@ -39,13 +39,8 @@ constexpr Promise all[] = {
 };
 
 // The one list of what is known to be broken.
-constexpr const char* stale_psi = "a control: its psi may stay behind when the string leaves, and pulls it back";
 constexpr Excuse known[] = {{"modal_generalised_alpha", "CarriesNoMoreStateThanTheSceneNeeds",
-                             "the method's own: it carries each mode's acceleration beside displacement and velocity"},
-                            {"modal_quadratised_two_point_constrained", "NeverPulls", stale_psi},
-                            {"modal_quadratised_two_point_raw", "NeverPulls", stale_psi},
-                            {"modal_quadratised_three_point_constrained", "NeverPulls", stale_psi},
-                            {"modal_quadratised_three_point_raw", "NeverPulls", stale_psi}};
+                             "the method's own: it carries each mode's acceleration beside displacement and velocity"}};
 Verdict excused(const Promise& p, const Case& c, Verdict v) {
     if (v.broken())
         for (const Excuse& e : known)

@@ -21,7 +21,7 @@ print(f"{run.status}: {len(run.time)} rows of {', '.join(run.keys())}; largest n
 # %% Schemes and rates against the exact solution, as the suite work-precision has it
 rows = jvari.compare(
     scene,
-    schemes=["modal_two_point", "modal_quadratised_three_point", "finite_difference_theta"],
+    schemes=["modal_two_point", "modal_three_point", "finite_difference_theta"],
     rates=[44100, 88200, 176400],
     modes=133,
     options={"compliance": ["own", "matched"]},

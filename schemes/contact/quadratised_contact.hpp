@@ -7,16 +7,9 @@
 // two-point: gamma = g, c = 1/2, r = y^{n+1} - y^n;  three-point: gamma = g/2, c = 1, r = y^{n+1} - y^{n-1}, psi at half steps.
 // F r = c (psi^2 - psi+^2) whatever gamma is: the energy with psi in it is balanced exactly, and nothing but g ties psi to sqrt(2V).
 //
-// raw          g as above, and psi wherever that leads: out of contact it stays behind and pulls (F < 0). A known-bad control.
-// constrained  the published correction (ibid.; also in S. Willemsen's thesis, Aalborg 2021): g takes the sign of psi in contact, and
-//              out of it gamma = psi/r0, which would bring psi to 0 if the step were free. Fewer and shorter pulls, not none.
-// released     where psi+ would turn negative, and wherever psi > 0 out of contact, gamma is the one that makes psi+ = 0:
-//              c theta psi gamma^2 + r0 gamma - psi = 0. F >= 0 always, and the whole stored energy goes back to the string.
-// relaxed      raw, and then psi+ <- xi psi+ + (1 - xi) sqrt(2V) with the least xi in [0, 1] by which no energy is gained (relaxed scalar
-//              auxiliary variable; Jiang, Zhang & Zhao 2022): psi+ <- min(|psi+|, sqrt(2V)). It loses half of what psi^2 falls by.
-// controlled   raw, with gamma + lambda0 dt (psi - sqrt(2V))/r0, by which the drift would decay as exp(-lambda0 t) if the step were free
-//              (Risse, Helie & Bilbao 2025, whose control acts on all modes and by their last step; here on the contact alone). It
-//              balances as raw does.
+// raw       g as above, and psi wherever that leads: out of contact it stays behind and pulls (F < 0).
+// released  where psi+ would turn negative, and wherever psi > 0 out of contact, gamma is the one that makes psi+ = 0:
+//           c theta psi gamma^2 + r0 gamma - psi = 0. F >= 0 always, and the whole stored energy goes back to the string.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +21,7 @@
 
 namespace jvari {
 
-enum class Quadratisation { raw, constrained, released, relaxed, controlled };
+enum class Quadratisation { raw, released };
 
 struct QuadratisedLaw {
     ContactLaw law;
@@ -62,12 +55,9 @@ inline QuadratisedStep release(double c, double psi, double r0, double theta) {
 inline QuadratisedStep solve_quadratised(const QuadratisedLaw& q, double eta, double psi, double r0, double theta) {
     if (eta <= 0) {
         if (q.variant == Quadratisation::released && psi != 0) return release(q.c, psi, r0, theta);
-        if (q.variant != Quadratisation::constrained || psi == 0 || r0 == 0) return {0.0, psi};
-        const double force = q.c * psi * psi * r0 / (r0 * r0 + q.c * theta * psi * psi);  // gamma = psi/r0
-        return {force, -psi * theta * force / r0};
+        return {0.0, psi};
     }
-    double gamma = q.gamma(eta);
-    if (q.variant == Quadratisation::constrained && psi < 0) gamma = -gamma;
+    const double gamma = q.gamma(eta);
     const double force = q.c * gamma * (2 * psi - gamma * r0) / (1 + q.c * gamma * gamma * theta);
     const double next = psi - gamma * (r0 + theta * force);
     if (q.variant == Quadratisation::released && (next < 0 || force < 0))

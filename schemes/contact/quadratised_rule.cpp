@@ -19,27 +19,13 @@ QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws, std::
     : variant_(variant), levels_(levels), c_(levels == 1 ? 0.5 : 1), theta_(theta.begin(), theta.end()), system_(laws.size()) {
     const std::size_t n = laws.size();
     for (const ContactLaw& law : laws) laws_.push_back(QuadratisedLaw::make(law, variant, c_));
-    for (auto* v : {&psi_, &next_, &eta_, &free_, &f_, &gamma_, &scale_, &df_, &work_, &older_}) v->assign(n, 0.0);
+    for (auto* v : {&psi_, &next_, &eta_, &free_, &f_, &gamma_, &scale_, &df_, &work_}) v->assign(n, 0.0);
     set_.assign(n, 0);
 }
 
 void QuadratisedContacts::begin(const double* eta) {
     for (int a = 0; a < contacts(); ++a) psi_[a] = laws_[a].psi(eta[a]);
     seen_ = {};
-    lost_ = 0;
-}
-
-void QuadratisedContacts::choose(const Settings& settings) {
-    if (variant_ != Quadratisation::controlled) return;
-    const double lambda0 = number_option(settings, lambda0_option);
-    if (!(lambda0 >= 0)) throw Refusal("option lambda0: expected a number >= 0 [1/s]");
-    drawn_ = std::min(lambda0 / settings.sample_rate, 1.0);
-}
-
-double QuadratisedContacts::control(int a) const noexcept {
-    if (std::abs(free_[a]) < 1e-18) return 0;
-    const double older = laws_[a].psi(older_[a]), now = laws_[a].psi(eta_[a]);
-    return drawn_ * (psi_[a] - (levels_ == 1 ? older : std::sqrt(0.5 * (older * older + now * now)))) / free_[a];
 }
 
 bool QuadratisedContacts::acts(const BeforeStep& at) const {
@@ -52,10 +38,7 @@ bool QuadratisedContacts::solve_linearly() noexcept {
     many_ = 0;
     for (int a = 0; a < contacts(); ++a) {
         next_[a] = psi_[a];
-        double gamma = 0;
-        if (eta_[a] > 0) gamma = laws_[a].gamma(eta_[a]) * (variant_ == Quadratisation::constrained && psi_[a] < 0 ? -1 : 1);
-        else if (variant_ == Quadratisation::constrained && free_[a] != 0) gamma = psi_[a] / free_[a];
-        if (variant_ == Quadratisation::controlled) gamma += control(a);
+        const double gamma = eta_[a] > 0 ? laws_[a].gamma(eta_[a]) : 0;
         gamma_[a] = gamma;
         scale_[a] = std::sqrt(c_) * gamma;
         if (gamma != 0) set_[many_++] = a;
@@ -152,11 +135,10 @@ GramSolution QuadratisedContacts::solve(const BeforeStep& at, double* r, double*
         free_[a] = -at.b[a];
         f_[a] = 0;
         next_[a] = psi_[a];
-        older_[a] = at.older[a];
     }
     iterations_ = 0;
     bool solved = true;
-    if (contacts() == 1 && variant_ != Quadratisation::controlled) {  // in closed form
+    if (contacts() == 1) {  // in closed form
         const QuadratisedStep s = solve_quadratised(laws_[0], eta_[0], psi_[0], free_[0], theta_[0]);
         f_[0] = s.force;
         next_[0] = s.psi;
@@ -194,17 +176,11 @@ void QuadratisedContacts::end(const BeforeStep& at, double* r, double* force) no
         r[a] = -at.b[a];
         for (int b = 0; b < n; ++b) r[a] += theta_[a * n + b] * f_[b];
     }
-    lost_ = 0;
     for (int a = 0; a < n; ++a) {
         force[a] = f_[a];
         psi_[a] = next_[a];
         const double newer = laws_[a].psi(at.older[a] - r[a]), now = laws_[a].psi(at.now[a]);
-        const double true_psi = levels_ == 1 ? newer : std::sqrt(0.5 * (newer * newer + now * now));
-        if (variant_ == Quadratisation::relaxed) {
-            psi_[a] = std::min(std::abs(next_[a]), true_psi);
-            lost_ += 0.5 * (next_[a] * next_[a] - psi_[a] * psi_[a]);
-        }
-        seen_.note(psi_[a], true_psi);
+        seen_.note(psi_[a], levels_ == 1 ? newer : std::sqrt(0.5 * (newer * newer + now * now)));
     }
 }
 

@@ -4,7 +4,7 @@
 //     psi+ = psi - gamma r,   F = c gamma (psi + psi+),   r = free + Theta F,   c = 1/2 in two-point steps, 1 in three-point ones
 //
 // so the forces are those of one symmetric system (I + G Theta G) x = sqrt(c) (2 psi - gamma free), G = sqrt(c) gamma, F = G x: one linear
-// solve a step in the raw and constrained forms. Where psi+ would turn negative, and wherever psi > 0 out of contact, the released form has
+// solve a step in the raw form. Where psi+ would turn negative, and wherever psi > 0 out of contact, the released form has
 // psi+ = 0 and F r = c psi^2. Then each r falls with its F,
 //
 //     r = (2 psi - F/(c gamma))/gamma  where F >= c gamma psi,   else  r = c psi^2/F,
@@ -16,11 +16,8 @@
 
 #include "schemes/contact/obstacle_rule.hpp"
 #include "schemes/contact/quadratised_contact.hpp"
-#include "schemes/making.hpp"
 
 namespace jvari {
-
-inline constexpr Option lambda0_option{"lambda0", "1e4", "of the controlled variant: rate at which psi is drawn to sqrt(2V) [1/s]"};
 
 class QuadratisedContacts {
 public:
@@ -28,17 +25,14 @@ public:
 
     int dofs() const { return static_cast<int>(laws_.size()); }  // psi
     void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
-    void choose(const Settings&);  // lambda0
     void begin(const double* eta);
     bool acts(const BeforeStep&) const;
     GramSolution solve(const BeforeStep&, double* r, double* force) noexcept;
     GramSolution start(const BeforeStep&, double* r, double* force) noexcept;
     double potential(int a, double) const { return 0.5 * psi_[a] * psi_[a]; }  // of the half step after, in three-point steps
     std::vector<Fact> facts() const { return seen_.list(); }
-    double lost() const { return lost_; }  // by relaxation in the last step [J]
 
 private:
-    double control(int a) const noexcept;  // what it adds to gamma [sqrt(J)/m]
     bool solve_linearly() noexcept;
     bool release() noexcept;
     bool factor() noexcept { return system_.factor(theta_.data(), contacts(), set_.data(), many_, scale_.data()); }
@@ -51,9 +45,8 @@ private:
     int levels_;
     double c_;
     std::vector<double> theta_;
-    std::vector<double> psi_, next_;              // [sqrt(J)]
-    std::vector<double> eta_, older_, free_, f_;  // of the step in hand
-    double drawn_ = 0, lost_ = 0;                 // lambda0 dt
+    std::vector<double> psi_, next_;      // [sqrt(J)]
+    std::vector<double> eta_, free_, f_;  // of the step in hand
     std::vector<double> gamma_, scale_, df_, work_;
     ScaledSystem system_;  // I + G Theta G over set_, G = scale_
     std::vector<int> set_;

@@ -33,14 +33,13 @@ const std::vector<const StringRow*>& rows() {
     return all;
 }
 
-const Descriptor* known_cell(const StringRow& row, const Column& column) {
+const StringRow::Known* known_cell(const StringRow& row, const Column& column) {
     for (const StringRow::Known& k : row.known)
-        if (k.rule && std::string(k.rule) == column.name) return k.scheme;
+        if (k.rule && std::string(k.rule) == column.name) return &k;
     return nullptr;
 }
-std::string name_of(const StringRow& row, const Column& column) {
-    const Descriptor* known = known_cell(row, column);
-    return known ? known->name : std::string(row.scheme->name) + "_" + column.name;
+std::string new_name(const StringRow& row, const Column& column) {
+    return std::string(row.scheme->name) + "_" + column.name;
 }
 template <class T>
 std::span<const T> both(std::span<const T> one, std::span<const T> other) {  // kept for good
@@ -61,8 +60,11 @@ std::span<const Option> own_only(std::span<const Option> options) {  // without 
 std::vector<Pairing> pairings() {
     std::vector<Pairing> all;
     for (const StringRow* row : rows()) {
-        all.push_back({row->scheme->name, "gradient", row->scheme->name});
-        for (const Column& column : columns) all.push_back({row->scheme->name, column.name, name_of(*row, column)});
+        all.push_back({row->scheme->name, "gradient", row->scheme->name, ""});
+        for (const Column& column : columns) {
+            const StringRow::Known* known = known_cell(*row, column);
+            all.push_back({row->scheme->name, column.name, known ? known->scheme->name : new_name(*row, column), known ? known->options : ""});
+        }
     }
     return all;
 }
@@ -75,7 +77,7 @@ const std::vector<Descriptor>& schemes_of_pairings() {
             for (std::size_t c = 0; c < std::size(columns); ++c) {
                 if (known_cell(*row, columns[c])) continue;
                 Descriptor d = *row->scheme;
-                d.name = names.emplace_back(name_of(*row, columns[c])).c_str();
+                d.name = names.emplace_back(new_name(*row, columns[c])).c_str();
                 d.source = columns[c].source;
                 d.represents = d.represents - Feature::moving_body - columns[c].leaves_out;
                 d.options = both(columns[c].own_only ? own_only(d.options) : d.options, columns[c].options);

@@ -23,13 +23,14 @@ struct StringRow {
     struct Known {
         const char* rule;
         const Descriptor* scheme;
+        const char* options = "";
     };
     Known known[rule_count] = {};  // cells that have a name already
 };
 #define JVARI_MAKER(name, Rule, source) made<Rule>,
 
 struct Pairing {
-    std::string string, rule, scheme;
+    std::string string, rule, scheme, options;  // options: by which the scheme is this pairing
 };
 std::vector<Pairing> pairings();                       // all cells, row by row, the discrete gradient first
 const std::vector<Descriptor>& schemes_of_pairings();  // those that are made here

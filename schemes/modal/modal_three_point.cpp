@@ -17,7 +17,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
 }
 }  // namespace
 
-extern const Descriptor modal_three_point, modal_quadratised_three_point, modal_explicit_penalty;
+extern const Descriptor modal_three_point, modal_quadratised, modal_explicit_penalty;
 const Descriptor modal_three_point = {.name = "modal_three_point",
                                       .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
                                       .represents = modal_features_of_points | any_rigid,
@@ -31,6 +31,6 @@ const Descriptor modal_three_point = {.name = "modal_three_point",
 extern const StringRow modal_three_point_row;
 const StringRow modal_three_point_row = {&modal_three_point,
                                          {JVARI_RULES(JVARI_MAKER)},
-                                         {{"quadratised", &modal_quadratised_three_point}, {"penalty", &modal_explicit_penalty}}};
+                                         {{"quadratised", &modal_quadratised, "levels=3"}, {"penalty", &modal_explicit_penalty}}};
 
 }  // namespace jvari

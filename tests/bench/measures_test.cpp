@@ -36,7 +36,7 @@ bench::store::Table rows_for(const std::string& scheme, const std::string& scene
 // ---- Dispersion
 
 TEST(Dispersion, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
-    for (const char* name : {"modal_two_point", "modal_two_point_trapezoidal", "modal_spatial_newton", "modal_quadratised_three_point",
+    for (const char* name : {"modal_two_point", "modal_two_point_trapezoidal", "modal_spatial_newton", "modal_three_point",
                              "finite_difference_explicit", "finite_difference_theta", "finite_difference_hamiltonian"}) {
         const bench::store::Table t = rows_for(name, "free_string", 88200, {"string.0.initial.position=0.2137"});
         ASSERT_EQ(t.rows.size(), 30u) << name;

@@ -151,10 +151,11 @@ struct Fault {
     const char *name, *of;
     double (*factor)(Quantity);         // of the rows of a tap
     void (*change)(String&) = nullptr;  // of the scene
+    const char* variant = nullptr;      // of modal_quadratised
 };
 
 constexpr Fault faults[] = {
-    {"pulls", "modal_quadratised_two_point_raw", nullptr},  // a known-bad control under another name: no excuse has this name
+    {"pulls", "modal_quadratised", nullptr, nullptr, "raw"},
     {"turns_its_bridge_force_round", "modal_two_point", [](Quantity q) { return q == Quantity::bridge_force ? -1.0 : 1; }},
     {"triples_its_bridge_force", "modal_two_point", [](Quantity q) { return q == Quantity::bridge_force ? 3.0 : 1; }},
     {"triples_its_thread_force", "modal_two_point", [](Quantity q) { return q == Quantity::thread_force ? 3.0 : 1; }},
@@ -173,7 +174,9 @@ class Spoiled : public Scheme {
 public:
     Spoiled(const Fault& fault, Scene scene, const Settings& settings) : fault_(fault), scene_(std::move(scene)) {
         if (fault.change) fault.change(scene_.strings.front());
-        inner_ = make_scheme(of_the_tree(fault), scene_, settings);
+        Settings chosen = settings;
+        if (fault.variant) chosen.options.emplace_back("variant", fault.variant);
+        inner_ = make_scheme(of_the_tree(fault), scene_, chosen);
     }
     void reset() noexcept override { inner_->reset(); }
     Status advance(const Block& out) noexcept override {

@@ -37,12 +37,6 @@ std::string text(double x) {
     return buffer;
 }
 
-// Published forms whose contact may pull: what they are kept for.
-bool may_pull(const Descriptor& d) {
-    const std::string name = d.name;
-    return name.ends_with("_raw") || name.ends_with("_constrained");
-}
-
 bool pulls_by_law(const Scene& scene) {  // k eta^a (1 + beta eta') is negative where the string leaves fast enough
     return needed_by(scene).has(Feature::contact_loss);
 }
@@ -69,7 +63,7 @@ void check_ledger(const Descriptor& d, const Trace& t, const Finding& finding) {
 }
 
 void check_pull(const Descriptor& d, const RandomCase& c, const study::Summary& told, const Trace& t, const Finding& finding) {
-    if (may_pull(d) || pulls_by_law(c.scene)) return;
+    if (pulls_by_law(c.scene)) return;
     double least = told.smallest_contact_force, most = told.largest_contact_force;
     for (int k = 0; k < t.taps(); ++k)
         if (c.scene.taps[static_cast<std::size_t>(k)].quantity == Quantity::bridge_force)

@@ -150,8 +150,7 @@ TEST_P(Balanced, ClosesItsLedgerAndNeverPullsWhateverPartsThereAre) {
                     EXPECT_LE(ledger(r.trace).accumulated, 1e-11) << exponent << barrier << thread << pluck;
                     for (const double lost : r.trace.energy_column(2)) ASSERT_GE(lost, 0);
                     if (barrier) {
-                        const bool pulls = std::string(GetParam()) == "modal_quadratised_two_point_raw";
-                        EXPECT_GE(fact(r.facts, "smallest_contact_force"), pulls ? -HUGE_VAL : 0);
+                        EXPECT_GE(fact(r.facts, "smallest_contact_force"), 0);
                         EXPECT_GT(fact(r.facts, "deepest_penetration"), 0);
                     }
                 }
@@ -292,7 +291,7 @@ INSTANTIATE_TEST_SUITE_P(, Matched,
                                          "finite_difference_explicit", "finite_difference_theta", "finite_difference_hamiltonian"));
 INSTANTIATE_TEST_SUITE_P(, Balanced,
                          testing::Values("modal_two_point", "modal_two_point_trapezoidal", "modal_quadratised",
-                                         "modal_quadratised_two_point_raw", "modal_spatial_newton", "finite_difference_explicit",
+                                         "modal_spatial_newton", "finite_difference_explicit",
                                          "finite_difference_theta", "finite_difference_hamiltonian"));
 
 double relative_l2(std::span<const double> got, std::span<const double> want) {

@@ -67,8 +67,7 @@ void balances(int levels, bool threaded, double beta) {
 
 template <class Rule>
 class Conserving : public testing::Test {};
-using Rules = testing::Types<GradientRule, QuadratisedRule<Quadratisation::released>, QuadratisedRule<Quadratisation::constrained>,
-                             QuadratisedRule<Quadratisation::raw>>;
+using Rules = testing::Types<GradientRule, QuadratisedRule<Quadratisation::released>, QuadratisedRule<Quadratisation::raw>>;
 TYPED_TEST_SUITE(Conserving, Rules, );
 
 TYPED_TEST(Conserving, TheWorkOnTheStringIsWhatThePotentialsLoseLessTheLosses) {

@@ -122,9 +122,9 @@ Listing list_pairings() {
     Json json = Json::array();
     std::string text = "pairings of a string and an obstacle rule\n", string;
     for (const Pairing& p : pairings()) {
-        json.push_back({{"string", p.string}, {"rule", p.rule}, {"scheme", p.scheme}});
+        json.push_back({{"string", p.string}, {"rule", p.rule}, {"scheme", p.scheme}, {"options", p.options}});
         if (p.string != string) text += fmt::format("  {}\n", string = p.string);
-        text += fmt::format("    {:<{}}  {}\n", p.rule, width, p.scheme);
+        text += fmt::format("    {:<{}}  {}{}{}\n", p.rule, width, p.scheme, p.options.empty() ? "" : " ", p.options);
     }
     return {std::move(json), text, ""};
 }
