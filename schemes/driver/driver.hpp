@@ -115,24 +115,16 @@ public:
     }
 
 private:
-    // A string that stretches yields otherwise in every step, and where its stretching turns with the forces it is asked again.
+    // A string that stretches yields otherwise in every step.
     static constexpr bool stretches = requires(const String s) { s.theta(); };
-    static bool turns(String& s, const double* force) noexcept {
-        if constexpr (requires { s.turns(force); }) return s.turns(force);
-        return false;
-    }
     const StringPoints& points() const { return string_->points(); }
 
     void step(bool probed, bool last_of_row) noexcept {
         string_->approach(last_of_row);
         const long n = done_ + levels - 1, before = n + 1 - levels;  // the level that the step is centred on, or starts from; its oldest
-        do {
-            const ReadingsBeforeStep at = with_pluck(string_->readings(), before, n, n + 1);
-            if constexpr (stretches) obstacle_.set(string_->theta());
-            if (!force_.empty() && !obstacle_.solve(at, force_.data())) status_ = {Outcome::not_converged, done_};
-        } while (turns(*string_, force_.data()));
-        if constexpr (requires { string_->settled(); })
-            if (!string_->settled()) status_ = {Outcome::not_converged, done_};
+        const ReadingsBeforeStep at = with_pluck(string_->readings(), before, n, n + 1);
+        if constexpr (stretches) obstacle_.set(string_->theta());
+        if (!force_.empty() && !obstacle_.solve(at, force_.data())) status_ = {Outcome::not_converged, done_};
         means_.count(force_.data());
         const Spent spent = string_->pass(force_.data(), 0, probed);
         if (probed) {

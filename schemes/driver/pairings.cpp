@@ -63,7 +63,8 @@ std::vector<Pairing> pairings() {
         all.push_back({row->scheme->name, "gradient", row->scheme->name, ""});
         for (const Column& column : columns) {
             const StringRow::Known* known = known_cell(*row, column);
-            all.push_back({row->scheme->name, column.name, known ? known->scheme->name : new_name(*row, column), known ? known->options : ""});
+            all.push_back(
+                {row->scheme->name, column.name, known ? known->scheme->name : new_name(*row, column), known ? known->options : ""});
         }
     }
     return all;

@@ -25,8 +25,10 @@ Made made(const Descriptor& descriptor, const Scene& scene, const Settings& sett
 }
 
 constexpr Option levels_option{"levels", "2", "time levels of the recursion", {"2", "3"}};
-constexpr Option variant_option{
-    "variant", "released", "raw leaves psi where the step puts it, and may pull; released lets go where it would pull", {"raw", "released"}};
+constexpr Option variant_option{"variant",
+                                "released",
+                                "raw leaves psi where the step puts it, and may pull; released lets go where it would pull",
+                                {"raw", "released"}};
 constexpr Option options[] = {levels_option, variant_option, compliance_option, profile_points_option};
 
 Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {

@@ -1,22 +1,15 @@
 // A string whose tension grows as it stretches (Kirchhoff 1883, Carrier 1945): T + EA l/(2L), l = int y'^2 dx = L/2 sum beta_i^2 q_i^2, by
-// the potential V = EA l^2/(8L). Between the points it is the string of two_point_modes.hpp or three_point_modes.hpp, whose coefficients
-// are exact at the tension T. In each form the stretching is one force lambda along a direction d of the modes,
+// the potential V = EA l^2/(8L). Between the points it steps as the string of three_point_modes.hpp, whose coefficients are exact at the
+// tension T. The stretching is one force lambda along a direction d of the modes, linear in each step (Bilbao 2009, ch. 8):
 //
-//     lambda = -(A + kappa r),   r = d.(q+ - q) or d.(q+ - q-): of the whole step
+//     lambda = -(A + kappa r),   r = d.(q+ - q-),   d = beta^2 q,   A = EA L/8 d.q-,   kappa = EA L/16
 //
-//   modal_tension              two-point, discrete gradient of V: d = beta^2 (q+ + q)/2, A = EA l/4, kappa = EA L/8. As d turns with what
-//                              the step finds, the step is made again until it stays, contacts and all
-//   modal_tension_quadratised  two-point, psi = sqrt(2V): d = sqrt(EA L/4) beta^2 (q+ + q)/2 with q+ of the string alone; A = psi,
-//                              kappa = 1/2 (invariant energy quadratisation); no iteration
-//   modal_tension_three_point  d = beta^2 q, A = EA L/8 d.q-, kappa = EA L/16: linear (Bilbao 2009, ch. 8); impulse_gain per mode
-//
-// A tension that grows by dT lifts the frequency of mode i by 1/2 dT beta^2/(mu omega). With x = omega dt/2 the two-point forms have x
-// cos^3 x/sin x times that, since their midpoint rule hardly pulls a mode near half the rate; a gain dt^2/m would have 2x/sin 2x. With
-// impulse_gain it is right to first order in dT at any rate. So the three-point form errs far less, and its energy, with W =
-// dt^2/gain for the mass, balances all the same.
+// A tension that grows by dT lifts the frequency of mode i by 1/2 dT beta^2/(mu omega). By a gain dt^2/m that would be 2x/sin 2x times as
+// much, x = omega dt/2. The gain of an impulse, dt R sin(omega dt)/(m omega), is right to first order in dT at any rate, and the energy
+// balances with W = dt^2/gain for the mass.
 //
 // lambda is eliminated before the contacts are solved for, so they see a string that yields less: Theta - kappa D D'/(1 + kappa d.e), D_p =
-// d.e_p. Energy is kept to rounding with V, psi^2/2 or EA L/32 (d.q+)^2 in it. Second order.
+// d.e_p. Energy is kept to rounding with EA L/32 (d.q+)^2 in it. Second order.
 // Leaves out: thread, contact loss, profiles, compliance=matched, polarisation, a body that moves.
 #include <cmath>
 #include <numbers>
@@ -25,7 +18,6 @@
 #include "schemes/driver/driver.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal/three_point_modes.hpp"
-#include "schemes/modal/two_point_modes.hpp"
 
 namespace jvari {
 
@@ -51,111 +43,23 @@ struct Stretching {
         }
     }
 };
+// Over dt^2/m: dt R sin(omega dt)/(m omega).
+double impulse_gain(double omega0, double sigma, double dt) {
+    const double square = omega_squared_damped(omega0, sigma), omega = std::sqrt(std::abs(square)), h = omega * dt;
+    return std::exp(-sigma * dt) * (square > 0 ? std::sin(h) / h : square < 0 ? std::sinh(h) / h : 1);
+}
+
 double square_of_beta(int i, double length) {
     const double beta = (i + 1) * std::numbers::pi / length;
     return beta * beta;
 }
 
-template <bool quadratised>
-class StretchingTwoPoint : public TwoPointModes {
-public:
-    StretchingTwoPoint(const Descriptor& descriptor, const Scene& scene, const Settings& settings)
-        : TwoPointModes(descriptor, scene, settings, exact_two_point), one_(points()), EA_(scene.strings.front().axial_stiffness) {
-        unplucked_ = nullptr;  // no pass of a kernel
-        for (AlignedVector* a : {&reach_, &stretching_}) a->assign(m_.size, 0.0);
-        for (int i = 0; i < m_.modes; ++i)  // of a mode in its scale, sqrt(J/xi)
-            reach_[i] = square_of_beta(i, p_.length) * dt_ * dt_ / (p_.mass * J_[i]);
-        alone_ = free_;
-        reset();
-    }
-    void reset() noexcept {
-        TwoPointModes::reset();
-        psi_ = std::sqrt(2 * potential());
-        gap_ = largest_ = 0;
-        turns_ = 0;
-    }
-    const std::vector<double>& theta() const { return one_.theta_; }
-    void approach(bool last) noexcept {
-        TwoPointModes::approach(last);
-        std::copy(free_.begin(), free_.end(), alone_.begin());
-        turns_ = 0;
-        one_.A = quadratised ? psi_ : 0.25 * EA_ * stretch();
-        one_.kappa = quadratised ? 0.5 : 0.125 * EA_ * p_.length;
-        const double scale = quadratised ? std::sqrt(0.25 * EA_ * p_.length) : 1;
-        for (int i = 0; i < m_.modes; ++i) stretching_[i] = scale * reach_[i] * (y(i) + 0.5 * u(i));
-        eliminate();
-    }
-    // Whether d, with the forces found, is another than the one that they were found with.
-    bool turns(const double* force) noexcept {
-        if (quadratised || turns_ >= most_turns) return false;
-        ++turns_;
-        stretching_force_ = one_.force(force);
-        push(force, 0);
-        double change = 0, size = 0;
-        for (int i = 0; i < m_.modes; ++i) {
-            const double d = reach_[i] * (y(i) + 0.5 * (u(i) + push_[i]));
-            change = std::max(change, std::abs(d - stretching_[i]));
-            size = std::max(size, std::abs(d));
-            stretching_[i] = d;
-        }
-        eliminate();
-        return change > 1e-14 * size;
-    }
-    Spent pass(const double* force, double a, bool probed) noexcept {
-        stretching_force_ = one_.force(force);
-        if constexpr (quadratised) {
-            psi_ += one_.free + one_.own * stretching_force_;
-            for (std::size_t p = 0; p < g_.size(); ++p) psi_ += one_.on[p] * force[p];
-        }
-        const Spent spent = TwoPointModes::pass(force, a, probed);
-        if (quadratised && probed) {
-            const double root = std::sqrt(2 * potential());
-            gap_ = std::max(gap_, std::abs(psi_ - root));
-            largest_ = std::max(largest_, root);
-        }
-        return spent;
-    }
-    double stored() const noexcept { return TwoPointModes::stored() + (quadratised ? 0.5 * psi_ * psi_ : potential()); }
-    bool settled() const { return turns_ < most_turns; }
-    int dofs() const { return TwoPointModes::dofs() + quadratised; }
-    std::vector<Fact> facts() const {
-        std::vector<Fact> f = TwoPointModes::facts();
-        if (quadratised && largest_ > 0) f.push_back({facts::psi_gap, gap_ / largest_});
-        return f;
-    }
-
-private:
-    static constexpr int most_turns = 100;
-    double y(int i) const { return at(TwoPointColumn::y, i); }
-    double u(int i) const { return at(TwoPointColumn::u, i); }
-    double stretch() const {  // l [m]
-        double sum = 0;
-        for (int i = 0; i < m_.modes; ++i) sum += reach_[i] * y(i) * y(i);
-        return 0.5 * p_.length * sum;
-    }
-    double potential() const { return 0.125 * EA_ / p_.length * stretch() * stretch(); }
-    void eliminate() noexcept {
-        one_.free = two_point_dot(stretching_.data(), m_, TwoPointColumn::u) + (F_e_ != 0 ? F_e_ * modal_dot(stretching_, g_e_) : 0);
-        one_.own = modal_dot(stretching_, stretching_);
-        for (std::size_t p = 0; p < g_.size(); ++p) one_.on[p] = modal_dot(stretching_, g_[p]);
-        std::copy(alone_.begin(), alone_.end(), free_.begin());
-        one_.apply(p_.theta, 1, free_.data());
-    }
-
-    Stretching one_;
-    double EA_;
-    AlignedVector reach_;        // beta^2
-    std::vector<double> alone_;  // free_ without the stretching
-    double psi_ = 0, gap_ = 0, largest_ = 0;
-    int turns_ = 0;
-};
-
-class StretchingThreePoint {
+class StretchingString {
 public:
     static constexpr int levels = 2;
     static constexpr long steps_between_looks = 64;
 
-    explicit StretchingThreePoint(ThreePointProblem problem)
+    explicit StretchingString(ThreePointProblem problem)
         : p_(std::move(problem)), one_(p_.points), kappa_(p_.string().axial_stiffness * p_.points.length / 16) {
         const int n = p_.modes.count();
         for (auto* v : {&y_, &last_, &coming_, &d_, &e_}) v->assign(n, 0.0);
@@ -273,42 +177,19 @@ private:
     long step_ = 0;
 };
 
-template <class String>
-std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Settings& settings) {
-    return std::make_unique<Driver<String, GradientRule>>(std::move(string), steps_per_row(settings));
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    return std::make_unique<Driver<StretchingString, GradientRule>>(
+        std::make_unique<StretchingString>(problem_of_modes(descriptor, scene, settings, impulse_gain)), steps_per_row(settings));
 }
-template <bool quadratised>
-std::unique_ptr<Scheme> made_two_point(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    return driven(std::make_unique<StretchingTwoPoint<quadratised>>(descriptor, scene, settings), settings);
-}
-std::unique_ptr<Scheme> made_three_point(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    return driven(std::make_unique<StretchingThreePoint>(problem_of_modes(descriptor, scene, settings, impulse_gain)), settings);
-}
-
-constexpr Features represented = (modal_features - Feature::thread) | Features(Feature::several_barriers) | Feature::tension_modulation;
 }  // namespace
 
-extern const Descriptor modal_tension = {.name = "modal_tension",
-                                         .source = "Kirchhoff 1883, Carrier 1945; discrete gradient of the stretching's energy",
-                                         .represents = represented,
-                                         .balance = Balance::exact,
-                                         .clock = Clock::stepped,
-                                         .make = made_two_point<false>,
-                                         .stand_in_rank = 0};
-extern const Descriptor modal_tension_quadratised = {.name = "modal_tension_quadratised",
-                                                     .source = "Kirchhoff 1883, Carrier 1945; invariant energy quadratisation",
-                                                     .represents = represented,
-                                                     .balance = Balance::exact,
-                                                     .clock = Clock::stepped,
-                                                     .make = made_two_point<true>,
-                                                     .stand_in_rank = 0};
-extern const Descriptor modal_tension_three_point = {
-    .name = "modal_tension_three_point",
+extern const Descriptor modal_tension = {
+    .name = "modal_tension",
     .source = "Bilbao 2009, ch. 8: linear in each step, with the impulse gain of each mode",
-    .represents = represented,
+    .represents = (modal_features - Feature::thread) | Features(Feature::several_barriers) | Feature::tension_modulation,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made_three_point,
+    .make = made,
     .stand_in_rank = 0};
 
 }  // namespace jvari

@@ -7,11 +7,6 @@ namespace jvari {
 
 template class ThreePointModesBy<ThreePointPass>;
 
-double impulse_gain(double omega0, double sigma, double dt) {
-    const double square = omega_squared_damped(omega0, sigma), omega = std::sqrt(std::abs(square)), h = omega * dt;
-    return std::exp(-sigma * dt) * (square > 0 ? std::sin(h) / h : square < 0 ? std::sinh(h) / h : 1);
-}
-
 void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings& settings, ModalGain gain) {
     const String& s = p.string();
     const bool linear = p.points.contacts.count() == 0 && !s.thread;

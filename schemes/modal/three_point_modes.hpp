@@ -30,7 +30,6 @@ namespace jvari {
 
 // Of a mode, over dt^2/m. nullptr: 1. A gain that differs from mode to mode balances with W = dt^2/gain in place of m.
 using ModalGain = double (*)(double omega0, double sigma, double dt);
-double impulse_gain(double omega0, double sigma, double dt);  // dt R sin(omega dt)/(m omega), over dt^2/m
 
 // What one scene and setting come to before a form is chosen.
 struct ThreePointProblem {

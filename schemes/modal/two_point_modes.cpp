@@ -171,7 +171,6 @@ void TwoPointModes::push(const double* force, double a) noexcept {  // sum of g 
     for (std::size_t p = 0; p < g_.size(); ++p)
         if (force[p] != 0) add(g_[p], force[p]);
     if (F_e_ != 0) add(g_e_, F_e_);
-    if (!stretching_.empty()) add(stretching_, stretching_force_);
     if (!body_.mu.empty()) add(body_.mu, -a);
 }
 

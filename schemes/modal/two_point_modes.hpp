@@ -61,7 +61,7 @@ public:
     const std::vector<TapOfModes>& taps() const { return taps_; }
     double start_phase_offset() const { return offset_; }  // [rad]
 
-protected:
+private:
     struct AtBody {                    // what a body that moves reads of the string, and pushes: empty without one
         AlignedVector mu, on_y, on_u;  // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
         double theta_e = 0;            // of the pluck [s^2]
@@ -79,8 +79,6 @@ protected:
     AlignedVector stream_, J_, y0_, u0_, push_;
     std::vector<AlignedVector> g_;  // scaled; the contacts in order, then the thread
     AlignedVector g_e_;             // the pluck's
-    AlignedVector stretching_;      // of the force by which a string stretches, empty where none does (modal_tension.cpp)
-    double stretching_force_ = 0;
     PluckForce pluck_;
     AtBody body_;
     TwoPointPass unplucked_ = nullptr, plucked_ = nullptr;  // fused, of one contact and a thread at most, on no body

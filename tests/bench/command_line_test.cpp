@@ -587,7 +587,8 @@ TEST(Controls, TakePartWhereTheyAreAskedFor) {
         return names;
     };
     const auto without = schemes(""), with = schemes(" --controls");
-    for (const char* name : {"modal_two_point_trapezoidal", "modal_explicit_penalty", "modal_three_point", "modal_moreau_jean", "modal_generalised_alpha"}) {
+    for (const char* name :
+         {"modal_two_point_trapezoidal", "modal_explicit_penalty", "modal_three_point", "modal_moreau_jean", "modal_generalised_alpha"}) {
         EXPECT_FALSE(without.contains(name)) << name;
         EXPECT_TRUE(with.contains(name)) << name;
     }

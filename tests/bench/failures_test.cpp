@@ -54,9 +54,8 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
 TEST(Failures, EveryControlHasOne) {
     std::set<std::string> failing;
     for (const bench::map::Reproducer& r : bench::map::read_failures(JVARI_FAILURES, catalogue())) failing.insert(r.trial.scheme->name);
-    for (const char* control :
-         {"modal_explicit_penalty", "modal_two_point_trapezoidal", "modal_quadratised",
-          "finite_difference_explicit", "finite_difference_theta", "modal_spatial_newton"})
+    for (const char* control : {"modal_explicit_penalty", "modal_two_point_trapezoidal", "modal_quadratised", "finite_difference_explicit",
+                                "finite_difference_theta", "modal_spatial_newton"})
         EXPECT_TRUE(failing.contains(control)) << control;
 }
 

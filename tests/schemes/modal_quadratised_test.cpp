@@ -113,8 +113,7 @@ TEST(Quadratised, FreeMotionIsExact) {
         }
         return y;
     };
-    const std::pair<const char*, const Scene*> cases[] = {
-        {two, &quiet}, {three, &quiet}, {three, &scene}};
+    const std::pair<const char*, const Scene*> cases[] = {{two, &quiet}, {three, &quiet}, {three, &scene}};
     for (const auto& [name, s] : cases) {
         const auto r = play(name, *s, 0.5, 1, false, 100);
         double worst = 0;
@@ -155,8 +154,7 @@ TEST(Quadratised, ReleasedConvergesToTheDiscreteGradientAndRawDoesNot) {
         }
         EXPECT_LT(last, 2e-4) << name;
     }
-    for (const char* name : {raw_two, raw_three})
-        EXPECT_GT(error(name, 64), 0.03) << name;
+    for (const char* name : {raw_two, raw_three}) EXPECT_GT(error(name, 64), 0.03) << name;
 }
 
 TEST(Quadratised, ReleasedNeverPullsNorKeepsPsiOutOfContactAndRawIsFlagged) {
