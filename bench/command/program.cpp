@@ -30,7 +30,6 @@ constexpr const char* examples =
     "  jvari report report                                     its page and picture once more\n"
     "  jvari diff results/smoke report                         what got worse, what got better\n"
     "  jvari judge tanpura_c3_release --trace 44100=mine.csv    how wrong is a trace of another program\n"
-    "  jvari claims results/paper-issanchou                    does what a paper says hold\n"
     "  jvari check --plugin libmine.so                         does a scheme of one's own keep the contract\n"
     "\n"
     "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run failed, or "

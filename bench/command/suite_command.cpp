@@ -24,7 +24,6 @@
 #include "bench/store/system/interruption.hpp"
 #include "bench/study/columns.hpp"
 #include "bench/study/run.hpp"
-#include "bench/suite/claims.hpp"
 #include "bench/suite/facet.hpp"
 #include "bench/suite/suite_plan.hpp"
 #include "scenes/scene_file.hpp"
@@ -143,12 +142,6 @@ int suite_command(SuiteRequest r) {
         results.add("scaling.csv", store::csv(scaling));
     results.add_manifest(manifest);
     if (!suite.figures.empty() && !suite.shelved) results.add(suite::figures_file, store::read_whole(suite.figures));
-    store::Table verdicts;
-    if (results && !suite.claims.empty()) {
-        if (!suite.shelved) results.add(suite::suite_file, store::read_whole(r.suite));
-        verdicts = suite::verdicts_on(suite.claims, folder);
-        results.add(suite::claims_file, store::csv(verdicts));
-    }
     if (!plan.jobs.empty() || !suite.maps.empty()) results.add_report();
     // Files first: nothing is lost where nobody reads this.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
@@ -156,7 +149,6 @@ int suite_command(SuiteRequest r) {
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     if (const store::Table told = study::rows_of(suite::measured::ensemble, plan, run.records); !told.rows.empty())
         console.print("by 32 runs of each\n" + suite::ensemble_text(told));
-    if (!verdicts.rows.empty()) console.print(suite::claims_summary(verdicts) + "; jvari claims " + folder.string() + " lists them");
     for (const std::string& warning : compare::warnings_of(cells)) console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + folder.string());
     if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);

@@ -18,10 +18,9 @@ Act check_verb(CLI::App& program);
 Act export_verb(CLI::App& program);
 Act judge_verb(CLI::App& program);
 Act verify_verb(CLI::App& program);
-Act claims_verb(CLI::App& program);
 
 constexpr Act (*verbs[])(CLI::App&) = {new_verb,    list_verb,    run_verb,    compare_verb, suite_verb,  // as --help lists them
                                        trim_verb,   certify_verb, report_verb, diff_verb,    check_verb,
-                                       export_verb, judge_verb,   verify_verb, claims_verb};
+                                       export_verb, judge_verb,   verify_verb};
 
 }  // namespace jvari::bench::command

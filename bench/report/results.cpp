@@ -70,7 +70,7 @@ Results read_results(const fs::path& path) {
     Results r;
     r.folder = path;
     r.tables["cells"] = folder.cells(true);
-    for (const char* name : {"dispersion", "convergence", "scaling", "maps", "boundaries", "sounds", "motion", "path", "needs", "claims"})
+    for (const char* name : {"dispersion", "convergence", "scaling", "maps", "boundaries", "sounds", "motion", "path", "needs"})
         r.tables[name] = folder.table(name);
     if (r.tables["cells"].columns.empty() && r.tables["maps"].columns.empty() && r.tables["path"].columns.empty())
         throw store::UsageError(fmt::format("cannot read {}, and there is no maps.csv", (path / "cells.csv").string()));
@@ -80,7 +80,7 @@ Results read_results(const fs::path& path) {
         throw store::UsageError(fmt::format("{}: {}", (path / "manifest.json").string(), e.what()));
     }
     for (auto& [name, table] : r.tables)
-        if (name != "path" && name != "needs" && name != "claims" && !table.columns.empty()) name_rows(table, r.name);
+        if (name != "path" && name != "needs" && !table.columns.empty()) name_rows(table, r.name);
     r.cells = r.tables["cells"];
     r.sounds = r.tables["sounds"];
     return r;

@@ -28,10 +28,6 @@ Kind<std::string> name_of_file() {
             }};
 }
 
-Kind<double> number(const char* unit) {
-    return number_that("a number", unit, [](double) { return true; });
-}
-
 Kind<double> positive(const char* unit) {
     return number_that("a number > 0", unit, [](double x) { return x > 0; });
 }

@@ -28,9 +28,8 @@ struct Kind {          // of value
     std::vector<KeyWords> below = {};
 };
 Kind<std::string> text();
-Kind<std::string> name_of_file();            // lower-case letters, digits, _ and -
-Kind<double> number(const char* unit = "");  // finite, as all numbers here
-Kind<double> positive(const char* unit = "");
+Kind<std::string> name_of_file();              // lower-case letters, digits, _ and -
+Kind<double> positive(const char* unit = "");  // finite, as all numbers here
 Kind<double> not_negative(const char* unit = "");
 constexpr int most_counted = 9'999'999;  // modes, repeats, jobs
 Kind<int> whole(int least, int most);

@@ -126,8 +126,7 @@ std::vector<store::Key<Suite>> keys_of_suite() {
             key("source", &Suite::source, store::text(), "what it follows", "none"),
             key("map", &Suite::maps, map::maps(), "maps of what becomes of each scheme"),
             key("cells", &Suite::sets, store::tables("cells", store::table(set_keys(), hold_together)),
-                "sets of cells: each the product of what it lists"),
-            key("claim", &Suite::claims, claims(), "statements that the tables are held against")};
+                "sets of cells: each the product of what it lists")};
 }
 
 fs::path library() {

@@ -11,7 +11,6 @@
 #include "bench/compare/request.hpp"
 #include "bench/map/map_file.hpp"
 #include "bench/study/elements.hpp"
-#include "bench/suite/claim.hpp"
 #include "bench/suite/figure_facets.hpp"
 
 namespace jvari::bench::suite {
@@ -48,7 +47,6 @@ struct Suite {
     std::vector<CellSet> sets;
     std::filesystem::path figures;  // the file of its figures beside it, NAME.vl.json; empty: none
     std::vector<map::Map> maps;
-    std::vector<Claim> claims;
 };
 
 // A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12: cells.0.raets: unknown key; did you mean rates?".
@@ -64,7 +62,6 @@ std::vector<TableWords> suite_keys();
 
 // Figures as Vega-Lite, by their names: figures.vl.json of a folder of results, else those of the library's suite of this name; empty:
 // none.
-inline constexpr const char* suite_file = "suite.toml";  // the copy in a folder of results, of a suite that is not the library's
 inline constexpr const char* figures_file = "figures.vl.json";
 std::filesystem::path figures_of(const std::filesystem::path& folder, const std::string& suite);
 

@@ -58,9 +58,6 @@ test("sections stand in their order, and those without data do not appear", () =
     const of = whole();
     assert.deepEqual(of("sections_of()").map(s => s.id), ["work-precision", "sweep", "dispersion", "convergence", "cost", "overview", "maps", "figures", "cells"]);
     assert.deepEqual(on(report(folder_of(["manifest.json", "maps.csv"])))("sections_of()").map(s => s.id), ["overview", "maps"]);
-    const data = report(folder_of(every_file));
-    const claimed = section(on({...data, tables: {...data.tables, claims: "claim,place,verdict\nit sounds,fig. 1,holds\n"}}), "claims");
-    assert.deepEqual(claimed.table.rows, [["it sounds", "fig. 1", "holds"]]);
     const bare = on({...report(folder_of(every_file)), missing: "no charts"})("sections_of()");  // nothing draws: tables alone
     assert.deepEqual(bare.map(s => s.heading), ["Convergence", "Cost", "How often each scheme stays sound", "Where methods fail", "Figures", "Cells"]);
 });

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "schemes/scheme.hpp"
+
 namespace jvari::bench::command {
 
 // One thing listed in its three forms.

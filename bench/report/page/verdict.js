@@ -80,16 +80,9 @@ function picture_section(drawn) {  // SVGs in the folder that are none of the pa
   return {id: "figures", heading: "Figures", notes: [], charts: [], pictures, left_out: page.left_out.figures};
 }
 
-// What a paper says, and whether it holds of these results: claims.csv
-function claims_section() {
-  if (!records("claims").length) return null;
-  return {id: "claims", heading: "Does it hold?", charts: [], table: {...table("claims"), first: ["claim", "place", "verdict", "measured", "uncertainty", "unit", "expected", "note"]},
-          notes: ["A statement holds where the measured number lies within the limits by more than its uncertainty. Where the uncertainty spans a limit, it cannot be told."]};
-}
-
 // All that stands on the page, in this order; a section without data does not appear.
 function sections_of() {
-  const drawn = [run_section(), path_section(), needs_section(), work_precision_section(), claims_section(), sweep_section(), dispersion_section(), convergence_section(), cost_section(), overview_section(), map_section(),
+  const drawn = [run_section(), path_section(), needs_section(), work_precision_section(), sweep_section(), dispersion_section(), convergence_section(), cost_section(), overview_section(), map_section(),
                  spectrogram_section(), waveform_section()].filter(Boolean);
   if (page.missing) for (const s of drawn) s.charts = [];
   const all = [...drawn, picture_section(drawn.flatMap(s => s.charts.flatMap(c => c.twins.map(t => t.file)))), cell_section()];
