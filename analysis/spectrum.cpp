@@ -213,21 +213,4 @@ double centroid_difference(std::span<const double> candidate, std::span<const do
     return frames > 0 ? std::sqrt(sum / frames) : nan;
 }
 
-std::vector<double> spectral_envelope(const PowerSpectrum& spectrum, double width_hz) {
-    const long bins = static_cast<long>(spectrum.power.size());
-    const long half = bins > 0 ? std::lround(std::max(0.0, 0.5 * width_hz / spectrum.bin_hz)) : 0;
-    std::vector<double> envelope(bins);
-    std::vector<long> falling;  // bins whose power no later bin of the window reaches, strongest first
-    std::size_t first = 0;
-    for (long k = 0, next = 0; k < bins; ++k) {
-        for (; next < bins && next <= k + half; ++next) {
-            while (falling.size() > first && spectrum.power[falling.back()] <= spectrum.power[next]) falling.pop_back();
-            falling.push_back(next);
-        }
-        while (falling[first] < k - half) ++first;
-        envelope[k] = decibel(spectrum.power[falling[first]]);
-    }
-    return envelope;
-}
-
 }  // namespace jvari

@@ -76,8 +76,4 @@ std::vector<double> centroid_track(const Spectrogram&);
 // strongest are left out.
 double centroid_difference(std::span<const double> candidate, std::span<const double> reference, double rate);
 
-// Upper envelope [dB]: at each bin the largest level within half of `width_hz` on either side. Choose a width larger than the spacing of
-// the partials.
-std::vector<double> spectral_envelope(const PowerSpectrum&, double width_hz);
-
 }  // namespace jvari

@@ -32,7 +32,6 @@ struct Planned : Read, bench::study::Plan {  // the jobs of a suite, which point
     Planned& operator=(const Planned&) = delete;
 
     bench::study::Study run(int processes = 1) const { return bench::study::run(*this, "", false, processes, bench::store::Listener()); }
-    bench::store::Table rows_of(const char* facet) const { return bench::study::rows_of(facet, *this, run().records); }
 };
 
 }  // namespace jvari::test

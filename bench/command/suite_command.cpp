@@ -46,7 +46,7 @@ Json manifest_of(const suite::Suite& suite, const study::Plan& plan) {
     std::map<std::string, std::string> scenes;  // of what is swept the first
     for (const study::Job& c : plan.jobs) {
         sources[c.cell.scheme->name] = c.cell.scheme->source;
-        if (!scenes.contains(c.point->scene.name)) scenes[c.point->scene.name] = write_scene(suite::without_drawn_taps(c.point->scene));
+        if (!scenes.contains(c.point->scene.name)) scenes[c.point->scene.name] = write_scene(c.point->scene);
     }
     Json manifest = store::made_by();
     manifest.update({{"suite", suite.name},
@@ -141,7 +141,6 @@ int suite_command(SuiteRequest r) {
     if (const store::Table scaling = compare::scaling_of(cells, study::sets_of(plan)); !scaling.rows.empty())
         results.add("scaling.csv", store::csv(scaling));
     results.add_manifest(manifest);
-    if (!suite.figures.empty() && !suite.shelved) results.add(suite::figures_file, store::read_whole(suite.figures));
     if (!plan.jobs.empty() || !suite.maps.empty()) results.add_report();
     // Files first: nothing is lost where nobody reads this.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);

@@ -115,7 +115,6 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue, co
     Comparison c;
     study::Point common;
     common.scene = load_scene(request);
-    common.taps = common.scene.taps.size();
     note_scene(common.scene, listener);
     c.headline = study::headline_of(common.scene);
     study::Job like{};

@@ -94,7 +94,6 @@ study::Plan Trials::plan_of(const Trial& t) const {
     study::Plan plan;
     study::Point& point = plan.points.emplace_back();
     point.scene = listened(t.scene);
-    point.taps = point.scene.taps.size();
     point.references = references_of(t);
     point.truth_modes = std::nullopt;
     point.alone = true;

@@ -12,11 +12,9 @@
 #include "bench/report/vega.hpp"
 #include "bench/store/base64.hpp"
 #include "bench/store/cell_rows.hpp"
-#include "bench/store/folder.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/study/errors.hpp"
 #include "bench/study/record.hpp"
-#include "bench/suite/facet.hpp"
 #include "reference/references.hpp"
 #include "schemes/controls.hpp"
 #include "schemes/registry.hpp"
@@ -114,20 +112,7 @@ Json data_of(const Results& r) {
     return data;
 }
 
-// What node draws beyond the page: the suite's figures, and the tables that they are of.
-Json with_figures(Json data, const Results& r) {
-    const fs::path figures = suite::figures_of(r.folder, r.suite);
-    if (figures.empty()) return data;
-    const Json read = Json::parse(store::read_whole(figures), nullptr, false);
-    if (read.is_discarded()) throw store::UsageError(figures.string() + ": this is no JSON");
-    data["figures"] = read;
-    for (const suite::Facet& f : suite::facets())
-        if (const store::Table rows = store::folder_at(r.folder).table(f.name); !rows.columns.empty())
-            data["tables"][f.name] = store::csv(rows);
-    return data;
-}
-
-void add_pictures(Json& data, const fs::path& folder, const std::vector<std::string>& own) {  // SVGs of the folder that are none of its own
+void add_pictures(Json& data, const fs::path& folder, const std::vector<std::string>& own) {  // SVGs of the folder that are none of these
     std::vector<fs::path> files;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
@@ -183,17 +168,16 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     store::must_be_writable(folder / "report.html");
     Json data = data_of(results);
     const Vega vega = find_vega();
-    std::vector<std::string> written, own;
+    std::vector<std::string> written;
     std::string scripts;
     if (vega.missing.empty()) {
         scripts = vega_scripts(vega).value_or("");
-        Json drawing = with_figures(data, results);
+        Json drawing = data;
         if (print.width > 0) drawing["width"] = print.width * pixels_per_mm;
         const Drawn drawn = draw(vega, drawing);
         for (const auto& [name, svg] : drawn.svgs) {
             store::write_fresh(folder / name, svg);
             written.push_back(name);
-            if (!name.starts_with("figure-")) own.push_back(name);
             if (!print.pdf || !name.ends_with(".svg")) continue;
             const std::string pdf = fs::path(name).replace_extension(".pdf").string(), why = write_pdf(folder / name, folder / pdf);
             if (why.empty()) written.push_back(pdf);
@@ -204,7 +188,7 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
         listener.note(vega.missing);
         data["missing"] = vega.missing;
     }
-    add_pictures(data, folder, own);
+    add_pictures(data, folder, written);
     store::write_fresh(folder / "report.html", fitting_page_of(std::move(data), scripts, page_limit));
     written.emplace_back("report.html");
     write_crate(folder);

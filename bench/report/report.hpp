@@ -1,4 +1,4 @@
-// From what lies in a folder of compare, suite or trim: report.html beside it, and each of its charts and figures as a picture.
+// From what lies in a folder of compare, suite or trim: report.html beside it, and each of its charts as a picture.
 #pragma once
 
 #include <filesystem>

@@ -52,7 +52,6 @@ void read_manifest(Results& r, const Json& m) {
     if (!m.contains("scene")) {  // of a suite
         r.name = m.value("suite", "");
         r.source = m.value("source", "");
-        r.suite = r.name;
         return;
     }
     const Json &scene = m.at("scene"), &headline = m.at("headline");

@@ -14,7 +14,6 @@ struct Results {
     std::filesystem::path folder;
     std::string manifest;                      // JSON
     std::string name, source, about, command;  // command: that made the results
-    std::string suite;                         // "": a comparison, a trim
     compare::Controls controls = compare::Controls::stand_beside;
     store::Table cells, sounds;
     // What the page draws, cells and sounds too, by the file's name; empty where the file is absent. All but those of trim, path and needs,

@@ -30,6 +30,22 @@ std::vector<float> resampled(std::vector<float> x, double ratio) {
     y.resize(static_cast<std::size_t>(data.output_frames_gen));
     return y;
 }
+
+struct RadiatingEnd {  // where strings pull at a body
+    Quantity force;
+    const char* key;  // of a scene
+    std::string Body::*response;
+};
+constexpr RadiatingEnd ends[] = {{Quantity::driving_force, "body.bridge", &Body::bridge}, {Quantity::nut_force, "body.nut", &Body::nut}};
+
+Radiation radiation_of(const Body& body, const RadiatingEnd& end, double rate) {
+    std::vector<double> response = impulse_response(body.*end.response, rate, end.key);
+    try {
+        return {std::move(response), rate, body.sections};
+    } catch (const std::invalid_argument& e) {
+        throw store::UsageError(fmt::format("body.sections: found {} for {}; {}", body.sections, end.key, e.what()));
+    }
+}
 }  // namespace
 
 std::vector<double> impulse_response(const std::string& file, double rate, const std::string& key) {
@@ -64,21 +80,12 @@ std::vector<double> Radiation::operator()(std::span<const double> force) const {
     return sections_ ? filtered(*sections_, force) : convolved(force, response_);
 }
 
-Radiation radiation_of(const Body& body, const RadiatingEnd& end, double rate) {
-    std::vector<double> response = impulse_response(body.*end.response, rate, end.key);
-    try {
-        return {std::move(response), rate, body.sections};
-    } catch (const std::invalid_argument& e) {
-        throw store::UsageError(fmt::format("body.sections: found {} for {}; {}", body.sections, end.key, e.what()));
-    }
-}
-
 std::vector<RadiatingTap> radiating_taps(const Scene& scene, double rate) {
     std::vector<RadiatingTap> all;
     for (std::size_t k = 0; scene.body && k < scene.taps.size(); ++k) {
         const Tap& tap = scene.taps[k];
         if (tap.string && scene.strings.size() > 1) continue;
-        for (const RadiatingEnd& end : {bridge_end, nut_end})
+        for (const RadiatingEnd& end : ends)
             if (tap.quantity == end.force && !((*scene.body).*end.response).empty())
                 all.push_back({static_cast<int>(k), radiation_of(*scene.body, end, rate)});
     }

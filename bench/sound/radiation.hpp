@@ -31,15 +31,6 @@ private:
     double misfit_ = 0;
 };
 
-struct RadiatingEnd {  // where strings pull at a body
-    Quantity force;
-    const char* key;  // of a scene
-    std::string Body::*response;
-};
-inline constexpr RadiatingEnd bridge_end = {Quantity::driving_force, "body.bridge", &Body::bridge};
-inline constexpr RadiatingEnd nut_end = {Quantity::nut_force, "body.nut", &Body::nut};
-Radiation radiation_of(const Body&, const RadiatingEnd&, double rate);  // throws UsageError
-
 // The body's filter for each tap that it answers: the driving force, and the force on the nut, of all strings. Throws UsageError.
 struct RadiatingTap {
     int tap;

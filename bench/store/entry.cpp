@@ -8,22 +8,6 @@
 
 namespace jvari::bench::store {
 
-namespace {
-std::string identity_of(const Value& v) {
-    std::string text;
-    if (const auto* table = std::get_if<TomlTable>(&v.content)) {
-        for (const Member& m : *table) text += (text.empty() ? "" : ",") + m.key + "=" + identity_of(m.value);
-        return "{" + text + "}";
-    }
-    if (const auto* array = std::get_if<Array>(&v.content)) {
-        for (const Value& one : *array) text += (text.empty() ? "" : ",") + identity_of(one);
-        return "[" + text + "]";
-    }
-    if (const auto* s = std::get_if<std::string>(&v.content)) return quote(*s);
-    return v.found();
-}
-}  // namespace
-
 void Entry::refuse(const std::string& expected) const {
     fail("found " + value_->found() + ", expected " + expected);
 }
@@ -108,10 +92,6 @@ std::string Entry::option_text() const {
     if (is_text()) return text();
     if (is_array()) refuse("a text or a number");
     return toml();
-}
-
-std::string Entry::identity() const {
-    return identity_of(*value_);
 }
 
 }  // namespace jvari::bench::store

@@ -33,7 +33,6 @@ public:
     bool truth() const;
     std::string toml() const;         // as it could stand behind --set key=
     std::string option_text() const;  // as a scheme reads its option
-    std::string identity() const;     // all of it, whatever it is
 
 private:
     std::string below(const std::string& name) const { return key_.empty() ? name : key_ + "." + name; }

@@ -53,17 +53,6 @@ Kind<bool> yes_or_no() {
     return {"true or false", [](const Entry& e) { return e.truth(); }};
 }
 
-Kind<std::array<double, 2>> from_to(const Kind<double>& one) {
-    return {"[from, to], each " + one.says, [read = one.read](const Entry& e) {
-                if (!e.is_array()) e.refuse("two numbers, [from, to]");
-                const auto both = e.items();
-                if (both.size() != 2) e.refuse("two numbers, [from, to]");
-                const std::array<double, 2> r{read(both[0]), read(both[1])};
-                if (!(r[0] < r[1])) e.refuse("[from, to] with from < to");
-                return r;
-            }};
-}
-
 Kind<std::string> word(const char* what, const std::vector<std::string>& known) {
     std::vector<std::pair<std::string, std::string>> words;
     words.reserve(known.size());

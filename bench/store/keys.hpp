@@ -35,7 +35,6 @@ constexpr int most_counted = 9'999'999;  // modes, repeats, jobs
 Kind<int> whole(int least, int most);
 Kind<int> count();  // 1 ... most_counted
 Kind<bool> yes_or_no();
-Kind<std::array<double, 2>> from_to(const Kind<double>&);
 
 template <class T>
 Kind<std::vector<T>> several(Kind<T> one) {
@@ -106,10 +105,6 @@ Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const
 template <class Part, class Member, class T>
 Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning, const char* absent) {
     return detail::key(name, member, kind, meaning, absent, false);
-}
-template <class Part, class Whole>
-Key<Whole> inside(Part Whole::*member, const Key<Part>& k) {  // a key of a part that has no table of its own
-    return {k.words, [member, read = k.read](Whole& whole, const Entry& e) { read(whole.*member, e); }};
 }
 
 template <class Part>

@@ -186,7 +186,7 @@ void expand(const std::string& pattern, Field f, const std::function<void(const 
     };
     // the tap is in the outer loop: all columns of one stand together
     if (const auto at = pattern.find("{t}"); at != std::string::npos) {
-        for (f.tap = 0; f.tap < f.job.point->taps; ++f.tap) with(at, f.job.point->scene.taps[f.tap].name);
+        for (f.tap = 0; f.tap < f.job.point->scene.taps.size(); ++f.tap) with(at, f.job.point->scene.taps[f.tap].name);
         return;
     }
     for (const Slot& s : slots())

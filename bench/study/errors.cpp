@@ -111,9 +111,9 @@ double error_of(std::size_t measure, std::span<const double> run, std::span<cons
     return measures()[measure].of(pair);
 }
 
-Errors errors_of(const Trace& candidate, const Trace& reference, int taps, const Measures& only) {
+Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only) {
     Errors errors;
-    for (int k = 0; k < (taps < 0 ? reference.taps() : taps); ++k) {
+    for (int k = 0; k < reference.taps(); ++k) {
         auto& of_tap = errors.emplace_back(measures().size(), store::nan);
         const auto own = std::ranges::find(candidate.names, reference.names.at(k)) - candidate.names.begin();
         if (own == candidate.taps()) continue;

@@ -30,9 +30,8 @@ using Measures = std::vector<std::size_t>;  // places; none: all
 // One row per tap, one column per measure; NaN where the reference says nothing (a window that it does not cover), +inf for a run
 // that stopped inside the window.
 using Errors = std::vector<std::vector<double>>;
-// Of the reference's first `taps`, -1: of all, each by the run's tap of its name. NaN for a tap that the run has not, and for measures that
-// are not asked for.
-Errors errors_of(const Trace& candidate, const Trace& reference, int taps = -1, const Measures& only = {});
+// Of each tap of the reference, by the run's tap of its name. NaN for a tap that the run has not, and for measures that are not asked for.
+Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only = {});
 
 // The taps of the headline columns: the first nut force and the first bridge force, else the first driving force, else the first tap.
 struct Headline {

@@ -47,7 +47,6 @@ void address(Plan& plan, const std::string& of_program) {
                       {"scene_hash", p.hash},
                       {"scheme", job.cell.scheme->name},
                       {"settings", settings_json(job.cell.settings)},
-                      {"judged_taps", p.taps},
                       {"sounds", job.sounds},
                       {"measured", job.measured}};
         if (job.judged) identity["references"] = references_json(p);

@@ -19,7 +19,6 @@ namespace jvari::bench::study {
 
 struct Point {
     Scene scene;
-    std::size_t taps = 0;                                    // the first so many are judged; more are drawn alone
     std::vector<std::pair<std::string, std::string>> swept;  // key, value; the last may be "element", "-thread"
     std::optional<Element> element;                          // that the scene is without; an added one: that is on while it is timed
     std::vector<ReferenceChoice> references;

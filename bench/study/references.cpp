@@ -11,7 +11,7 @@ namespace jvari::bench::study {
 class References::Shared {
 public:
     template <class Make>
-    void make(Make run, std::size_t taps) {
+    void make(Make run) {
         if (made_) return;
         const std::unique_lock lock(mutex_, std::try_to_lock);
         if (!lock) throw store::Busy{"another thread, which runs a reference"};
@@ -19,7 +19,7 @@ public:
         try {
             truth_ = std::make_unique<Truth>(run());
             const Run& moved = truth_->reference.moved;
-            if (moved.trace.rows > 0) floor_ = errors_of(moved.trace, truth_->reference.run.trace, static_cast<int>(taps));
+            if (moved.trace.rows > 0) floor_ = errors_of(moved.trace, truth_->reference.run.trace);
         } catch (const store::Busy& busy) {
             busy_ = busy;
             again_ = Clock::now() + std::chrono::milliseconds(500);
@@ -84,9 +84,9 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
     const Scene& scene = p.true_scene();
     Shared& model = of(p.reference_key);
     if (p.in_model || !p.truth_modes)
-        model.make([&] { return Truth{run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone), {}, {}}; }, p.taps);
+        model.make([&] { return Truth{run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone), {}, {}}; });
     Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
-    if (p.truth_modes) truth.make([&] { return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit); }, p.taps);
+    if (p.truth_modes) truth.make([&] { return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit); });
     return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(), truth.refused()};
 }
 

@@ -24,7 +24,7 @@ Record run_job(const Job& job, References& references, const store::Done& done, 
     try {
         const Trace trace = run_cell(cell, point.scene, store::within(std::min(point.time_limit, job.patience), progress));
         if (truth) {
-            const auto errors_from = [&](const Trace& t) { return errors_of(trace, t, static_cast<int>(point.taps), job.errors); };
+            const auto errors_from = [&](const Trace& t) { return errors_of(trace, t, job.errors); };
             const Reference* own = known.model ? of_modes(cell, *known.model, *known.truth) : nullptr;
             cell.errors = errors_from(*truth);
             if (own) cell.in_model = &own->run.trace == truth ? cell.errors : errors_from(own->run.trace);

@@ -14,11 +14,6 @@ std::span<const Facet> facets() {
          write_motion},
         {"dispersion", "pitch and decay of each mode", dispersion_rows},
         {measured::ensemble, "is the cell statistically its reference?", ensemble_rows},
-        {"trace", "every row of a tap in windows", trace_rows, nullptr, trace_table},
-        {"extent", "smallest and largest value of a tap in parts of the run", extent_rows, nullptr, extent_table},
-        {"profile", "displacement along the string at instants", profile_rows, nullptr, profile_table},
-        {"envelope", "upper envelope of a tap's spectrum over the run (Hann)", envelope_rows, nullptr, envelope_table},
-        {"centroid", "of a tap's power spectrum, frame by frame", centroid_rows, nullptr, centroid_table},
     };
     return all;
 }

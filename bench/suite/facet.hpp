@@ -1,6 +1,5 @@
 // What a suite can measure of a cell. A facet beside compare's errors and cost and the spectrogram makes rows of the cell's accuracy run by
-// one function, and they are gathered over all cells into a file of its name. A new one is a file of its own and a line of facets(); where
-// a set has to describe it, its file declares a table of the set for that too.
+// one function, and they are gathered over all cells into a file of its name. A new one is a file of its own and a line of facets().
 #pragma once
 
 #include <filesystem>
@@ -35,17 +34,8 @@ struct Facet {
     store::Table (*rows)(const MeasuredCell&) = nullptr;  // may come without rows; repeats bit for bit
     // Lays what was gathered into the folder of the suite in another form than <name>.csv.
     void (*write)(const std::filesystem::path& folder, const store::Table& gathered) = nullptr;
-    store::Kind<FigureRows> (*described)() = nullptr;  // a table of the set, of the facet's name, that must stand where it is measured
 };
 std::span<const Facet> facets();
-
-// ---- The row facets that figures are drawn from; figure_facets.hpp says what each holds.
-
-store::Table trace_rows(const MeasuredCell&);
-store::Table extent_rows(const MeasuredCell&);
-store::Table profile_rows(const MeasuredCell&);
-store::Table envelope_rows(const MeasuredCell&);
-store::Table centroid_rows(const MeasuredCell&);
 
 // ---- The row facet `sound` of a suite: a cell's samples and its reference's lie in its record, and become sounds/*.wav and sounds.csv.
 

@@ -54,6 +54,16 @@ std::vector<std::string> names_of_facets() {
     return all;
 }
 
+store::Kind<Tap> tap() {
+    std::vector<std::pair<std::string, Quantity>> quantities;
+    for (int q = 0; q <= static_cast<int>(Quantity::driving_force); ++q)
+        quantities.emplace_back(name_of(static_cast<Quantity>(q)), static_cast<Quantity>(q));
+    return store::table(std::vector{needed("name", &Tap::name, store::text(), "what it is called"),
+                                    needed("quantity", &Tap::quantity, store::one_of("quantity", std::move(quantities)), "what is heard"),
+                                    key("string", &Tap::string, store::whole(0, 1000), "which one", "of forces, the sum over strings"),
+                                    key("position", &Tap::position, store::not_negative("m"), "of displacement and velocity")});
+}
+
 store::Kind<study::Element> element() {
     std::vector<std::pair<std::string, study::Element>> words;
     for (const study::Element e : study::elements()) words.emplace_back(study::name_of(e), e);
@@ -63,34 +73,30 @@ store::Kind<study::Element> element() {
 std::vector<store::Key<CellSet>> set_keys() {
     using Set = CellSet;
     const auto asked = []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* { return member; };
-    std::vector<store::Key<Set>> keys{
-        needed("scenes", &Set::scenes, store::several(store::text()),
-               "files, beside the suite or where the program runs, or names of the library"),
-        key("schemes", asked(&Set::schemes), store::several(store::text()), "what is compared", "all that represent the scene"),
-        key("rates", asked(&Set::rates), store::several(store::positive("Hz")), "at which each runs", "44100 x 1, 2, 4 ... 64"),
-        key("modes", asked(&Set::modes), store::several(store::count()), "of each string",
-            "those below 20 kHz, and more of them by `search`"),
-        key("search", asked(&Set::search), store::yes_or_no(),
-            "where errors are measured and these are not named, tries more modes, and both forms of compliance"),
-        key("duration", asked(&Set::duration), store::positive("s"), "of each run", "the scene's"),
-        key("tap_rate", asked(&Set::tap_rate), store::positive("Hz"), "of the rows that are compared", "as compare"),
-        key("repeats", asked(&Set::repeats), store::count(), "timed runs"),
-        key("reference", asked(&Set::reference), store::text(), "what errors are against", "the highest that represents the scene"),
-        key("reference_modes", asked(&Set::reference_modes), reference_modes(),
-            "0: doubled until nothing moves; \"cell\": those of the cell", "0"),
-        key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap", "the scene's first"),
-        key("time_limit_s", &Set::time_limit, store::positive("s"),
-            "processor time of a cell's accuracy run, and of each of its reference's two", "none"),
-        key("options", &Set::varied, store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),
-            "one value, or several to vary"),
-        key("sweep", &Set::sweep, store::by_name<SweptKey>("a table: key = [values]", swept),
-            "any key of the scene, with the values to vary"),
-        key("measure", &Set::measure, store::several(store::word("measure", names_of_facets())), "what is measured", measured::errors),
-        key("elements", &Set::elements, store::several(element()), "beside the scene, the scene without each of these", "none"),
-        store::inside(&Set::figures, figure_taps_key())};
-    for (const Facet& f : facets())
-        if (f.described) keys.push_back(store::inside(&Set::figures, figure_rows_key(f.name, f.described())));
-    return keys;
+    return {needed("scenes", &Set::scenes, store::several(store::text()),
+                   "files, beside the suite or where the program runs, or names of the library"),
+            key("schemes", asked(&Set::schemes), store::several(store::text()), "what is compared", "all that represent the scene"),
+            key("rates", asked(&Set::rates), store::several(store::positive("Hz")), "at which each runs", "44100 x 1, 2, 4 ... 64"),
+            key("modes", asked(&Set::modes), store::several(store::count()), "of each string",
+                "those below 20 kHz, and more of them by `search`"),
+            key("search", asked(&Set::search), store::yes_or_no(),
+                "where errors are measured and these are not named, tries more modes, and both forms of compliance"),
+            key("duration", asked(&Set::duration), store::positive("s"), "of each run", "the scene's"),
+            key("tap_rate", asked(&Set::tap_rate), store::positive("Hz"), "of the rows that are compared", "as compare"),
+            key("repeats", asked(&Set::repeats), store::count(), "timed runs"),
+            key("reference", asked(&Set::reference), store::text(), "what errors are against", "the highest that represents the scene"),
+            key("reference_modes", asked(&Set::reference_modes), reference_modes(),
+                "0: doubled until nothing moves; \"cell\": those of the cell", "0"),
+            key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap", "the scene's first"),
+            key("time_limit_s", &Set::time_limit, store::positive("s"),
+                "processor time of a cell's accuracy run, and of each of its reference's two", "none"),
+            key("options", &Set::varied, store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),
+                "one value, or several to vary"),
+            key("sweep", &Set::sweep, store::by_name<SweptKey>("a table: key = [values]", swept),
+                "any key of the scene, with the values to vary"),
+            key("measure", &Set::measure, store::several(store::word("measure", names_of_facets())), "what is measured", measured::errors),
+            key("elements", &Set::elements, store::several(element()), "beside the scene, the scene without each of these", "none"),
+            key("taps", &Set::taps, store::several(tap()), "taps beside those of the scene")};
 }
 
 void must_be_few(const CellSet& s, const store::Entry& e) {
@@ -110,12 +116,6 @@ void hold_together(CellSet& s, const store::Entry& e) {
         e.need("measure").fail("found cost without errors, expected both: no speed without an error");
     if (!s.elements.empty() && !s.measures(measured::cost))
         e.need("elements").fail("measure does not ask for cost, which elements are compared by");
-    for (const Facet& f : facets()) {
-        if (!f.described) continue;
-        const auto table = e.at(f.name);
-        if (s.measures(f.name) && !table) e.fail(std::string("measure asks for ") + f.name + ", the table " + f.name + " is missing");
-        if (table && !s.measures(f.name)) table->refuse(std::string("\"") + f.name + "\" in measure beside it");
-    }
 }
 
 // ---- A suite
@@ -156,8 +156,6 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     const store::Entry root(document, document.root, "");
     Suite suite;
     suite.name = fs::path(file_name).stem().string();
-    if (const auto figure = root.at("figure"))
-        figure->refuse("no figures here: they stand beside it in " + suite.name + ".vl.json, as Vega-Lite");
     store::read_keys(root, keys, suite);
     if (suite.sets.empty() && (suite.maps.empty() || root.at("cells")))
         root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") + "expected at least one [[cells]]");
@@ -175,7 +173,6 @@ Suite read_suite(const std::string& name) {
     const std::string path = file ? name : shelved.string();
     Suite suite = parse_suite(store::read_whole(path), path);
     suite.shelved = known;
-    if (const fs::path beside = fs::path(path).replace_extension(".vl.json"); fs::is_regular_file(beside, error)) suite.figures = beside;
     // a scene's file is looked for beside the suite's, then where the program runs; a name of the library is neither
     const auto find = [&](std::string& scene) {
         if (const fs::path beside = fs::path(path).parent_path() / scene;
@@ -186,13 +183,6 @@ Suite read_suite(const std::string& name) {
         for (std::string& scene : set.scenes) find(scene);
     for (map::Map& m : suite.maps) find(m.scene);
     return suite;
-}
-
-fs::path figures_of(const fs::path& folder, const std::string& suite) {
-    std::error_code error;
-    for (const fs::path& file : {folder / figures_file, library() / (suite + ".vl.json")})
-        if (fs::is_regular_file(file, error)) return file;
-    return {};
 }
 
 std::vector<std::string> library_suites() {

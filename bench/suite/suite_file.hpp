@@ -11,7 +11,7 @@
 #include "bench/compare/request.hpp"
 #include "bench/map/map_file.hpp"
 #include "bench/study/elements.hpp"
-#include "bench/suite/figure_facets.hpp"
+#include "scenes/scene.hpp"
 
 namespace jvari::bench::suite {
 
@@ -37,7 +37,7 @@ struct CellSet
     std::vector<std::string> measure{measured::errors};  // names of facets
     std::vector<study::Element> elements;
     std::optional<double> time_limit;  // [s]
-    FigureFacets figures;
+    std::vector<Tap> taps;             // beside those of the scene
     bool measures(std::string_view facet) const;
 };
 
@@ -45,7 +45,6 @@ struct Suite {
     std::string name, question, source;
     bool shelved = false;  // it is the library's, found by its name
     std::vector<CellSet> sets;
-    std::filesystem::path figures;  // the file of its figures beside it, NAME.vl.json; empty: none
     std::vector<map::Map> maps;
 };
 
@@ -53,17 +52,12 @@ struct Suite {
 Suite read_suite(const std::string& file_or_library_name);
 Suite parse_suite(std::string_view text, const std::string& file_name);
 
-// The keys of a suite file, of each of its tables: "", "cells", "map", "figure".
+// The keys of a suite file, of each of its tables: "", "cells", "map".
 struct TableWords {
     std::string table;
     std::vector<store::KeyWords> keys;
 };
 std::vector<TableWords> suite_keys();
-
-// Figures as Vega-Lite, by their names: figures.vl.json of a folder of results, else those of the library's suite of this name; empty:
-// none.
-inline constexpr const char* figures_file = "figures.vl.json";
-std::filesystem::path figures_of(const std::filesystem::path& folder, const std::string& suite);
 
 // Names of the suites in the library, sorted: the directory $JVARI_SUITES, else that of the sources, else the installed one.
 std::vector<std::string> library_suites();

@@ -22,7 +22,6 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
     for (const Facet& f : facets())
         if (set.measures(f.name)) measured.push_back(f.name);
     if (set.measures(measured::spectrogram) || makes_rows(set)) measured.push_back({{"tap", job.point->scene.taps.at(tap).name}});
-    if (!set.figures.identity.empty()) measured.push_back({{"figures", set.figures.identity}});
     job.measured = measured.dump();
     job.measure = [&set, tap](const study::Ran& ran, study::Record& into) {
         if (set.measures(measured::spectrogram)) into.levels = study::levels_of(ran.trace.column(tap), ran.trace.tap_rate);
@@ -55,8 +54,8 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue, con
         like.set = static_cast<int>(&set - suite.sets.data());
         try {
             if (asked.element) common.scene = study::without(*asked.element, std::move(common.scene));
-            common.scene = with_figure_taps(common.scene, set.figures);
-            common.taps = without_drawn_taps(common.scene).taps.size();
+            common.scene.taps.insert(common.scene.taps.end(), set.taps.begin(), set.taps.end());
+            validate(common.scene);
             add_facets(like, set, compare::tap_named(common.scene, set.tap));
             compare::add_jobs(all, r, catalogue, common, like);
         } catch (const store::UsageError& e) {

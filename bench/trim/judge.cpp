@@ -131,7 +131,6 @@ const study::Point& Judge::point(int start) {
     study::Point& p = points_[start].points.emplace_back();
     p.scene = started(scene_, start);
     p.whole = p.scene;
-    p.taps = p.scene.taps.size();
     compare::CompareRequest r;
     r.reference = request_.reference;
     r.rates = {4 * request_.tap_rate};

@@ -233,28 +233,6 @@ TEST(Centroid, IsThePowerWeightedMeanFrequencyOfEachFrame) {
     EXPECT_TRUE(centroid_track({}).empty());
 }
 
-TEST(Envelope, JoinsThePeaksOfPartialsCloserThanItsWidth) {
-    Signal x(44100, 0.0);
-    for (int i = 1; i <= 40; ++i) x = plus(x, tone(44100, 131 * i, 1.0 / i));
-    const auto spectrum = power_spectrum(x, rate);
-    const auto e = spectral_envelope(spectrum, 140);
-    for (int i = 1; i < 40; ++i) {
-        const double peak = 10 * std::log10(0.5 / (i * i) * 2 / 3);
-        EXPECT_NEAR(e[131 * i], peak, 1e-6);
-        EXPECT_NEAR(e[131 * i + 65], peak, 1e-6);  // the stronger of its neighbours
-    }
-    std::mt19937 random(1);
-    PowerSpectrum rough{1, Signal(300)};
-    for (double& v : rough.power) v = std::pow(10.0, -6.0 * random() / random.max());
-    const auto wide = spectral_envelope(rough, 14), none = spectral_envelope(rough, 0);
-    for (int k = 0; k < 300; ++k) {
-        const auto from = rough.power.begin() + std::max(0, k - 7), to = rough.power.begin() + std::min(300, k + 8);
-        EXPECT_EQ(wide[k], 10 * std::log10(*std::max_element(from, to)));
-        EXPECT_EQ(none[k], 10 * std::log10(rough.power[k]));
-    }
-    EXPECT_TRUE(spectral_envelope({}, 10).empty());
-}
-
 TEST(Spectra, ComeOutTheSameToTheBitAndFromSeveralThreadsAtOnce) {
     const Signal x = noise(1200, 1), y = noise(1200, 2);
     const auto all = [&] {  // many lengths: each plans anew

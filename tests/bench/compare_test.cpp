@@ -311,7 +311,6 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     bench::study::Plan plan;
     bench::study::Point& point = plan.points.emplace_back();
     point.scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.1);
-    point.taps = point.scene.taps.size();
     const std::size_t taps = point.scene.taps.size(), measures_of = bench::study::measures().size();
     const auto errors_from = [&](double start) {
         bench::study::Errors e(taps, std::vector<double>(measures_of));

@@ -102,6 +102,24 @@ TEST(SuiteFile, OptionsVaryForTheSchemeThatTheyName) {
     EXPECT_EQ(bench::store::options_text(plan.jobs[2].cell.settings.options), "length=fractional");
 }
 
+TEST(SuiteFile, TapsBesideThoseOfTheSceneAreJudgedToo) {
+    const std::string set = "[[cells]]\nscenes = [\"free_string\"]\n";
+    EXPECT_TRUE(says(refusal_of(set + "taps = [{ name = \"a\", quantity = \"velocty\" }]"),
+                     "a.toml:3: cells.0.taps.0.quantity: unknown quantity \"velocty\"; did you mean"));
+    for (const char* number : {"0.5", "1e300"})
+        EXPECT_TRUE(says(refusal_of(set + "taps = [{ name = \"a\", quantity = \"velocity\", string = " + number + " }]"),
+                         "expected a whole number from 0 to 1000"));
+    const Planned plan(set + R"(schemes = ["modal_two_point"]
+rates = [44100]
+modes = 5
+reference_modes = "cell"
+duration = 0.01
+taps = [{ name = "middle", quantity = "displacement", string = 0, position = 0.5 }])");
+    const bench::store::Table t = bench::study::table_of(plan, plan.run().records);
+    EXPECT_EQ(t.at(0, "status"), "ok") << t.at(0, "reason");
+    EXPECT_GE(t.number(0, "error_l2_whole_middle"), 0);
+}
+
 TEST(SuiteFile, DotsAreCountedInKeysAlone) {
     const auto suite = [](const std::string& more) { return "[[cells]]\nscenes = [\"b\"]\n" + more + "\n"; };
     std::string numbers, dots;

@@ -2,13 +2,13 @@
 // made-up results: which rows each chart is given, under which names and looks; and that Vega draws it where it is installed. One line per test.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
-import {copyFileSync, existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
+import {copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 
 const [program, results, sources, modules] = process.argv.slice(2), only = process.argv[6];
 const scratch = mkdtempSync(join(tmpdir(), "jvari-page-"));
-const files = ["data", "looks", "work_precision", "along", "maps", "sound_charts", "run", "verdict", "figures", "plot"].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
+const files = ["data", "looks", "work_precision", "along", "maps", "sound_charts", "run", "verdict", "plot"].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
 const css = readFileSync(join(sources, "page.css"), "utf8");
 let folders = 0, failures = 0;
 
@@ -345,7 +345,7 @@ test("the front is seen on its page and the lines on it too", () => {
     assert.deepEqual(tracks.map(l => [l.mark.color, l.mark.opacity]), [[looks("front_edge")[0], undefined], [looks("front_track")[0], undefined]]);
 });
 test("no chart has a hue of its own", () => {  // outcomes of a map are no schemes, and looks.js holds them all
-    for (const name of ["work_precision", "along", "sound_charts", "run", "verdict", "figures"])
+    for (const name of ["work_precision", "along", "sound_charts", "run", "verdict"])
         for (const [, hex] of readFileSync(join(sources, `${name}.js`), "utf8").matchAll(/"#([0-9a-f]{6}|[0-9a-f]{3})"/g)) {
             const wide = hex.length / 3, parts = [0, 1, 2].map(k => hex.slice(k * wide, (k + 1) * wide));
             assert.ok(new Set(parts).size === 1 || ["440154", "56b4e9"].includes(hex), `${name}: #${hex}`);  // the ground of viridis, the band of the reference
@@ -401,38 +401,6 @@ test("spectrograms merge equal neighbours, leave out the background, and grow co
     const louder = {...quiet, level: [-200, -200, -200, -100]}, truth = {...quiet, level: [-200, -200, -200, -200]}, compared = [{levels: louder, against: truth}, {levels: truth}];
     of("tiled")(compared, 2000, true);
     assert.deepEqual(compared.map(p => p.tiles.map(t => t.l)), [[10], []]);  // the reference differs from nothing
-});
-
-// ---- Figures of a suite
-const figure_csv = "rate,tap,time_s,low,high\n44100,a,1,0.1,0.2\n44100,b,2,-0.3,0.4\n88200.0,b,3,,1\n88200.0,b,4,5,6\n";
-const drawing = (more = {}) => on({title: "t", schemes: registry, tables: {extent: figure_csv, ...more}, levels: [], manifest: {}});
-const figure = more => ({title: {text: "title", subtitle: "fig. 1"}, data: {name: "extent"}, mark: "line", encoding: {x: {field: "time_s", type: "quantitative"}, y: {field: "low", type: "quantitative"}}, ...more});
-test("a figure has the rows of its table, with the fields that it asks for, numbers as numbers", () => {
-    const spec = drawing()("figure_spec")(figure({transform: [{filter: "datum.tap == 'b'"}]}));
-    assert.deepEqual(spec.data.values[3], {time_s: 4, low: 5, tap: "b"});
-    assert.equal(spec.data.values[2].low, "");  // an empty field is no zero
-    assert.deepEqual(spec.title.text, ["title"]);
-});
-test("a table or a column that is not there is refused by name", () => {
-    assert.throws(() => drawing()("figure_spec")(figure({data: {name: "extend"}})), /there is no table extend/);
-    assert.throws(() => drawing()("figure_spec")(figure({encoding: {x: {field: "time"}}})), /table extent: there is no column time; it has rate, tap, time_s, low, high/);
-});
-test("in a figure a scheme has its colour and its marker", () => {
-    const of = drawing({extent: "scheme,x,y\nfinite_difference_theta,1,2\nfinite_difference_explicit,1,3\n"}), encoding = {x: {field: "x", type: "quantitative"}, y: {field: "y", type: "quantitative"}, color: {field: "scheme"}, shape: {field: "scheme"}};
-    const spec = of("figure_spec")(figure({mark: {type: "line", point: true}, encoding})), names = ["finite_difference_theta", "finite_difference_explicit"], known = of("looks_of")(names);
-    assert.deepEqual(spec.encoding.color.scale, {domain: names, range: names.map(n => known.get(n).colour)});
-    assert.deepEqual(spec.encoding.shape.scale, {domain: names, range: names.map(n => known.get(n).shape)});
-    assert.notEqual(known.get(names[0]).shape, known.get(names[1]).shape);
-});
-test("each figure of the library names a table that suites write", () => {
-    const suites = join(sources, "../../suites"), tables = ["cells", "levels", "trace", "extent", "profile", "envelope", "centroid", "ensemble"];
-    let count = 0;
-    for (const file of readdirSync(suites).filter(f => f.endsWith(".vl.json"))) {
-        assert.ok(existsSync(join(suites, file.replace(".vl.json", ".toml"))), file);
-        for (const [name, spec] of Object.entries(JSON.parse(readFileSync(join(suites, file), "utf8"))))
-            for (const part of layers(spec)) if (part.data?.name) assert.ok(++count && tables.includes(part.data.name), `${file}: ${name}`);
-    }
-    assert.ok(count >= 30);
 });
 
 test("plot.py draws the lines of the chart from the rows of the table", () => {

@@ -294,7 +294,6 @@ void check_matching(const RandomCase& c, Tally& tally, const Finding& finding, c
     study::Plan plan;
     study::Point& point = plan.points.emplace_back();
     point.scene = c.scene;
-    point.taps = c.scene.taps.size();
     point.references = reference(modes * multiple);
     point.truth_modes = std::nullopt;
     point.alone = true;

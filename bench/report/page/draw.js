@@ -1,5 +1,5 @@
-// Under node, after the other files: node draw.js makes of page.json beside it every picture of the charts, the suite's figures (figures.js), and
-// plot.py, which draws the first chart with matplotlib. drawn.json lists what was written, and what could not be drawn with the reason.
+// Under node, after the other files: node draw.js makes of page.json beside it every picture of the charts, and plot.py, which draws the first chart with
+// matplotlib. drawn.json lists what was written, and what could not be drawn with the reason.
 // A picture as wide as it was asked for, to the point: what stands beside the plot makes it a little wider or narrower than planned.
 function sized(svg) {
   const [whole, before, width, height] = svg.match(/^<svg([^>]*?) width="([\d.]+)" height="([\d.]+)"/) ?? [], mm = page.width * 25.4 / 96;
@@ -25,6 +25,5 @@ async function draw_all() {
     fs.writeFileSync("plot.py", plot);
     drawn.push("plot.py");
   }
-  for (const [name, figure] of Object.entries(page.figures ?? {})) await draw(`figure-${name}.svg`, () => figure_spec(figure));
   fs.writeFileSync("drawn.json", JSON.stringify({drawn, failed}));
 }

@@ -130,7 +130,7 @@ function heard_cells() {
   const several = distinct(cells().map(c => c.rate)).length > 1, references = new Map(page.levels.filter(l => l.problem !== undefined).map(l => [l.problem, levels_of(l)]));
   return page.levels.filter(l => l.cell !== undefined).map(kept => {
     const c = cells()[kept.cell], own = kept.frames > 0 ? levels_of(kept) : null, truth = references.get(c.problem);
-    return {cell: c, status: c.status, problem: c.problem, series: c.series, rate: several ? ` at ${digits(number(c.rate) / 1000, 6)} kHz` : "", levels: own, reference: truth, against: own && truth && on_one_grid(own, truth) ? truth : null};
+    return {status: c.status, problem: c.problem, series: c.series, rate: several ? ` at ${digits(number(c.rate) / 1000, 6)} kHz` : "", levels: own, reference: truth, against: own && truth && on_one_grid(own, truth) ? truth : null};
   });
 }
 function spectrogram_spec(choice, print) {
