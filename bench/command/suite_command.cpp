@@ -146,8 +146,6 @@ int suite_command(SuiteRequest r) {
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
-    if (const store::Table told = study::rows_of(suite::measured::ensemble, plan, run.records); !told.rows.empty())
-        console.print("by 32 runs of each\n" + suite::ensemble_text(told));
     for (const std::string& warning : compare::warnings_of(cells)) console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + folder.string());
     if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);

@@ -13,7 +13,6 @@ std::span<const Facet> facets() {
         {"motion", "of the string, frame by frame, beside its reference's: what the page's moving string is drawn of", motion_rows,
          write_motion},
         {"dispersion", "pitch and decay of each mode", dispersion_rows},
-        {measured::ensemble, "is the cell statistically its reference?", ensemble_rows},
     };
     return all;
 }

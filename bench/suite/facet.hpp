@@ -51,21 +51,6 @@ constexpr int dispersion_modes = 30;  // at most
 // and `note` says why the trace says nothing. A string that a thread or a barrier touches has no modes of its own in the trace.
 store::Table dispersion_rows(const MeasuredCell&);
 
-// ---- Is a cell statistically the reference, where waveforms forget their start? Scheme and reference each run 32 times, every initial
-// shape and pluck scaled by 1 + 1e-4 u with u between -1 and 1, no start twice; analysis/ensemble.hpp tells the two apart, trait by trait.
-// No string is let go twice alike to 1e-4. Much less of a spread is not forgotten within a quarter of a second: by 1e-6 the reference is
-// told from itself where its start moves by 1e-5. The reference is the first that represents the scene.
-
-constexpr int ensemble_runs = 32;
-constexpr double ensemble_spread = 1e-4;  // of the start
-
-// Columns kind, where, reference, candidate, p, apart: a row for each trait, and one first with kind "any" whose `apart` counts those
-// that are. None where no reference represents the scene, or a run does not reach its end.
-store::Table ensemble_rows(const MeasuredCell&);
-
-// From ensemble.csv: of each scheme on each problem the rate from which on nothing is told apart; "" without rows.
-std::string ensemble_text(const store::Table&);
-
 // ---- The row facet `motion`: the shape of string 0 over a short window, frame by frame, and the force of its barriers, of a cell and of
 // its reference; what the page's moving string is drawn of. Both are run again over that window alone, with taps along the string.
 //

@@ -16,7 +16,7 @@
 namespace jvari::bench::suite {
 
 namespace measured {  // facets that more than their own file knows
-inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram", *ensemble = "ensemble";
+inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram";
 }
 
 struct SweptKey {
