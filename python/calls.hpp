@@ -155,7 +155,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
             tables.emplace_back("maps", map::maps_table(maps));
             tables.emplace_back("boundaries", map::boundaries_table(maps, {}));
             for (const suite::Facet& f : suite::facets())
-                if (store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && !f.write)
+                if (store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && f.rows != suite::sound_rows)
                     tables.emplace_back(f.name, std::move(rows));
         },
         [&] {

@@ -35,8 +35,7 @@ std::string worst_partial(const Descriptor& d, const Scene& scene, bool& any) {
     const Settings settings{contract_tap_rate, contract_tap_rate, contract_modes, {}};
     if (d.clock == Clock::continuous || !represents(d, scene) || !takes(d, scene, settings)) return "";
     const Trace trace = run(d, scene, settings).trace;
-    const suite::CellSet none;
-    const store::Table rows = suite::dispersion_rows({scene, d, settings, trace, nullptr, 1, none});
+    const store::Table rows = suite::dispersion_rows({scene, d, settings, trace, nullptr, 1});
     for (std::size_t i = 0; i < rows.rows.size(); ++i) {
         const double cents = std::abs(rows.number(i, "own_cents") - rows.number(i, "trace_cents"));
         const double decay = std::abs(rows.number(i, "own_decay_per_s") - rows.number(i, "trace_decay_per_s"));

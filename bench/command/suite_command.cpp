@@ -135,7 +135,7 @@ int suite_command(SuiteRequest r) {
     if (!plan.jobs.empty()) results.add_tables(cells);
     for (const suite::Facet& f : suite::facets())
         if (const store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && results) {
-            if (f.write) f.write(folder, rows);
+            if (f.rows == suite::sound_rows) suite::write_sound_rows(folder, rows);
             else results.add(std::string(f.name) + ".csv", store::csv(rows));
         }
     if (const store::Table scaling = compare::scaling_of(cells, study::sets_of(plan)); !scaling.rows.empty())

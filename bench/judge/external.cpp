@@ -4,13 +4,14 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <sstream>
 
 #include "bench/judge/foreign_trace.hpp"
 #include "bench/judge/problem_file.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/system/memo.hpp"
 #include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"
 #include "schemes/making.hpp"
@@ -48,9 +49,18 @@ std::shared_ptr<const Trace> computed(const External& e, const Exported& of, con
 
 // Each problem is computed once: a cell is run by the search, for its errors, and once more where it is looked at again.
 std::shared_ptr<const Trace> known(const External& e, const Exported& of) {
-    static store::Memo<std::shared_ptr<const Trace>> all;
+    struct Each {
+        std::once_flag once;
+        std::shared_ptr<const Trace> trace;
+    };
+    static std::mutex mutex;  // of `all`
+    static std::map<std::string, Each> all;
     const std::string problem = problem_json(of, nullptr);
-    return all.get(store::hash_of(e.command + problem), [&] { return computed(e, of, problem); });
+    std::unique_lock lock(mutex);
+    Each& each = all[store::hash_of(e.command + problem)];
+    lock.unlock();
+    std::call_once(each.once, [&] { each.trace = computed(e, of, problem); });  // whoever asks for it meanwhile waits
+    return each.trace;
 }
 
 class Called final : public Scheme {

@@ -36,7 +36,7 @@ std::string shared_program() {
     return joined({"data.js", "looks.js", "work_precision.js", "along.js", "maps.js", "sound_charts.js", "run.js", "verdict.js"});
 }
 static std::string page_program() {
-    return shared_program() + joined({"table.js", "view.js", "chart.js", "motion.js", "player.js", "page.js"});
+    return shared_program() + joined({"table.js", "view.js", "chart.js", "player.js", "page.js"});
 }
 
 std::string page_of(const nlohmann::ordered_json& data, const std::string& scripts) {

@@ -100,12 +100,6 @@ Json data_of(const Results& r) {
         if (!table.columns.empty()) data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
     const auto derived = derived_tables(r);
     const store::Table cheapest = derived.contains("cheapest") ? derived.at("cheapest") : store::Table{};
-    if (store::Table motion = r.tables.at("motion"); !motion.rows.empty()) {  // references, the answers, each scheme at its highest rate
-        store::Table few{motion.columns, {}};
-        for (std::size_t i = 0; i < motion.rows.size(); ++i)
-            if (place_of(motion, i, cheapest) <= 2) few.rows.push_back(motion.rows[i]);
-        data["tables"]["motion"] = store::csv(few);
-    }
     for (const auto& [name, table] : derived) data["tables"][name] = store::csv(table);
     data["sounds"] = heard(r, cheapest, longest_heard, sounds_limit, data["left_out"]["sounds"]);
     data["levels"] = kept_levels(r);

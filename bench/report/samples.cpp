@@ -15,6 +15,9 @@ namespace fs = std::filesystem;
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+// How much a reader wants of a row of sounds: 0 a reference, 1 the cheapest within an accuracy, 2 a scheme at its highest rate, 3 at its
+// lowest, 4 else.
 int place_of(const store::Table& t, std::size_t i, const store::Table& cheapest) {
     if (t.at(i, "scheme") == "reference") return 0;
     for (std::size_t k = 0; k < cheapest.rows.size(); ++k)
@@ -30,6 +33,7 @@ int place_of(const store::Table& t, std::size_t i, const store::Table& cheapest)
     const double rate = t.number(i, "rate");
     return !(rate < highest) ? 2 : rate <= lowest ? 3 : 4;
 }
+}  // namespace
 
 Json json_of(const study::Levels& l) {
     return {{"start", l.start},   {"hop", l.hop},   {"row_hz", l.row_hz},

@@ -13,9 +13,6 @@ namespace jvari::bench::report {
 nlohmann::ordered_json json_of(const study::Levels&);
 nlohmann::ordered_json json_of(const store::Sound&, double longest);  // [s]
 
-// How much a reader wants of a row of sounds or of motion: 0 a reference, 1 the cheapest within an accuracy, 2 a scheme at its highest
-// rate, 3 at its lowest, 4 else.
-int place_of(const store::Table&, std::size_t row, const store::Table& cheapest);
 std::filesystem::path sound_file(const Results&, std::size_t row);  // of sounds.csv; throws UsageError where it is not below the folder
 // The sounds of the folder that fit into `limit` bytes: references, runs that are the cheapest within an accuracy, highest rates, lowest
 // rates, the rest.

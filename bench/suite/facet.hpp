@@ -6,8 +6,6 @@
 #include <span>
 
 #include "bench/store/records.hpp"
-#include "bench/study/reference.hpp"
-#include "bench/suite/suite_file.hpp"
 #include "schemes/scheme.hpp"
 #include "schemes/trace.hpp"
 
@@ -20,20 +18,12 @@ struct MeasuredCell {  // a cell whose accuracy run reached its end or its failu
     const Trace& trace;
     const Trace* reference;  // on the same rows; nullptr where there is none
     int tap;                 // that the set of cells names, else the scene's first
-    const CellSet& set;
-    std::span<const study::ReferenceChoice> references{};  // of the cell's point, with the options that they were given
 };
-
-// How a facet runs a reference beside the cell: on the cell's rows, with its modes where the set says no number, and with the options that
-// the suite gives this reference.
-Settings beside(const MeasuredCell&, const Descriptor& reference);
 
 struct Facet {
     const char* name;
     const char* meaning;
     store::Table (*rows)(const MeasuredCell&) = nullptr;  // may come without rows; repeats bit for bit
-    // Lays what was gathered into the folder of the suite in another form than <name>.csv.
-    void (*write)(const std::filesystem::path& folder, const store::Table& gathered) = nullptr;
 };
 std::span<const Facet> facets();
 
@@ -50,14 +40,5 @@ constexpr int dispersion_modes = 30;  // at most
 // Columns mode, frequency_hz, own_cents, trace_cents, decay_per_s, own_decay_per_s, trace_decay_per_s, note; an empty field is not known,
 // and `note` says why the trace says nothing. A string that a thread or a barrier touches has no modes of its own in the trace.
 store::Table dispersion_rows(const MeasuredCell&);
-
-// ---- The row facet `motion`: the shape of string 0 over a short window, frame by frame, and the force of its barriers, of a cell and of
-// its reference; what the page's moving string is drawn of. Both are run again over that window alone, with taps along the string.
-//
-// motion.csv, per cell and once per reference: from_s, step_s, positions [m], scales [m] (what 32767 is at each), shape (frame by frame, 16
-// bit as base64), force_scale [N], force, obstacle (x:height [m], along the barriers).
-
-store::Table motion_rows(const MeasuredCell&);
-void write_motion(const std::filesystem::path& folder, const store::Table& gathered);
 
 }  // namespace jvari::bench::suite

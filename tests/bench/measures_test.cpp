@@ -29,8 +29,7 @@ bench::store::Table rows_for(const std::string& scheme, const std::string& scene
     settings.sample_rate = rate;
     const Descriptor& d = scheme_named(scheme);
     const Run r = run(d, scene, settings);
-    const bench::suite::CellSet cells;
-    return bench::suite::dispersion_rows({scene, d, settings, r.trace, nullptr, 0, cells});
+    return bench::suite::dispersion_rows({scene, d, settings, r.trace, nullptr, 0});
 }
 
 // ---- Dispersion

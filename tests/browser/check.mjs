@@ -110,20 +110,6 @@ const in_page = {
         const column = () => { const k = [...table.querySelectorAll("th")].indexOf(heading("rate")); return [...table.querySelectorAll("tbody tr")].map(tr => Number(tr.cells[k].textContent)); };
         return {button: document.activeElement === heading("rate").querySelector("button"), sort: heading("rate").getAttribute("aria-sort"), column: column()};
     })()`,
-    // The string moves: what is drawn differs from frame to frame, the reference and the scheme are two lines, and the picture can be held.
-    motion: `(async () => {
-        const section = document.getElementById("motion"), lines = () => [...section.querySelectorAll("path[fill=none]")].map(p => p.getAttribute("d")).join(), wait = ms => new Promise(resolve => setTimeout(resolve, ms));
-        const button = section.querySelector("button"), first = lines();
-        for (let k = 0; k < 100 && lines() === first; ++k) await wait(50);
-        const moves = lines() !== first;
-        button.click();
-        await wait(50);
-        const held = lines();
-        await wait(400);
-        const still = lines() === held;
-        button.click();
-        return {moves, still, lines: section.querySelectorAll("path[fill=none][stroke-dasharray]").length, dashed: section.querySelectorAll("path[stroke-dasharray='6 4']").length, text: section.textContent};
-    })()`,
     // The first chart's axes after each zoom button, and after the wheel with Ctrl.
     zoom: `(async () => {
         const chart = document.querySelector("#work-precision .chart"), buttons = [...document.querySelectorAll("#work-precision .zoom button")];
@@ -151,8 +137,7 @@ const in_page = {
             ...(document.querySelector("h1").textContent === report.verdicts.find(v => v.scene === name)?.finding ? [] : ["the title"]),
             ...([...document.querySelectorAll("#verdict .card strong")].map(e => e.textContent).join() === report.verdicts.find(v => v.scene === name)?.answers.map(a => spoken(a.scheme)).join() ? [] : ["the answers"]),
             ...(typeof player === "undefined" || !player.sounds.some(s => s.problem === name) || player.shown.every(s => s.problem === name) ? [] : ["the player"]),
-            ...(!drawn_sounds().some(s => s.problem === name) || [...document.querySelectorAll("#sounds .menus select option")].every(o => !o.value || !drawn_sounds().some(s => s.problem !== name && spoken(s.name) + ", " + s.detail === o.value) || drawn_sounds().some(s => s.problem === name && spoken(s.name) + ", " + s.detail === o.value)) ? [] : ["the menu of traces"]),
-            ...(document.getElementById("motion") && !document.getElementById("motion").hidden && !motions().some(m => m.problem === name) ? ["the moving string"] : [])];
+            ...(!drawn_sounds().some(s => s.problem === name) || [...document.querySelectorAll("#sounds .menus select option")].every(o => !o.value || !drawn_sounds().some(s => s.problem !== name && spoken(s.name) + ", " + s.detail === o.value) || drawn_sounds().some(s => s.problem === name && spoken(s.name) + ", " + s.detail === o.value)) ? [] : ["the menu of traces"])];
         const select = document.getElementById("scene"), told = [], every = document.querySelector("#work-precision .every");
         if (every) { every.checked = true; await every.onchange(); }
         for (const name of select ? [...select.options].map(o => o.value) : [null]) {
@@ -436,10 +421,6 @@ async function check(browser, name, file, charts) {
     const names = await browser.evaluate(in_page.names);
     expect(names.legend.length >= (name === "made-up" ? 1 : 2) && names.legend.length <= 8 && names.samples === names.legend.length && names.idle.length === 0, `the legend has at most 8 names, all drawn: ${JSON.stringify(names)}`);
     expect(names.labels > 0 && names.overlaps.length === 0, `names beside the lines do not overlap: ${JSON.stringify(names)}`);
-    if (name === "demo") {
-        const motion = await browser.evaluate(in_page.motion);
-        expect(motion.moves && motion.still && motion.dashed >= 1 && motion.text.includes("slowed"), `the string moves and can be held: ${JSON.stringify(motion)}`);
-    }
     const zoom = await browser.evaluate(in_page.zoom);
     expect(zoom.buttons === 3 && zoom.named === 3 && zoom.zoomed && zoom.out && zoom.whole && zoom.wheel && zoom.back, `the first chart zooms by button and by wheel, and back: ${JSON.stringify(zoom)}`);
     await read_in(browser, "light, 1400 px");

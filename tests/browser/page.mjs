@@ -409,13 +409,6 @@ test("plot.py draws the lines of the chart from the rows of the table", () => {
     assert.ok(!lines.includes('"c"'));
     assert.equal(spawnSync("python3", ["-c", "import ast, sys; ast.parse(sys.stdin.read())"], {input: text}).status, 0);
 });
-test("a moving string has the frames, places and forces of its table", () => {
-    const shape = [[0, 100], [50, -32767]].flat(), csv = "problem,series,scheme,options,rate,from_s,step_s,positions,scales,shape,force_scale,force,obstacle\n" +
-        `s,reference,reference,,,0,0.001,0 1,1 0.002,${base64(shape)},1.9,${base64([0, 32767])},0.1:-0.01 0.2:0\n`;
-    const [m] = new Function("page", `"use strict"; ${files.join("\n")}; ${readFileSync(join(sources, "motion.js"), "utf8")}; return motions();`)({tables: {motion: csv}, schemes: []});
-    assert.ok(m.reference);
-    assert.deepEqual([m.x, m.frames.length, m.frames[1][1], m.force[1], m.obstacle], [[0, 1], 2, -0.002, 1.9, [[0.1, -0.01], [0.2, 0]]]);
-});
 
 // ---- And Vega draws them
 if (!existsSync(join(modules, "vega/build/vega.min.js"))) console.log("not drawn: no vega (npm ci at the root of the sources)");

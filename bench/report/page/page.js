@@ -94,7 +94,7 @@ function fill_page() {
   const beginning = element("div", {className: "first"}), playing = player_of(sounds());
   if (first) beginning.append(element("section", {id: first.id, ariaLabel: first.heading}, ...parts_of(first)));
   if (report.verdicts.length) beginning.append(verdict_of(report.verdicts, page.command));
-  main.append(...(page.run || records("path").length ? [...playing, beginning] : [beginning, ...motion_of(), ...playing]), ...rest.map(section_of), how_to_read());
+  main.append(...(page.run || records("path").length ? [...playing, beginning] : [beginning, ...playing]), ...rest.map(section_of), how_to_read());
   for (const [id, heading] of [...rest.map(s => [s.id, s.heading]), ["reading", "How to read it"], ["provenance", "Measured with"]]) {
     const link = element("a", {href: "#" + id}, heading);
     link.onclick = event => {
