@@ -1,31 +1,44 @@
+// gsl_fit_wlinear takes weights as inverse variances; here all are 1, and its covariance is scaled by the scatter it found, chi^2/(n - 2).
 #include "analysis/convergence.hpp"
 
-#include <cmath>
-#include <stdexcept>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_fit.h>
 
-#include "analysis/line.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
 
 namespace jvari {
 
 namespace {
+constexpr double confidence = 0.95;
+
 bool serves(double rate, double error) {
     return std::isfinite(rate) && rate > 0 && std::isfinite(error) && error > 0;
 }
 }  // namespace
 
-Order observed_order(std::span<const double> rate, std::span<const double> error, std::span<const double> weight, double confidence) {
-    if (rate.size() != error.size() || (!weight.empty() && weight.size() != rate.size()))
-        throw std::invalid_argument("rates, errors and weights differ in length");
-    std::vector<double> x, y, w;
+Order observed_order(std::span<const double> rate, std::span<const double> error) {
+    if (rate.size() != error.size()) throw std::invalid_argument("rates and errors differ in length");
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> x, y;
     for (std::size_t i = 0; i < rate.size(); ++i) {
-        const double wi = weight.empty() ? 1.0 : weight[i];
-        if (!serves(rate[i], error[i]) || !(wi > 0)) continue;
+        if (!serves(rate[i], error[i])) continue;
         x.push_back(std::log(rate[i]));
         y.push_back(std::log(error[i]));
-        w.push_back(wi);
     }
-    const Line line = fitted_line(x, y, w, confidence);
-    return {-line.slope, line.half_width, std::exp(line.intercept), line.scatter, static_cast<int>(x.size())};
+    const std::size_t n = x.size();
+    const auto [first, last] = std::minmax_element(x.begin(), x.end());
+    if (n < 2 || *first == *last) return {nan, nan, static_cast<int>(n)};
+    const std::vector<double> weight(n, 1.0);
+    double intercept, slope, cov00, cov01, cov11, chisq;
+    gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, n, &intercept, &slope, &cov00, &cov01, &cov11, &chisq);
+    const double half_width = n > 2 ? gsl_cdf_tdist_Pinv(0.5 * (1 + confidence), static_cast<double>(n) - 2) *
+                                          std::sqrt(cov11 * chisq / (static_cast<double>(n) - 2))
+                                    : std::numeric_limits<double>::infinity();
+    return {-slope, half_width, static_cast<int>(n)};
 }
 
 }  // namespace jvari

@@ -13,7 +13,6 @@
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/fits.hpp"
 #include "bench/compare/record/notes.hpp"
 #include "bench/compare/record/pareto.hpp"
 #include "bench/map/map_tables.hpp"
@@ -138,8 +137,6 @@ int suite_command(SuiteRequest r) {
             if (f.rows == suite::sound_rows) suite::write_sound_rows(folder, rows);
             else results.add(std::string(f.name) + ".csv", store::csv(rows));
         }
-    if (const store::Table scaling = compare::scaling_of(cells, study::sets_of(plan)); !scaling.rows.empty())
-        results.add("scaling.csv", store::csv(scaling));
     results.add_manifest(manifest);
     if (!plan.jobs.empty() || !suite.maps.empty()) results.add_report();
     // Files first: nothing is lost where nobody reads this.

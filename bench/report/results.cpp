@@ -69,7 +69,7 @@ Results read_results(const fs::path& path) {
     Results r;
     r.folder = path;
     r.tables["cells"] = folder.cells(true);
-    for (const char* name : {"dispersion", "convergence", "scaling", "maps", "boundaries", "sounds", "path", "needs"})
+    for (const char* name : {"dispersion", "convergence", "maps", "boundaries", "sounds", "path", "needs"})
         r.tables[name] = folder.table(name);
     if (r.tables["cells"].columns.empty() && r.tables["maps"].columns.empty() && r.tables["path"].columns.empty())
         throw store::UsageError(fmt::format("cannot read {}, and there is no maps.csv", (path / "cells.csv").string()));

@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 
-#include "bench/sound/radiation.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/system/time_limit.hpp"
@@ -21,24 +20,20 @@ constexpr double shortest_sample = 0.02;  // [s]
 constexpr double cell_budget = 10;        // of one cell [s]
 
 struct Timed : Contender {
-    int runs;                                    // back to back in one sample
-    int repeats;                                 // samples
-    std::vector<sound::RadiatingTap> radiation;  // timed with the run
-    std::vector<double> samples, of_processor;   // [s] of one run
+    int runs;                                   // back to back in one sample
+    int repeats;                                // samples
+    std::vector<double> samples, of_processor;  // [s] of one run
 };
 
 void sample(Timed& t) {
     const auto scheme = make_scheme(*t.cell->scheme, *t.scene, t.cell->settings);
     RunOptions options;
-    options.energy = t.added == Element::probe;
     options.timed = true;
     double seconds = 0;
     const double from = store::processor_seconds();
     for (int k = 0; k < t.runs; ++k) {
         const Run r = run(*scheme, *t.scene, t.cell->settings, options);
-        const auto heard = std::chrono::steady_clock::now();
-        for (const sound::RadiatingTap& b : t.radiation) b.filter(r.trace.column(b.tap));
-        seconds += r.wall_seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - heard).count();
+        seconds += r.wall_seconds;
         const double deadline = options.block_rows / t.cell->settings.tap_rate;
         if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
             t.cell->clock.worst_block = std::fmin(t.cell->clock.worst_block, r.worst_block / deadline);
@@ -76,8 +71,7 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
         const double once = std::max(c.cell->summary.wall_seconds, 1e-6);
         const int runs = static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
         const int most = static_cast<int>(std::clamp(cell_budget / (once * runs), 2.0, 1e6));
-        timed.push_back({c, runs, std::min(repeats, most), {}, {}, {}});
-        if (c.added == Element::radiation) timed.back().radiation = sound::radiating_taps(*c.scene, c.cell->settings.tap_rate);
+        timed.push_back({c, runs, std::min(repeats, most), {}, {}});
         work += once * runs * timed.back().repeats;
     }
     // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bench/study/cell.hpp"
-#include "bench/study/elements.hpp"
 #include "bench/study/job.hpp"
 
 namespace jvari::bench::study {
@@ -22,7 +21,6 @@ namespace jvari::bench::study {
 struct Contender {
     Cell* cell;
     const Scene* scene;
-    std::optional<Element> added = {};  // the probe or the radiation, timed with the run
 };
 void time_cells(const std::vector<Contender>&, int repeats, const store::Listener&);
 

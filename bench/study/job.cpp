@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -56,7 +55,6 @@ void address(Plan& plan, const std::string& of_program) {
         if (!p.in_model) identity["in_model"] = false;
         if (p.alone) identity["reference_alone"] = true;
         if (job.repeats > 0) identity["repeats"] = job.repeats;
-        if (p.element && is_added(*p.element)) identity[name_of(*p.element)] = true;
         if (!std::isinf(p.time_limit)) identity["time_limit_s"] = p.time_limit;
         job.identity = identity.dump();
         job.id = store::hash_of(job.identity);
@@ -71,14 +69,6 @@ std::string what_of(const Job& job) {
     text += ": " + store::variant_name(job.cell.scheme->name, store::options_text(job.cell.settings.options));
     if (job.cell.settings.sample_rate > 0) text += fmt::format(" at {} Hz", job.cell.settings.sample_rate);
     return text;
-}
-
-std::vector<store::Rows> sets_of(const Plan& plan) {
-    std::map<int, store::Rows> sets;
-    for (std::size_t i = 0; i < plan.jobs.size(); ++i) sets[plan.jobs[i].set].push_back(i);
-    std::vector<store::Rows> all;
-    for (auto& [set, jobs] : sets) all.push_back(std::move(jobs));
-    return all;
 }
 
 }  // namespace jvari::bench::study

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "bench/store/cell_rows.hpp"
-#include "bench/study/elements.hpp"
 #include "bench/study/record.hpp"
 #include "bench/study/reference.hpp"
 
@@ -19,8 +18,7 @@ namespace jvari::bench::study {
 
 struct Point {
     Scene scene;
-    std::vector<std::pair<std::string, std::string>> swept;  // key, value; the last may be "element", "-thread"
-    std::optional<Element> element;                          // that the scene is without; an added one: that is on while it is timed
+    std::vector<std::pair<std::string, std::string>> swept;  // key, value
     std::vector<ReferenceChoice> references;
     std::optional<int> truth_modes = 0;  // 0: found by doubling; none: the reference with the cells' modes is all there is
     bool alone = false;                  // nothing is asked of what the reference is uncertain by
@@ -64,7 +62,6 @@ struct Plan {
 // Fills keys and identities, and leaves each job once. `program`: store::program_identity.
 void address(Plan&, const std::string& program);
 
-std::string what_of(const Job&);                // for people: "tanpura_c3_release: modal_two_point at 44100 Hz"
-std::vector<store::Rows> sets_of(const Plan&);  // indices of jobs by the set they are of
+std::string what_of(const Job&);  // for people: "tanpura_c3_release: modal_two_point at 44100 Hz"
 
 }  // namespace jvari::bench::study

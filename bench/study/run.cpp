@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/side_by_side.hpp"
@@ -80,7 +81,7 @@ std::vector<Clocks> time_set(const Plan& plan, const store::Rows& indices, const
     std::vector<Contender> contenders;
     for (std::size_t t = 0; t < todo.size(); ++t) {
         const Point& p = *plan.jobs[indices[todo[t]]].point;
-        contenders.push_back({&cells[t], &p.scene, p.element && is_added(*p.element) ? p.element : std::nullopt});
+        contenders.push_back({&cells[t], &p.scene});
     }
     time_cells(contenders, plan.jobs[indices.front()].repeats, listener);
     for (std::size_t t = 0; t < todo.size(); ++t) {
@@ -105,16 +106,14 @@ void show_clocks(const store::Rows& indices, const std::vector<Clocks>& clocks, 
 
 // One process of the folder times while no other does. None of them runs jobs then: each begins here once all are there.
 void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Listener& listener) {
-    std::vector<store::Rows> sets = sets_of(plan);
-    for (store::Rows& set : sets)
-        std::erase_if(set, [&](std::size_t i) {
-            return plan.jobs[i].repeats == 0 || *plan.jobs[i].cell.scheme->untimed || !into.records[i].cell.ran();
-        });
-    std::erase_if(sets, [](const store::Rows& set) { return set.empty(); });
+    std::map<int, store::Rows> sets;
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i)
+        if (plan.jobs[i].repeats > 0 && !*plan.jobs[i].cell.scheme->untimed && into.records[i].cell.ran())
+            sets[plan.jobs[i].set].push_back(i);
     if (sets.empty()) return;
     const auto lock =
         store::lock_once_free(keep.folder.empty() ? keep.folder : keep.folder / "clock", "times the cells of this folder", listener);
-    for (const store::Rows& set : sets) show_clocks(set, time_set(plan, set, keep, into, listener), into);
+    for (const auto& [number, set] : sets) show_clocks(set, time_set(plan, set, keep, into, listener), into);
 }
 }  // namespace
 

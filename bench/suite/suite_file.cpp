@@ -64,12 +64,6 @@ store::Kind<Tap> tap() {
                                     key("position", &Tap::position, store::not_negative("m"), "of displacement and velocity")});
 }
 
-store::Kind<study::Element> element() {
-    std::vector<std::pair<std::string, study::Element>> words;
-    for (const study::Element e : study::elements()) words.emplace_back(study::name_of(e), e);
-    return store::one_of("element", std::move(words));
-}
-
 std::vector<store::Key<CellSet>> set_keys() {
     using Set = CellSet;
     const auto asked = []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* { return member; };
@@ -95,15 +89,13 @@ std::vector<store::Key<CellSet>> set_keys() {
             key("sweep", &Set::sweep, store::by_name<SweptKey>("a table: key = [values]", swept),
                 "any key of the scene, with the values to vary"),
             key("measure", &Set::measure, store::several(store::word("measure", names_of_facets())), "what is measured", measured::errors),
-            key("elements", &Set::elements, store::several(element()), "beside the scene, the scene without each of these", "none"),
             key("taps", &Set::taps, store::several(tap()), "taps beside those of the scene")};
 }
 
 void must_be_few(const CellSet& s, const store::Entry& e) {
     double cells = 1;
     const auto times = [&cells](std::size_t listed) { cells *= static_cast<double>(std::max<std::size_t>(1, listed)); };
-    for (const std::size_t listed : {s.scenes.size(), s.schemes.size(), s.rates.size(), s.modes.size(), s.elements.size() + 1})
-        times(listed);
+    for (const std::size_t listed : {s.scenes.size(), s.schemes.size(), s.rates.size(), s.modes.size()}) times(listed);
     for (const SweptKey& k : s.sweep) times(k.values.size());
     for (const VariedOption& o : s.varied) times(o.values.size());
     if (cells > most_cells) e.fail(fmt::format("found {} cells, expected at most {}: each is a run", cells, most_cells));
@@ -111,11 +103,9 @@ void must_be_few(const CellSet& s, const store::Entry& e) {
 
 void hold_together(CellSet& s, const store::Entry& e) {
     must_be_few(s, e);
-    s.search = s.search && s.measures(measured::errors) && s.elements.empty();
+    s.search = s.search && s.measures(measured::errors);
     if (s.measures(measured::cost) && !s.measures(measured::errors))
         e.need("measure").fail("found cost without errors, expected both: no speed without an error");
-    if (!s.elements.empty() && !s.measures(measured::cost))
-        e.need("elements").fail("measure does not ask for cost, which elements are compared by");
 }
 
 // ---- A suite
@@ -208,10 +198,7 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
             vary(k.values, [&k](Request& r, const std::string& value) { r.set.push_back(k.key + "=" + value); });
         for (const VariedOption& o : set.varied)
             vary(o.values, [&o](Request& r, const std::string& value) { r.options.emplace_back(o.option).value = value; });
-        for (const Request& r : requests) {
-            points.push_back({&set, r});
-            for (const study::Element e : set.elements) points.push_back({&set, r, e});
-        }
+        for (const Request& r : requests) points.push_back({&set, r});
     }
     return points;
 }

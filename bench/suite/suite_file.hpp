@@ -10,7 +10,6 @@
 
 #include "bench/compare/request.hpp"
 #include "bench/map/map_file.hpp"
-#include "bench/study/elements.hpp"
 #include "scenes/scene.hpp"
 
 namespace jvari::bench::suite {
@@ -35,9 +34,8 @@ struct CellSet
     std::vector<VariedOption> varied;
     std::vector<SweptKey> sweep;
     std::vector<std::string> measure{measured::errors};  // names of facets
-    std::vector<study::Element> elements;
-    std::optional<double> time_limit;  // [s]
-    std::vector<Tap> taps;             // beside those of the scene
+    std::optional<double> time_limit;                    // [s]
+    std::vector<Tap> taps;                               // beside those of the scene
     bool measures(std::string_view facet) const;
 };
 
@@ -66,7 +64,6 @@ std::vector<std::string> library_suites();
 struct SuitePoint {
     const CellSet* set;
     compare::CompareRequest request;
-    std::optional<study::Element> element = {};  // that the scene is to be without
 };
 std::vector<SuitePoint> points_of(const Suite&);
 

@@ -40,19 +40,16 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue, con
         const std::string where = "scene " + r.scene + ": ";
         study::Point common;
         common.scene = compare::load_scene(r);
-        common.element = asked.element;
         common.time_limit = set.time_limit.value_or(HUGE_VAL);
         for (const std::string& assignment : r.set) {
             const auto equals = assignment.find('=');
             common.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
         }
-        if (common.element) common.swept.emplace_back("element", study::change_of(*common.element));
         study::Job like{&common, {}};
         like.judged = set.measures(measured::errors);
         like.repeats = set.measures(measured::cost) ? set.repeats : 0;
         like.set = static_cast<int>(&set - suite.sets.data());
         try {
-            if (asked.element) common.scene = study::without(*asked.element, std::move(common.scene));
             common.scene.taps.insert(common.scene.taps.end(), set.taps.begin(), set.taps.end());
             validate(common.scene);
             add_facets(like, set, compare::tap_named(common.scene, set.tap));

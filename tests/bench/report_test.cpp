@@ -28,8 +28,8 @@ struct MadeUp : Scratch {  // some of the files
         for (const std::string& name : files) fs::copy_file(fs::path(JVARI_MADE_UP_RESULTS) / name, path / name);
     }
 };
-const std::vector<std::string> every_file{"manifest.json", "cells.csv", "dispersion.csv", "convergence.csv",
-                                          "scaling.csv",   "maps.csv",  "boundaries.csv", "others.svg"};
+const std::vector<std::string> every_file{"manifest.json", "cells.csv",      "dispersion.csv", "convergence.csv",
+                                          "maps.csv",      "boundaries.csv", "others.svg"};
 
 Json data_of(const std::string& page) {
     const auto from = page.find("id=\"data\">") + 10;
@@ -45,7 +45,7 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
     EXPECT_TRUE(says(data.at("missing").get<std::string>(), "npm ci"));
     EXPECT_EQ(data.at("manifest").at("suite"), "made up");
     EXPECT_EQ(data.at("pictures").at(0).at("name"), "others");
-    for (const char* name : {"cells", "dispersion", "convergence", "scaling", "maps", "boundaries"}) {
+    for (const char* name : {"cells", "dispersion", "convergence", "maps", "boundaries"}) {
         const auto kept = bench::store::read_csv(data.at("tables").at(name)),
                    file = bench::store::read_csv(content(folder / (std::string(name) + ".csv")));
         EXPECT_EQ(kept.only(file.columns).rows, file.rows) << name;  // the files' own rows, whole

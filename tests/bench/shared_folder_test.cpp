@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/fits.hpp"
 #include "bench/compare/record/pareto.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/file_lock.hpp"
@@ -295,19 +294,6 @@ TEST(Machines, EachHasItsOwnFrontAndItsOwnCheapest) {
     EXPECT_EQ(bench::compare::cheapest_of(timed_on(one)).column("machine"), -1);
     EXPECT_TRUE(says(bench::store::machines_text(timed_on(two)), "timed on 2 machines"));
     EXPECT_EQ(bench::store::machines_text(timed_on(one)), "");
-}
-
-TEST(Machines, NoFitAndNoDifferenceIsOfTwo) {
-    const auto fits = [](const std::vector<std::string>& machines) {
-        bench::store::Table t = timed_on(machines);
-        for (auto& row : t.rows) row[1] = "s";  // one scheme at four rates
-        return bench::compare::scaling_of(t, {bench::store::all_rows(t)});
-    };
-    const bench::store::Table one = fits({"A", "A", "A", "A"}), two = fits({"A", "A", "A", "B"});
-    ASSERT_EQ(one.rows.size(), 4u);
-    ASSERT_EQ(two.rows.size(), 3u);  // a single row of B is no series
-    for (std::size_t i = 0; i < two.rows.size(); ++i) EXPECT_EQ(two.at(i, "machine"), "A");
-    EXPECT_NE(one.at(0, "exponent"), two.at(0, "exponent"));
 }
 
 TEST(Machines, StampsOfTwoInOneFolderGiveASentenceAndACostOfEach) {

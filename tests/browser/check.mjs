@@ -485,9 +485,9 @@ try {
         if (method === "Network.requestWillBeSent" && !/^(file|data|blob):/.test(params.request.url)) expect(false, `no network: ${params.request.url}`);
     });
     await check(browser, "comparison", join(folders.comparison, "report.html"), 3);
-    await check(browser, "suite", join(folders.suite, "report.html"), 5);  // the fifth: time per step against the rate
-    await check(browser, "made-up", join(folders["made-up"], "report.html"), 9);
-    if (demo) await check(browser, "demo", join(demo, "report.html"), 5);
+    await check(browser, "suite", join(folders.suite, "report.html"), 4);
+    await check(browser, "made-up", join(folders["made-up"], "report.html"), 7);
+    if (demo) await check(browser, "demo", join(demo, "report.html"), 4);
 } catch (error) {
     expect(false, error.stack);
 } finally {

@@ -26,7 +26,7 @@ function folder_of(names, made = {}) {
     for (const [name, text] of Object.entries(made)) writeFileSync(join(folder, name), text);
     return folder;
 }
-const every_file = ["manifest.json", "cells.csv", "dispersion.csv", "convergence.csv", "scaling.csv", "maps.csv", "boundaries.csv", "others.svg"];
+const every_file = ["manifest.json", "cells.csv", "dispersion.csv", "convergence.csv", "maps.csv", "boundaries.csv", "others.svg"];
 const whole = () => on(report(folder_of(every_file)));
 const of_cells = (cells, manifest = '{"suite": "made up"}') => on(report(folder_of([], {"manifest.json": manifest, "cells.csv": cells})));
 const section = (of, id) => of("sections_of()").find(s => s.id === id);
@@ -56,10 +56,10 @@ test("a field with commas, quotes and lines is read as it was written, and an ap
 // ---- Sections
 test("sections stand in their order, and those without data do not appear", () => {
     const of = whole();
-    assert.deepEqual(of("sections_of()").map(s => s.id), ["work-precision", "sweep", "dispersion", "convergence", "cost", "overview", "maps", "figures", "cells"]);
+    assert.deepEqual(of("sections_of()").map(s => s.id), ["work-precision", "sweep", "dispersion", "convergence", "overview", "maps", "figures", "cells"]);
     assert.deepEqual(on(report(folder_of(["manifest.json", "maps.csv"])))("sections_of()").map(s => s.id), ["overview", "maps"]);
     const bare = on({...report(folder_of(every_file)), missing: "no charts"})("sections_of()");  // nothing draws: tables alone
-    assert.deepEqual(bare.map(s => s.heading), ["Convergence", "Cost", "How often each scheme stays sound", "Where methods fail", "Figures", "Cells"]);
+    assert.deepEqual(bare.map(s => s.heading), ["Convergence", "How often each scheme stays sound", "Where methods fail", "Figures", "Cells"]);
 });
 test("pictures of others stand in the page and its own do not", () => {
     const folder = folder_of(every_file, {"dispersion.svg": "<svg/>"});
@@ -246,12 +246,6 @@ test("dispersion is drawn rate by rate, with decays relative to the true ones", 
     assert.equal(rows.length, 120);
     assert.ok(Math.abs(rows[70].own.decay + 1e-3 * rows[70].mode) < 2e-5);
     assert.equal(rows[4].trace.decay, null);  // an empty field
-});
-test("cost has a chart of what scales and one of what each element adds", () => {
-    const {charts} = section(whole(), "cost");
-    assert.equal(charts.length, 2);
-    assert.deepEqual(choices(charts[0], "what_field"), ["modes", "contacts"]);
-    assert.equal(charts[1].scenes.reduce((sum, scene) => sum + rows_of(charts[1].spec({scene}, false).spec, "point").length, 0), 10);
 });
 test("maps hold their boundaries and theory, and their tiles meet half-way", () => {
     const page = report(folder_of(every_file)), of = on(page), {charts, table} = section(of, "maps"), [map, other] = charts.map(c => c.spec(first(c), false).spec);

@@ -9,7 +9,7 @@ using namespace jvari::test;
 
 namespace {
 double points_in(const bench::suite::CellSet& set) {
-    double n = static_cast<double>(set.scenes.size() * set.modes.size() * (1 + set.elements.size()));
+    double n = static_cast<double>(set.scenes.size() * set.modes.size());
     for (const bench::suite::SweptKey& k : set.sweep) n *= static_cast<double>(k.values.size());
     for (const bench::suite::VariedOption& o : set.varied) n *= static_cast<double>(o.values.size());
     return n;

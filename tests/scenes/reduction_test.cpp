@@ -1,4 +1,4 @@
-// What can be left out of a scene: one list for the minimiser, the elements and trim.
+// What can be left out of a scene: one list for the minimiser and trim.
 #include "scenes/reduction.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Errors and costs along something: the rate, with the observed order; what a suite sweeps; the modes of a string (dispersion.csv); modes, contacts and
-// elements (scaling.csv).
+// Errors along something: the rate, with the observed order; what a suite sweeps; the modes of a string (dispersion.csv).
 
 // ---- Error against rate
 // No order where its interval is wider than the order itself, or where two rates leave no interval: then nothing is known of it.
@@ -123,48 +122,4 @@ function dispersion_section() {
   return {id: "dispersion", heading: "Dispersion", charts: [{name: "distance of each mode's pitch and decay from the true ones", menus, scenes, spec: dispersion_spec, twins}],
           notes: ["Lines: by the scheme's own relation. Points: estimated from its trace. Distances without their sign; hover for it. What is nearer than 1e-5 cents or 1e-8 of the decay rate lies on the lower edge."],
           left_out: all.length > most_dispersion_rows ? [`The chart holds the first ${most_dispersion_rows} of ${all.length} rows of dispersion.csv.`] : []};
-}
-
-// ---- Time per step against modes, contacts and rate, and what each element of a scene adds
-function scaling_rows() {  // a scheme that was held at several rates or numbers of modes has a line for each
-  const all = records("scaling"), group = r => `${r.problem}|${r.series}|${r.what}`, places = new Map();
-  for (const r of all) places.set(group(r), (places.get(group(r)) ?? new Set()).add(r.at));
-  return all.map(r => ({...r, series: r.series + (places.get(group(r)).size > 1 ? ", " + r.at : "")}));
-}
-function scaling_spec(choice, print) {
-  const what = choice.what_field, of = (r, names) => Object.fromEntries(names.map(name => [name, finite(number(r[name]))]));
-  const all = scaling_rows().filter(r => r.problem === choice.scene && r.what === what).map(r => ({series: r.series, ...of(r, ["x", "ns_per_step", "ns_lower", "ns_upper"]),
-    told: told([["scheme", spoken(r.series)], [what, r.x], ["ns per step", digits(number(r.ns_per_step), 4)], ["exponent", r.exponent && `${number(r.exponent).toFixed(3)} \u00b1 ${number(r.exponent_half_width).toFixed(2)}`]])})).filter(r => r.x > 0 && r.ns_per_step > 0);
-  const names = in_order(all.map(r => r.series)), {color, shape, strokeDash} = encodings_of(names), opacity = brought_out;
-  const layer = [{data: {values: all}, mark: {type: "errorbar", rule: {strokeWidth: 1.5}, ticks: {size: 13, thickness: 1.5}}, encoding: {y: {field: "ns_lower", type: "quantitative"}, y2: {field: "ns_upper"}, color}},
-                 {data: {values: all}, mark: {type: "line", strokeWidth: 1.6}, encoding: {color, strokeDash, opacity}}, {data: {values: all}, ...points({color, shape, opacity})}, above("time per step [ns]"),
-                 once({type: "text", x: {expr: "width"}, y: {expr: "height + 32"}, align: "right", fontSize: 12, fontWeight: "bold", text: what === "rate" ? "sample rate [Hz]" : "number of " + what})];
-  return {legend: names, spec: framed({height: 360, encoding: {x: quantity("x", {format: ",~s"}, log(24)), y: quantity("ns_per_step", {format: ",~r"}, log(16))}, layer},
-    {title: `${choice.scene}: cost against ${what}`, subtitle: "median and quartiles of the time per step", names}, print)};
-}
-const element_rows = () => records("scaling").filter(r => !Number.isNaN(number(r.extra_ns)));
-function element_spec(choice, print) {  // coloured by the element
-  const all = of_scene(element_rows(), choice.scene).map(r => ({series: r.what, scheme: r.scheme, extra: number(r.extra_ns), lower: number(r.extra_lower), upper: number(r.extra_upper),
-    told: told([["scheme", r.scheme], ["with", r.what], ["extra", `${digits(number(r.extra_ns), 3)} ns`], ["quartiles", `${digits(number(r.extra_lower), 3)} to ${digits(number(r.extra_upper), 3)} ns`], ["ns per step", digits(number(r.ns_per_step), 4)]])}));
-  const names = in_order(all.map(r => r.series)), {color, shape} = encodings_of(names), y = {field: "scheme", type: "nominal", axis: {title: null, labelLimit: 260}}, yOffset = {field: "series"};
-  const layer = [{data: {values: [{from: -10, to: 10}]}, mark: {type: "rect", opacity: 0.13, color: "#888", tooltip: null}, encoding: {x: {field: "from", type: "quantitative"}, x2: {field: "to"}}},
-                 {data: {values: [{}]}, mark: {type: "rule", strokeDash: [2, 3], opacity: 0.6}, encoding: {x: {datum: 0, type: "quantitative"}}},
-                 {data: {values: all}, mark: {type: "rule", strokeWidth: 1.5}, encoding: {x: {field: "lower", type: "quantitative"}, x2: {field: "upper"}, y, yOffset, color, opacity: brought_out}},
-                 {data: {values: all}, ...points({x: quantity("extra", {title: "extra time per step [ns]", values: [-10000, -1000, -100, -10, 0, 10, 100, 1000, 10000], format: ",~r"}, {type: "symlog", constant: 10}), y, yOffset, color, shape, opacity: brought_out}, {size: 80})}];
-  return {legend: names, spec: framed({height: {step: 40, for: "position"}, autosize: print ? "pad" : {type: "fit-x", contains: "padding"}, layer},
-    {title: `${choice.scene}: what each element adds`, subtitle: "median and quartiles; linear within the grey band of \u00b110 ns, logarithmic beyond", names}, print)};
-}
-function cost_section() {
-  const all = scaling_rows(), scenes = distinct(all.map(r => r.problem)), elements = distinct(element_rows().map(r => r.problem)), charts = [];
-  if (!all.length) return null;
-  const several = (rows, what) => distinct(rows.map(r => r.series)).some(series => distinct(rows.filter(r => r.series === series && r.what === what).map(r => r.x)).length > 1);
-  const whats = distinct(all.map(r => r.what)).filter(what => several(all, what));
-  const menus = scene => [{label: "against", key: "what_field", choices: whats.filter(what => scene === undefined || of_scene(all, scene).some(r => r.what === what)).map(what => [what, what])}];
-  if (whats.length) charts.push({name: "time per step against modes, contacts or rate", menus, scenes: scenes.filter(s => menus(s)[0].choices.length), spec: scaling_spec,
-    twins: scenes.flatMap(scene => menus(scene)[0].choices.map(([what]) => ({file: twin_file("scaling-" + what, scene, scenes), choice: {scene, what_field: what}}))).slice(0, most_twins)});
-  if (elements.length) charts.push({name: "extra time per step of each element of the scene", menus: () => [], scenes: elements, spec: element_spec,
-    twins: elements.slice(0, most_twins).map(scene => ({file: twin_file("elements", scene, elements), choice: {scene}}))});
-  const notes = ["Measured times on the machine named below. Bars are quartiles: where two bars touch, neither is faster. No bar means that the times did not vary visibly."];
-  if (elements.length) notes.push("The axis of extra time is linear within the grey band of \u00b110 ns, and logarithmic beyond it, each way. So what saves time, what adds nothing and what adds much stand on one axis.");
-  return {id: "cost", heading: "Cost", notes, charts, table: without(table("scaling"), ["problem", "series"])};
 }

@@ -1,5 +1,5 @@
 // One look for a scheme in every chart, picture and suite: the hue says its family, the marker which of the family it is, the dash what options it
-// was given. Controls are thin and grey. Names that are no scheme (elements, plugins) take what is left, in the order of the alphabet.
+// was given. Controls are thin and grey. Names that are no scheme of the program (plugins) take what is left, in the order of the alphabet.
 //
 // Colours: found by a search for the largest least distance in CIELAB between families, as seen with normal sight and without one kind of cones
 // (Machado, Oliveira & Fernandes 2009), at a contrast of 3 or more to the page. tests/browser/page.mjs measures both.

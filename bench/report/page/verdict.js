@@ -82,7 +82,7 @@ function picture_section(drawn) {  // SVGs in the folder that are none of the pa
 
 // All that stands on the page, in this order; a section without data does not appear.
 function sections_of() {
-  const drawn = [run_section(), path_section(), needs_section(), work_precision_section(), sweep_section(), dispersion_section(), convergence_section(), cost_section(), overview_section(), map_section(),
+  const drawn = [run_section(), path_section(), needs_section(), work_precision_section(), sweep_section(), dispersion_section(), convergence_section(), overview_section(), map_section(),
                  spectrogram_section(), waveform_section()].filter(Boolean);
   if (page.missing) for (const s of drawn) s.charts = [];
   const all = [...drawn, picture_section(drawn.flatMap(s => s.charts.flatMap(c => c.twins.map(t => t.file)))), cell_section()];
