@@ -48,6 +48,13 @@ if(under_sanitizers)  # once is enough for what follows
     return()
 endif()
 
+if(JVARI_PYTHON)
+    add_test(NAME Python.ScriptsBesideTheRecordsWriteTheirVerdicts COMMAND ${Python_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/python/records_test.py ${CMAKE_SOURCE_DIR})
+    set_tests_properties(Python.ScriptsBesideTheRecordsWriteTheirVerdicts PROPERTIES
+        ENVIRONMENT "PYTHONPATH=$<TARGET_FILE_DIR:jvari_python>;JVARI_CACHE=" SKIP_RETURN_CODE 77 TIMEOUT 1200 COST 100)
+    jvari_full(Python.ScriptsBesideTheRecordsWriteTheirVerdicts)
+endif()
+
 set(demo_report ${CMAKE_CURRENT_BINARY_DIR}/demo_report)
 jvari_gate(Demo.AnswersInThirtyThreeLinesAndThirtySeconds demo.sh $<TARGET_FILE:jvari> ${demo_report})
 set_tests_properties(Demo.AnswersInThirtyThreeLinesAndThirtySeconds PROPERTIES COST 100 FIXTURES_SETUP demo_report)
