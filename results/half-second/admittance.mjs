@@ -1,5 +1,5 @@
 // What a contact sees of a string, over frequency: draws admittance.svg beside this file, and admittance.csv with what is drawn.
-//     node results/matching/admittance.mjs
+//     node results/half-second/admittance.mjs
 // Displacement at the contact per newton, mean over a step, of a force that is constant over each step: of the true string (6000 modes, exact in
 // time), of the modes below 20 kHz by the matched two-point step (van Walstijn et al. 2016, eqs 32-38, with true impedances), the difference
 // of the two, and the ladder that stands for it (docs/compliance-matching.md). On a circle |z| > 1 three mode spacings outside, so that single resonances blur.
