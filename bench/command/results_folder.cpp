@@ -27,7 +27,7 @@ constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".pdf", ".py", "
 
 std::string what_is_in(const fs::path& folder) {  // "" where that cannot be told
     try {
-        const auto m = store::folder_at(folder).manifest();
+        const auto m = store::Folder{folder}.manifest();
         if (m.contains("suite")) {
             const std::string name = m.at("suite");
             return name.starts_with("trim ") ? "trim of " + name.substr(5) : "suite " + name;

@@ -17,10 +17,8 @@ Act diff_verb(CLI::App& program);
 Act check_verb(CLI::App& program);
 Act export_verb(CLI::App& program);
 Act judge_verb(CLI::App& program);
-Act verify_verb(CLI::App& program);
 
-constexpr Act (*verbs[])(CLI::App&) = {new_verb,    list_verb,    run_verb,    compare_verb, suite_verb,  // as --help lists them
-                                       trim_verb,   certify_verb, report_verb, diff_verb,    check_verb,
-                                       export_verb, judge_verb,   verify_verb};
+constexpr Act (*verbs[])(CLI::App&) = {new_verb,  list_verb,    run_verb,    compare_verb, suite_verb,  // as --help lists them
+                                       trim_verb, certify_verb, report_verb, diff_verb,    check_verb, export_verb, judge_verb};
 
 }  // namespace jvari::bench::command

@@ -49,9 +49,10 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     int other_truth = 0;
     std::string how;
     for (const Pair& p : pairs) {
-        bool same_truth = true;
+        bool same_truth = true, same_digits = true;
         for (const std::string& column : columns) {
             ++d.compared;
+            same_digits = same_digits && a.cells.at(p.before, column) == b.cells.at(p.after, column);
             const Turn turn = turn_of(column, a.cells, p.before, b.cells, p.after);
             if (turn == Turn::same) continue;
             d.findings.push_back({turn, p.name, column, a.cells.at(p.before, column), b.cells.at(p.after, column), ""});
@@ -61,6 +62,7 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
             if (how.size() < 100 && how.find(change) == std::string::npos) how += (how.empty() ? "" : ", ") + change;
         }
         other_truth += !same_truth;
+        d.to_the_last_digit += same_digits;
     }
     if (other_truth > 0)
         d.references = fmt::format("the references differ in {} of {} cells ({}): there errors are against another solution", other_truth,

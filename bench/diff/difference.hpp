@@ -31,7 +31,8 @@ struct Difference {
     std::string references;          // that they are others, and how; "": they are the same
     std::vector<std::string> notes;  // what could not be compared, and why
     int cells_in_both = 0;
-    int compared = 0;  // fields
+    int to_the_last_digit = 0;  // cells of these, all fields but costs
+    int compared = 0;           // fields
 
     int count(Turn) const;
     int missing() const;  // cells, points and modes that are no longer there

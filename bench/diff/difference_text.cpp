@@ -79,6 +79,7 @@ std::string text_of(const Difference& d, const Folder& before, const Folder& aft
     text += fmt::format("{} cells in both, {} fields compared: {} worse, {} better, {} moved{}\n", d.cells_in_both, d.compared,
                         d.count(Turn::worse), d.count(Turn::better), d.count(Turn::moved),
                         d.missing() > 0 ? fmt::format(", {} missing after, which counts as worse", d.missing()) : "");
+    if (d.cells_in_both > 0) text += fmt::format("{} of {} cells came back to the last digit\n", d.to_the_last_digit, d.cells_in_both);
     text += findings_text(d, Turn::worse, "worse", most);
     text += findings_text(d, Turn::better, "better", most);
     text += findings_text(d, Turn::moved, "moved: neither better nor worse for certain", most);
@@ -106,6 +107,7 @@ std::string json_of(const Difference& d, const Folder& before, const Folder& aft
                             {"after", json_of(after)},
                             {"references", d.references},
                             {"cells_in_both", d.cells_in_both},
+                            {"to_the_last_digit", d.to_the_last_digit},
                             {"fields_compared", d.compared},
                             {"worse", d.count(Turn::worse)},
                             {"better", d.count(Turn::better)},

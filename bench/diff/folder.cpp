@@ -44,18 +44,15 @@ std::string Made::machine() const {
     return fmt::format("{}, {} cores, {}, {}", cpu, cores, vectors, system);
 }
 
-Folder read_folder(const store::Folder& folder) {
-    const Folder f{folder.name,          made_by(folder),           folder.cells(false), folder.table("dispersion"),
+Folder read_folder(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) throw store::UsageError(fmt::format("{}: no such folder", path.string()));
+    const store::Folder folder{path};
+    const Folder f{path.string(),        made_by(folder),           folder.cells(false), folder.table("dispersion"),
                    folder.table("maps"), folder.table("boundaries")};
     if (f.cells.columns.empty() && f.maps.columns.empty())
         throw store::UsageError(fmt::format("{}: neither cells.csv nor errors.csv nor maps.csv", f.name));
     return f;
-}
-
-Folder read_folder(const fs::path& path) {
-    std::error_code error;
-    if (!fs::is_directory(path, error)) throw store::UsageError(fmt::format("{}: no such folder", path.string()));
-    return read_folder(store::folder_at(path));
 }
 
 bool modes_name(const store::Table& cells) {

@@ -19,14 +19,13 @@ struct Made {                                 // by what, as manifest.json has i
 };
 
 struct Folder {
-    std::string name;  // a path, or a commit of one
+    std::string name;
     Made made;
     store::Table cells;                         // errors and costs of a cell in one row
     store::Table dispersion, maps, boundaries;  // empty where the file is absent
 };
 
 // Throws UsageError where there is no manifest.json, no cells, errors or maps, or a file cannot be read.
-Folder read_folder(const store::Folder&);
 Folder read_folder(const std::filesystem::path&);
 
 // Rows by the text that names them: scene, swept keys, scheme, options and rate; the modes too where a table has several at one rate.

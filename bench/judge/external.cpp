@@ -40,8 +40,7 @@ std::shared_ptr<const Trace> computed(const External& e, const Exported& of, con
     if (folder.path.empty()) throw store::Unwritable("cannot make a folder in " + store::Scratch::place().string());
     const fs::path asked = folder.path / "problem.json", given = folder.path / "trace.csv";
     store::write_fresh(asked, problem);
-    const store::Said said =
-        store::run_program({"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()}, store::Errors::with_the_rest);
+    const store::Said said = store::run_program({"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()});
     if (said.code != 0) throw BadScheme(fmt::format("{}: exit code {}: {}", e.command, said.code, last_line(said.text)));
     if (!fs::exists(given)) throw BadScheme(e.command + ": wrote no trace, its last argument; it said: " + last_line(said.text));
     return std::make_shared<const Trace>(read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));

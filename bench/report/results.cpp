@@ -65,7 +65,7 @@ void read_manifest(Results& r, const Json& m) {
 }  // namespace
 
 Results read_results(const fs::path& path) {
-    const store::Folder folder = store::folder_at(path);
+    const store::Folder folder{path};
     Results r;
     r.folder = path;
     r.tables["cells"] = folder.cells(true);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
@@ -15,7 +16,13 @@ namespace fs = std::filesystem;
 
 namespace {
 [[noreturn]] void refuse(const Folder& folder, const std::string& file, const char* why) {
-    throw UsageError(fmt::format("{}/{}: {}", folder.name, file, why));
+    throw UsageError(fmt::format("{}/{}: {}", folder.path.string(), file, why));
+}
+
+std::optional<std::string> content(const fs::path& file) {  // nothing where there is none
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return std::nullopt;
+    return read_whole(file);
 }
 
 Table with_rows(const Folder& folder, const std::string& file) {
@@ -26,8 +33,8 @@ Table with_rows(const Folder& folder, const std::string& file) {
 }  // namespace
 
 nlohmann::ordered_json Folder::manifest() const {
-    const auto text = content("manifest.json");
-    if (!text) throw UsageError(name + ": no manifest.json, expected a folder that compare, suite or trim wrote");
+    const auto text = content(path / "manifest.json");
+    if (!text) throw UsageError(path.string() + ": no manifest.json, expected a folder that compare, suite or trim wrote");
     try {
         auto m = parsed(*text);
         return m.is_object() ? m : throw std::runtime_error("it holds no object");
@@ -37,7 +44,7 @@ nlohmann::ordered_json Folder::manifest() const {
 }
 
 Table Folder::table(const std::string& file) const {
-    const auto text = content(file + ".csv");
+    const auto text = content(path / (file + ".csv"));
     if (!text) return {};
     try {
         return read_csv(as_utf8(*text));
@@ -69,14 +76,6 @@ Table Folder::cells(bool whole) const {
         for (std::size_t i = 0; i < rows.size(); ++i) cells.rows[i].push_back(rows[i] < cost.rows.size() ? cost.at(rows[i], column) : "");
     }
     return cells;
-}
-
-Folder folder_at(const fs::path& path) {
-    return {path.string(), [path](const std::string& file) -> std::optional<std::string> {
-                std::error_code ignored;
-                if (!fs::exists(path / file, ignored)) return std::nullopt;
-                return read_whole(path / file);
-            }};
 }
 
 }  // namespace jvari::bench::store

@@ -1,11 +1,8 @@
-// A folder of results, as it lies on the disk or lay there at a commit: its manifest and its tables. What cannot be read throws UsageError
-// with the folder's name, the file and why.
+// A folder of results: its manifest and its tables. What cannot be read throws UsageError with the folder's name, the file and why.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 
 #include "bench/store/records.hpp"
@@ -13,8 +10,7 @@
 namespace jvari::bench::store {
 
 struct Folder {
-    std::string name;                                                            // a path, or a commit of one
-    std::function<std::optional<std::string>(const std::string& file)> content;  // of a file; nothing where there is none
+    std::filesystem::path path;
 
     nlohmann::ordered_json manifest() const;
     Table table(const std::string& file) const;  // FILE.csv; empty where there is none
@@ -23,6 +19,5 @@ struct Folder {
     // name the cell: there the rows are the same. `whole`: throws where a cost is of no row.
     Table cells(bool whole) const;
 };
-Folder folder_at(const std::filesystem::path&);
 
 }  // namespace jvari::bench::store

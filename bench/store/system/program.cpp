@@ -14,12 +14,11 @@ namespace jvari::bench::store {
 
 namespace {
 struct Actions {
-    Actions(int out, Errors errors) {
+    explicit Actions(int out) {
         posix_spawn_file_actions_init(&it);
         posix_spawn_file_actions_addopen(&it, 0, "/dev/null", O_RDONLY, 0);
         posix_spawn_file_actions_adddup2(&it, out, 1);
-        if (errors == Errors::with_the_rest) posix_spawn_file_actions_adddup2(&it, 1, 2);
-        else posix_spawn_file_actions_addopen(&it, 2, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_adddup2(&it, 1, 2);
     }
     ~Actions() { posix_spawn_file_actions_destroy(&it); }
     Actions(const Actions&) = delete;
@@ -56,7 +55,7 @@ std::string all_of(int file) {
 }
 }  // namespace
 
-Said run_program(std::vector<std::string> words, Errors errors) {
+Said run_program(std::vector<std::string> words) {
     std::vector<char*> argv;
     for (std::string& w : words) argv.push_back(w.data());
     argv.push_back(nullptr);
@@ -65,7 +64,7 @@ Said run_program(std::vector<std::string> words, Errors errors) {
     pid_t child = 0;
     int failed;
     {
-        const Actions actions(ends[1], errors);
+        const Actions actions(ends[1]);
         const Signals signals;
         failed = posix_spawnp(&child, argv[0], &actions.it, &signals.it, argv.data(), environ);
     }
