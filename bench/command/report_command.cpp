@@ -4,7 +4,6 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
-#include "bench/report/crate.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -18,24 +17,15 @@ namespace fs = std::filesystem;
 
 struct ReportRequest : Common {
     std::string folder, width;
-    report::Print print;
-    bool playground = false, crate = false;
+    bool playground = false;
 };
 
 int report_command(ReportRequest r) {
     const Console console(r.json, r.quiet);
-    if (r.crate) {
-        report::write_crate(r.folder);
-        const std::string file = (fs::path(r.folder) / report::crate_file).string();
-        console.print("written: " + file);
-        console.print_json(store::indented({{"folder", r.folder}, {"files", {file}}}));
-        return exit_code::done;
-    }
-    report::Print print = r.print;
-    if (!r.width.empty()) print.width = report::width_of(r.width);
+    const double width = r.width.empty() ? 0 : report::width_of(r.width);
     const std::string play = r.playground ? report::playground() : "";
     Json files = Json::array();
-    for (const std::string& name : report::write_report(r.folder, console, print)) {
+    for (const std::string& name : report::write_report(r.folder, console, width)) {
         files.push_back((fs::path(r.folder) / name).string());
         console.print("written: " + files.back().get<std::string>());
     }
@@ -50,10 +40,7 @@ Act report_verb(CLI::App& program) {
     Verb<ReportRequest> v(program, "report", "page and pictures, made again from a folder that compare or suite wrote");
     v.option("folder", v.r.folder, {"DIR"}, "holds manifest.json and cells.csv, maps.csv or both")->required();
     v.option("--width", v.r.width, {"WIDTH"}, "of the pictures, as 85mm for a column of a paper");
-    v.flag("--pdf", v.r.print.pdf, "each picture as PDF too, by rsvg-convert");
     v.flag("--playground", v.r.playground, "puts the page that ./play builds into the report, opened on its scene: 1.4 MB more");
-    v.flag("--crate", v.r.crate,
-           "writes ro-crate-metadata.json alone, for an archive: authors, licence, date and the files that lie there now");
     return v.does(report_command, "Example: jvari report report");
 }
 

@@ -150,8 +150,8 @@ std::optional<report::Vega> vega_for(const RunRequest& r) {
     if (r.plot.empty()) return std::nullopt;
     if (!r.width.empty()) report::width_of(r.width);  // refused before the run
     const std::string extension = std::filesystem::path(r.plot).extension();
-    if (extension != ".svg" && extension != ".html" && extension != ".pdf")
-        throw store::UsageError("--plot " + r.plot + ": expected a name that ends in .svg, .pdf or .html");
+    if (extension != ".svg" && extension != ".html")
+        throw store::UsageError("--plot " + r.plot + ": expected a name that ends in .svg or .html");
     store::must_be_writable(r.plot);
     report::Vega vega = report::find_vega();
     if (!vega.missing.empty()) throw store::UsageError("--plot " + r.plot + ": " + vega.missing);
@@ -168,13 +168,7 @@ void draw(const std::string& file, const Descriptor& d, const study::Summary& s,
     if (!width.empty()) data["width"] = report::width_of(width) * report::pixels_per_mm;
     const report::Drawn drawn = report::draw(vega, data);
     if (drawn.svgs.empty()) throw store::Unwritable(file + ": " + (drawn.notes.empty() ? "nothing was drawn" : drawn.notes.front()));
-    const bool pdf = file.ends_with(".pdf");
-    const std::string svg = pdf ? file + ".svg" : file;
-    store::write_fresh(svg, drawn.svgs.front().second);
-    if (!pdf) return;
-    const std::string why = report::write_pdf(svg, file);
-    std::filesystem::remove(svg);
-    if (!why.empty()) throw store::Unwritable(file + ": " + why);
+    store::write_fresh(file, drawn.svgs.front().second);
 }
 
 int run_command(RunRequest r) {

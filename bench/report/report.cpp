@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/report/crate.hpp"
 #include "bench/report/derived.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/samples.hpp"
@@ -157,7 +156,7 @@ std::string fitting_page_of(Json data, const std::string& scripts, std::size_t l
     return page_of(data, scripts);
 }
 
-std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener, const Print& print) {
+std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener, double width) {
     const Results results = read_results(folder);
     store::must_be_writable(folder / "report.html");
     Json data = data_of(results);
@@ -167,15 +166,11 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     if (vega.missing.empty()) {
         scripts = vega_scripts(vega).value_or("");
         Json drawing = data;
-        if (print.width > 0) drawing["width"] = print.width * pixels_per_mm;
+        if (width > 0) drawing["width"] = width * pixels_per_mm;
         const Drawn drawn = draw(vega, drawing);
         for (const auto& [name, svg] : drawn.svgs) {
             store::write_fresh(folder / name, svg);
             written.push_back(name);
-            if (!print.pdf || !name.ends_with(".svg")) continue;
-            const std::string pdf = fs::path(name).replace_extension(".pdf").string(), why = write_pdf(folder / name, folder / pdf);
-            if (why.empty()) written.push_back(pdf);
-            else listener.note(pdf + ": " + why);
         }
         for (const std::string& note : drawn.notes) listener.note(note);
     } else {
@@ -185,8 +180,6 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     add_pictures(data, folder, written);
     store::write_fresh(folder / "report.html", fitting_page_of(std::move(data), scripts, page_limit));
     written.emplace_back("report.html");
-    write_crate(folder);
-    written.emplace_back(crate_file);
     return written;
 }
 

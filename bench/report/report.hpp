@@ -14,8 +14,9 @@
 namespace jvari::bench::report {
 
 // Returns the names of the files written. Without node or its packages the page comes with tables and sounds alone, the pictures not at
-// all, and a note says what is missing. Throws UsageError where the folder does not hold results or they cannot be read.
-std::vector<std::string> write_report(const std::filesystem::path& folder, const store::Listener&, const Print& = {});
+// all, and a note says what is missing. `width` of the pictures [mm]; 0: a plot of 760 pixels. Throws UsageError where the folder does not
+// hold results or they cannot be read.
+std::vector<std::string> write_report(const std::filesystem::path& folder, const store::Listener&, double width = 0);
 
 // A table that is too large goes without the columns that take most room, those that charts need excepted.
 store::Table fitting(store::Table, nlohmann::ordered_json& left_out);

@@ -76,8 +76,8 @@ Drawn draw(const Vega& v, const Json& data) {
     }
     std::error_code error;
     const fs::path modules = fs::absolute(v.folder, error);
-    const store::Said said = store::run_program(
-        {"env", "--chdir=" + scratch.path.string(), "NODE_PATH=" + modules.string(), "node", "draw.js"}, store::Errors::with_the_rest);
+    const store::Said said =
+        store::run_program({"env", "--chdir=" + scratch.path.string(), "NODE_PATH=" + modules.string(), "node", "draw.js"});
     const auto list = whole(file("drawn.json"));
     if (!list) {
         drawn.notes.push_back(said.code == 127 ? "no picture: node is missing (Debian: apt-get install nodejs npm)"
@@ -100,13 +100,6 @@ double width_of(const std::string& text) {
     if (!(mm >= 40 && mm <= 1000))
         throw store::UsageError("--width " + text + ": expected a width from 40mm to 1000mm, as 85mm, 8.5cm or 3.3in");
     return mm;
-}
-
-std::string write_pdf(const fs::path& svg, const fs::path& pdf) {
-    const store::Said said =
-        store::run_program({"rsvg-convert", "--format=pdf", "--output=" + pdf.string(), svg.string()}, store::Errors::with_the_rest);
-    if (said.code == 127) return "no PDF: rsvg-convert is missing (Debian: apt-get install librsvg2-bin)";
-    return said.code == 0 ? "" : "no PDF: rsvg-convert failed: " + said.text.substr(0, 200);
 }
 
 }  // namespace jvari::bench::report

@@ -1,7 +1,6 @@
 // The npm packages that draw: vega, vega-lite, vega-embed, installed by `npm ci` at the root of the sources.
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -27,15 +26,8 @@ struct Drawn {
 };
 Drawn draw(const Vega&, const nlohmann::ordered_json& data);
 
-// How pictures are made for print: as wide as asked, and as PDF beside each SVG file.
-struct Print {
-    double width = 0;  // [mm]; 0: a plot of 760 pixels
-    bool pdf = false;
-};
 constexpr double pixels_per_mm = 96 / 25.4;  // of SVG
 double width_of(const std::string& text);    // "85mm", "3.3in" [mm]; throws UsageError
-// The SVG file as PDF, by librsvg's rsvg-convert. "" or why not.
-std::string write_pdf(const std::filesystem::path& svg, const std::filesystem::path& pdf);
 
 // Text that stands inside <script> without ending it: within a string or a regular expression "<\/script" says the same as "</script".
 std::string inside_script(std::string);

@@ -631,7 +631,7 @@ TEST(Plot, ShowsEveryTapAndTheContactForceFirstWhateverIsWritten) {
     EXPECT_LT(bridge.find("bridge (bridge_force)"), bridge.find("nut (nut_force)"));
 }
 
-TEST(Plot, IsAsWideAsItWasAskedForToHalfAMillimetre) {
+TEST(Plot, IsAsWideAsItWasAskedFor) {
     if (!bench::report::find_vega().missing.empty()) GTEST_SKIP() << bench::report::find_vega().missing;
     const Scratch scratch;
     const std::string run = "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --width 85mm --plot ";
@@ -639,18 +639,12 @@ TEST(Plot, IsAsWideAsItWasAskedForToHalfAMillimetre) {
     const std::string picture = content(scratch / "a.svg");
     EXPECT_TRUE(says(picture, " width=\"85.00mm\" height=\"")) << picture.substr(0, 300);
     EXPECT_TRUE(says(picture, " viewBox=\"0 0 ")) << picture.substr(0, 300);
-    const Outcome pdf = jvari(scratch, run + (scratch / "a.pdf"));
-    if (pdf.err.find("rsvg-convert is missing") != std::string::npos) GTEST_SKIP() << pdf.err;
-    const std::string page = content(scratch / "a.pdf");
-    const auto box = page.find("/MediaBox [ 0 0 ");  // in points of 1/72 in
-    ASSERT_NE(box, std::string::npos);
-    EXPECT_NEAR(std::stod(page.substr(box + 16)) * 25.4 / 72, 85, 0.5);
 }
 
 TEST(Plot, DrawsTheRunOnOnePicture) {
     const Scratch scratch;
     const std::string run = "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --plot ";
-    EXPECT_TRUE(ends(jvari(scratch, run + (scratch / "a.png")), 2, ".svg, .pdf or .html"));
+    for (const char* file : {"a.png", "a.pdf"}) EXPECT_TRUE(ends(jvari(scratch, run + (scratch / file)), 2, ".svg or .html")) << file;
     EXPECT_EQ(jvari(scratch, run + (scratch / "a.svg"), "JVARI_NODE_MODULES=/nowhere").code, 2);  // said before the run
     EXPECT_EQ(scratch.files(), 0);
     if (!bench::report::find_vega().missing.empty()) GTEST_SKIP() << bench::report::find_vega().missing;
