@@ -53,7 +53,7 @@ Scene alone(const Scene& scene, int string) {
 
 Scene unfiltered(Scene scene) {
     if (!scene.body) return scene;
-    scene.body = Body{"", "", 0, std::move(scene.body->modes)};
+    scene.body = Body{"", "", std::move(scene.body->modes)};
     if (scene.body->modes.empty()) scene.body.reset();
     return scene;
 }

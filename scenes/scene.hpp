@@ -172,7 +172,6 @@ struct BodyMode {          // an oscillator that the bridge moves; what all stri
 };
 struct Body {
     std::string bridge, nut;      // filters of what is heard of driving_force and nut_force: files of impulse responses; "": none
-    int sections = 0;             // second-order sections in place of a response; 0: the response itself
     std::vector<BodyMode> modes;  // none: the bridge does not move
     bool operator==(const Body&) const = default;
 };

@@ -56,7 +56,6 @@ struct Names {
         for (const char* key : tension_keys) add(key);
     }
     void count(const char* key, auto&) { add(key); }
-    void optional_count(const char* key, auto&) { add(key); }
     void file(const char* key, auto&) { add(key); }
     void text(const char* key, auto&) { add(key); }
     void optional_text(const char* key, auto&) { add(key); }
@@ -166,9 +165,6 @@ public:
                  "a pitch that a tension gives: the bending stiffness alone gives " + number_text(slack_pitch(s)) + " Hz");
     }
     void count(const char* key, int& n) { n = integer(*required(key, "a whole number >= 1"), key, 1); }
-    void optional_count(const char* key, int& n) {
-        if (const Value* v = table_.find(key)) n = integer(*v, key, 0);
-    }
     void string_index(const char* key, std::optional<int>& n) {
         if (const Value* v = table_.find(key)) n = integer(*v, key, 0);
     }

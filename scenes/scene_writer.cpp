@@ -30,9 +30,6 @@ struct Writer {
         if (n) line(key, std::to_string(*n));
     }
     void text(const char* key, const std::string& s) { line(key, quote(s)); }
-    void optional_count(const char* key, int n) {
-        if (n != 0) count(key, n);
-    }
     void file(const char* key, const std::string& s) { optional_text(key, s); }
     void optional_text(const char* key, const std::string& s) {
         if (!s.empty()) text(key, s);
@@ -79,7 +76,6 @@ struct Tables {
     void string_index(auto&&...) {}
     void text(auto&&...) {}
     void optional_text(auto&&...) {}
-    void optional_count(auto&&...) {}
     void file(auto&&...) {}
     void choice(auto&&...) {}
     void refused(auto&&...) {}

@@ -2,7 +2,7 @@
 // Four passes use it: naming the keys, reading, writing, and checking ranges. validate.cpp checks what depends on several values, such as a
 // bridge beyond the end of the string.
 //
-// A pass has number, stiffness (a number or "rigid"), count, optional_count (0 if absent), text, optional_text, file (beside the scene),
+// A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the scene),
 // choice, string_index, refused (a key without meaning here), columns (a CSV file), one_of (a variant and the key that chooses it),
 // material (with a diameter, in place of two numbers), tension (or a pitch), part (a table) and parts (an array of tables).
 #pragma once
@@ -174,7 +174,6 @@ void fields(auto& pass, Is<BodyMode> auto& m) {
 void fields(auto& pass, Is<Body> auto& b) {
     pass.file("bridge", b.bridge);
     pass.file("nut", b.nut);
-    pass.optional_count("sections", b.sections);
     pass.parts("mode", b.modes);
 }
 void fields(auto& pass, Is<Scene> auto& s) {

@@ -14,8 +14,6 @@ std::string joined(const std::string& path, const std::string& key) {
     return path.empty() ? key : path + "." + key;
 }
 
-constexpr int most_sections = 256;
-
 struct Ranges {
     std::string path{};
 
@@ -29,10 +27,6 @@ struct Ranges {
     void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) {
         if (n < 1) throw BadScene(joined(path, key), std::to_string(n), "a whole number >= 1");
-    }
-    void optional_count(const char* key, int n) {
-        if (n < 0 || n > most_sections)
-            throw BadScene(joined(path, key), std::to_string(n), "a whole number from 0 to " + std::to_string(most_sections));
     }
     void file(auto&&...) {}
     void string_index(auto&&...) {}

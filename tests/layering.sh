@@ -59,10 +59,9 @@ only JSON 'nlohmann/' 'bench/'
 only fmt 'fmt/' 'bench/'
 only xxHash 'xxhash' 'bench/store/checksum'
 only libsndfile 'sndfile' 'bench/(store|sound)/'
-only HDF5 'hdf5' 'bench/store/'
 only libsamplerate 'samplerate' 'bench/sound/'
 only pybind11 'pybind11/' 'python/'
-forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|hdf5|sndfile|CLI|fmt|cvode|sundials)' \
+forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp' ! -name '*-inl.hpp')  # -inl: part of a file of its own folder, compiled once for each set of instructions
 forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' $(find results -maxdepth 3 -path results/runs -prune -o \( -name '*.json' -o -name '*.toml' \) -print)
 lines=$(cat $product | wc -l)

@@ -25,7 +25,7 @@ if [ "$1" = rooms ]; then
     find "$said" -name '*.cpp' | xargs -n 1 -P "${JOBS:-2}" sh -c '"$0" --quiet --config-file=.clang-tidy \
         --checks=-clang-analyzer-*,-performance-inefficient-*,-performance-no-automatic-move,-bugprone-suspicious-include \
         --header-filter="(scenes|schemes|reference|analysis|bench)/.*\.[ch]pp" "$3" -- -std=c++20 -include "$1/defined.hpp" \
-        -I. -I"$2/generated" -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial' "$tidy" "$said" "$build" >"$said/text" 2>/dev/null
+        -I. -I"$2/generated" -isystem /usr/include/eigen3' "$tidy" "$said" "$build" >"$said/text" 2>/dev/null
     judge
 fi
 [ -f "$build/compile_commands.json" ] || { echo "no compile_commands.json in $build" >&2; exit 2; }

@@ -69,7 +69,7 @@ Scene with(Feature feature, Scene scene) {
         case Feature::rigid_barrier: s.barriers = {bridge_at(s, 1)}, std::get<LumpedBarrier>(s.barriers[0]).stiffness.k = rigid; break;
         case Feature::rigid_profile: s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {rigid}, 1, 0}); break;
         case Feature::tension_modulation: s.axial_stiffness = 5e3; break;
-        case Feature::moving_body: scene.body = Body{"", "", 0, {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}}; break;
+        case Feature::moving_body: scene.body = Body{"", "", {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}}; break;
     }
     return scene;
 }

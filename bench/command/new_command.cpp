@@ -66,7 +66,7 @@ constexpr const char* what_else = R"(
 # Start: [string.initial] is a shape at rest that is let go, [string.pluck] the force of a finger or hammer.
 #   shape = "mode" (number, amplitude) or "triangle" (position, amplitude, smoothing: 0 is a sharp corner)
 #
-# Try it:   jvari run @FILE@ --scheme modal_two_point --wav-format pcm16 --out @NAME@.wav
+# Try it:   jvari run @FILE@ --scheme modal_two_point --out @NAME@.wav
 # Compare:  jvari compare @FILE@ --duration 0.1 --out @NAME@-report
 )";
 

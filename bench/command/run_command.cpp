@@ -16,13 +16,10 @@
 #include "bench/sound/audio_file.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
-#include "bench/store/machine.hpp"
-#include "bench/store/records.hpp"
 #include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/study/judgement.hpp"
-#include "scenes/scene_file.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::command {
@@ -39,8 +36,7 @@ struct RunRequest : Common {
     bool energy = false;
     std::vector<std::string> set;
     std::vector<std::string> options;
-    std::string out, wav_format, plot, width;
-    bool mono = false;
+    std::string out, plot, width;
 };
 
 // What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
@@ -89,48 +85,10 @@ Json json_of(const study::Summary& s) {
     return j;
 }
 
-store::TraceFile file_for(const RunRequest& r, const Descriptor& d, const Scene& scene, const Settings& s) {
-    store::TraceFile file{r.out,
-                          {{"scene", scene.name},
-                           {"source", scene.source},
-                           {"scene_hash", scene_hash(scene)},
-                           {"duration", store::text_of(scene.duration)},
-                           {"scheme", d.name},
-                           {"scheme_source", d.source},
-                           {"sample_rate", store::text_of(s.sample_rate)},
-                           {"program", "jvari " + store::machine().version},
-                           {"commit", store::machine().commit}}};
-    for (const std::string& set : r.set) {
-        const auto at = set.find('=');
-        file.attributes.emplace_back("set." + set.substr(0, at), set.substr(at + 1));
-    }
-    for (const Option& o : d.options) file.attributes.emplace_back("option." + std::string(o.name), option(s, o));
-    return file;
-}
-
-// What is known of the run once it is done.
-void add_attributes(store::TraceFile& file, const study::Summary& s) {
-    const auto add = [&file](const std::string& name, const std::string& value) { file.attributes.emplace_back(name, value); };
-    add("modes", std::to_string(s.modes));
-    add("dofs", std::to_string(s.dofs));
-    add("steps", std::to_string(s.steps));
-    add("status", name_of(s.status.outcome));
-    if (s.status.outcome != Outcome::ok) add("failed_step", std::to_string(s.status.step));
-    const auto fact = [&add](const std::string& name, double value) {
-        if (!std::isnan(value)) add("fact." + name, store::text_of(value));
-    };
-    fact(facts::smallest_contact_force.name, s.smallest_contact_force);
-    fact(facts::largest_contact_force.name, s.largest_contact_force);
-    fact(facts::deepest_penetration.name, s.deepest_penetration);
-    for (const Fact& f : s.facts) fact(f.name, f.value);
-}
-
 // Before a long run: that what it gives can be written. The sound of it where --out names one.
-std::optional<sound::Player> checked_output(const RunRequest& r, const store::TraceFile& file, const Scene& scene, double tap_rate) {
-    if (sound::is_audio(r.out)) return sound::Player({r.out, r.wav_format, r.mono}, scene, tap_rate);
-    if (!r.wav_format.empty() || r.mono)
-        throw store::UsageError(fmt::format("{} goes with --out FILE.wav or FILE.flac", r.mono ? "--mono" : "--wav-format"));
-    if (!r.out.empty()) store::check(file, scene);
+std::optional<sound::Player> checked_output(const RunRequest& r, const Scene& scene, double tap_rate) {
+    if (sound::is_audio(r.out)) return sound::Player(r.out, scene, tap_rate);
+    if (!r.out.empty()) store::check_trace_file(r.out);
     return std::nullopt;
 }
 
@@ -184,9 +142,8 @@ int run_command(RunRequest r) {
     scene.taps.insert(scene.taps.begin(), own.taps.begin(), own.taps.begin() + static_cast<long>(drawn));
     compare::note_scene(scene, console);
     const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate, r.modes, scheme_options(r.options));
-    store::TraceFile file = file_for(r, d, scene, settings);
     const std::optional<report::Vega> vega = vega_for(r);
-    const std::optional<sound::Player> player = checked_output(r, file, heard, settings.tap_rate);
+    const std::optional<sound::Player> player = checked_output(r, heard, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
@@ -206,11 +163,10 @@ int run_command(RunRequest r) {
     Json json = json_of(summary);
     std::string text = text_for(summary, scene);
     if (!r.out.empty()) {
-        add_attributes(file, summary);
         std::string said;
         if (player && drawn > 0) said = player->write(part_of(result.trace, drawn, heard));
         else if (player) said = player->write(result.trace);
-        else store::write(file, scene, result.trace);
+        else store::write_trace(r.out, result.trace);
         json["out"] = r.out;
         if (!said.empty()) json["level"] = said;
         text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
@@ -240,13 +196,10 @@ Act run_verb(CLI::App& program) {
     v.duration(v.r.duration);
     v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second; 44100 where absent, or the rate where that is no multiple of it");
     v.flag("--energy", v.r.energy, "probe the energy: three more columns, and the residuals of the balance");
-    v.option("--out", v.r.out, {"FILE"}, "writes the trace: .csv or .h5; .wav or .flac: what is heard of it");
+    v.option("--out", v.r.out, {"FILE"}, "writes the trace, .csv, or what is heard of it, .wav");
     v.option("--width", v.r.width, {"WIDTH"}, "of the picture, as 85mm for a column of a paper");
     v.option("--plot", v.r.plot, {"FILE"},
              "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)");
-    v.flag("--mono", v.r.mono, "one channel where a body gives two");
-    v.option("--wav-format", v.r.wav_format, {"FORMAT", CLI::IsMember({"pcm24", "pcm16"}).description("")},
-             "of a .wav or .flac: pcm24 (default) or pcm16");
     return v.does(run_command, "Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration 0.2 --energy --out c3.csv");
 }
 

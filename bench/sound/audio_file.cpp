@@ -10,6 +10,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "analysis/convolution.hpp"
+#include "bench/sound/radiation.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 
@@ -18,7 +20,6 @@ namespace jvari::bench::sound {
 namespace {
 constexpr double slowest_played = 3000, fastest_played = 384000;  // [Hz], a whole number: what players take
 constexpr double most_bytes = 4e9;                                // a .wav counts its bytes in 32 bits
-constexpr double coarse_fit = 0.1;                                // relative error of a body's sections, above which they are another body
 constexpr double steady = 20;                                     // [Hz]
 constexpr double de_emphasis = 50e-6;                             // [s]
 constexpr double peak_of_full_scale = -1;                         // [dB]
@@ -33,7 +34,7 @@ bool is_driven(const Scene& scene) {
 }  // namespace
 
 bool is_audio(const std::filesystem::path& path) {
-    return path.extension() == ".wav" || path.extension() == ".flac";
+    return path.extension() == ".wav";
 }
 
 Scene audible(Scene scene) {
@@ -47,23 +48,17 @@ Scene audible(Scene scene) {
     return scene;
 }
 
-Player::Player(AudioFile file, const Scene& scene, double tap_rate) : file_(std::move(file)) {
-    const std::string out = "--out " + file_.path.string();
+Player::Player(std::filesystem::path path, const Scene& scene, double tap_rate) : path_(std::move(path)) {
+    const std::string out = "--out " + path_.string();
     if (tap_rate != std::round(tap_rate) || tap_rate < slowest_played || tap_rate > fastest_played)
         throw store::UsageError(fmt::format("{}: players take a whole number of rows per second from {} to {}, not {}: say --tap-rate", out,
                                             slowest_played, fastest_played, tap_rate));
-    const double bytes = scene.duration * tap_rate * static_cast<double>(scene.taps.size()) * (file_.format == "pcm16" ? 2 : 3);
+    const double bytes = scene.duration * tap_rate * static_cast<double>(scene.taps.size()) * 3;
     if (bytes > most_bytes)
-        throw store::UsageError(fmt::format("{}: a {} holds at most {:.0e} bytes, this would be {:.1e}. A .csv or .h5 holds them", out,
-                                            file_.path.extension().string(), most_bytes, bytes));
-    for (RadiatingTap& t : radiating_taps(scene, tap_rate)) body_.push_back(std::move(t.filter));
-    for (std::size_t k = 0; k < body_.size() && scene.body->sections > 0; ++k) {
-        const double error = std::pow(10, body_[k].misfit() / 20);
-        const std::string share = error < 0.0995 ? fmt::format("{:.2g}", 100 * error) : fmt::format("{:.0f}", 100 * error);
-        body_text_ += fmt::format("; {} sections fit body.{} with an error of {} %{}", scene.body->sections, scene.taps[k].name, share,
-                                  error > coarse_fit ? ": too coarse, take more sections, or none for the response itself" : "");
-    }
-    store::must_be_writable(file_.path);
+        throw store::UsageError(
+            fmt::format("{}: a .wav holds at most {:.0e} bytes, this would be {:.1e}. A .csv holds them", out, most_bytes, bytes));
+    body_ = body_responses(scene, tap_rate);
+    store::must_be_writable(path_);
 }
 
 std::vector<double> without_steady(std::span<const double> force, double rate) {
@@ -112,11 +107,11 @@ std::string level_text(const Played& p) {
 }
 
 namespace {
-void write_frames(const std::filesystem::path& path, int format, double rate, const std::vector<std::vector<double>>& channels) {
+void write_frames(const std::filesystem::path& path, double rate, const std::vector<std::vector<double>>& channels) {
     SF_INFO info{};
     info.samplerate = static_cast<int>(std::lround(rate));
     info.channels = static_cast<int>(channels.size());
-    info.format = format;
+    info.format = SF_FORMAT_WAV | SF_FORMAT_PCM_24;
     SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
     if (!file) throw std::runtime_error(sf_strerror(nullptr));
     sf_command(file, SFC_SET_CLIPPING, nullptr, SF_TRUE);
@@ -135,11 +130,10 @@ void write_frames(const std::filesystem::path& path, int format, double rate, co
 }
 }  // namespace
 
-void write_audio(const std::filesystem::path& path, Samples kind, double rate, const std::vector<std::vector<double>>& channels) {
-    const int bits = kind == Samples::pcm16 ? SF_FORMAT_PCM_16 : kind == Samples::pcm24 ? SF_FORMAT_PCM_24 : SF_FORMAT_FLOAT;
+void write_audio(const std::filesystem::path& path, double rate, const std::vector<std::vector<double>>& channels) {
     store::FreshFile fresh(path);
     try {
-        write_frames(fresh.path(), (path.extension() == ".flac" ? SF_FORMAT_FLAC : SF_FORMAT_WAV) | bits, rate, channels);
+        write_frames(fresh.path(), rate, channels);
     } catch (const std::runtime_error& why) {
         throw store::Unwritable(fmt::format("cannot write {}: {}", path.string(), why.what()));
     }
@@ -150,14 +144,10 @@ std::string Player::write(const Trace& trace) const {
     std::vector<std::vector<double>> channels;
     if (body_.empty()) channels.push_back(without_body(trace.column(0), trace.tap_rate));
     for (std::size_t k = 0; k < body_.size(); ++k)
-        channels.push_back(body_[k](without_steady(trace.column(static_cast<int>(k)), trace.tap_rate)));
-    if (file_.mono && channels.size() > 1) {
-        for (std::size_t n = 0; n < channels[0].size(); ++n) channels[0][n] += channels[1][n];
-        channels.resize(1);
-    }
+        channels.push_back(convolved(without_steady(trace.column(static_cast<int>(k)), trace.tap_rate), body_[k]));
     const Played p = levelled(std::move(channels));
-    write_audio(file_.path, file_.format == "pcm16" ? Samples::pcm16 : Samples::pcm24, trace.tap_rate, p.channels);
-    return level_text(p) + body_text_;
+    write_audio(path_, trace.tap_rate, p.channels);
+    return level_text(p);
 }
 
 }  // namespace jvari::bench::sound

@@ -1,10 +1,10 @@
-// What a player plays of a run, .wav or .flac: 24 or 16 bit, the largest sample 1 dB below full scale.
+// What a player plays of a run, a .wav of 24 bit, the largest sample 1 dB below full scale.
 //
 // Through the body where the scene has one: the driving force of all strings by its response at the bridge on the left, the force on the
 // nut by that at the nut on the right (van Walstijn et al. 2016, Section 4.4); a body of one response gives one channel. Without a body:
 // the driving force where a string has a barrier or a thread, else the force on the nut, its highs lowered as radio lowers them (a low pass
 // of first order at 3183 Hz, the de-emphasis of 50 us), for a force that is flat to 20 kHz is no sound that a body lets out. In both the
-// steady part is taken away (a high pass of first order at 20 Hz). Left out: dither. The signals as they are go to .csv and .h5.
+// steady part is taken away (a high pass of first order at 20 Hz). Left out: dither. The signals as they are go to .csv.
 #pragma once
 
 #include <filesystem>
@@ -12,17 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/sound/radiation.hpp"
 #include "scenes/scene.hpp"
 #include "schemes/trace.hpp"
 
 namespace jvari::bench::sound {
 
-struct AudioFile {
-    std::filesystem::path path;
-    std::string format;  // "" = "pcm24", "pcm16"
-    bool mono = false;   // the sum of what a body has on two channels
-};
 bool is_audio(const std::filesystem::path&);  // by its extension
 
 Scene audible(Scene);  // with the taps that are heard in place of its own
@@ -31,14 +25,13 @@ Scene audible(Scene);  // with the taps that are heard in place of its own
 class Player {
 public:
     // Throws UsageError for a path that cannot be written, what the format cannot hold and a body that cannot be read.
-    Player(AudioFile, const Scene&, double tap_rate);
-    // Returns how loud it is and what stands for the body. Throws Unwritable.
+    Player(std::filesystem::path, const Scene&, double tap_rate);
+    // Returns how loud it is. Throws Unwritable.
     std::string write(const Trace&) const;
 
 private:
-    AudioFile file_;
-    std::vector<Radiation> body_;  // one per tap; none: no body
-    std::string body_text_;
+    std::filesystem::path path_;
+    std::vector<std::vector<double>> body_;  // its response for each tap; none: no body
 };
 
 // ---- In parts.
@@ -53,8 +46,6 @@ std::vector<double> without_body(std::span<const double> force, double rate);
 std::vector<double> without_steady(std::span<const double> force, double rate);
 Played levelled(std::vector<std::vector<double>> channels);
 std::string level_text(const Played&);  // "full scale 1.2 N, peak -1.0 dB, rms -20.3 dB, 0 samples clipped"
-enum class Samples { pcm16, pcm24, single };
-// A .wav or .flac by its extension. Throws Unwritable.
-void write_audio(const std::filesystem::path&, Samples, double rate, const std::vector<std::vector<double>>& channels);
+void write_audio(const std::filesystem::path&, double rate, const std::vector<std::vector<double>>& channels);  // throws Unwritable
 
 }  // namespace jvari::bench::sound

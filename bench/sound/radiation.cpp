@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/convolution.hpp"
 #include "bench/store/sound.hpp"
 #include "bench/store/usage.hpp"
 
@@ -37,21 +36,12 @@ struct RadiatingEnd {  // where strings pull at a body
     std::string Body::*response;
 };
 constexpr RadiatingEnd ends[] = {{Quantity::driving_force, "body.bridge", &Body::bridge}, {Quantity::nut_force, "body.nut", &Body::nut}};
-
-Radiation radiation_of(const Body& body, const RadiatingEnd& end, double rate) {
-    std::vector<double> response = impulse_response(body.*end.response, rate, end.key);
-    try {
-        return {std::move(response), rate, body.sections};
-    } catch (const std::invalid_argument& e) {
-        throw store::UsageError(fmt::format("body.sections: found {} for {}; {}", body.sections, end.key, e.what()));
-    }
-}
 }  // namespace
 
 std::vector<double> impulse_response(const std::string& file, double rate, const std::string& key) {
     const auto refuse = [&](const std::string& why) {
         throw store::UsageError(
-            fmt::format("{}: found \"{}\", {}; expected a .wav or .flac of one channel and at most {:g} s", key, file, why, longest));
+            fmt::format("{}: found \"{}\", {}; expected a .wav of one channel and at most {:g} s", key, file, why, longest));
     };
     const store::Signal sound = store::read_signal(file, refuse);
     if (sound.samples.empty()) refuse("which is empty");
@@ -70,24 +60,13 @@ std::vector<double> impulse_response(const std::string& file, double rate, const
     return response;
 }
 
-Radiation::Radiation(std::vector<double> response, double rate, int sections) : response_(std::move(response)) {
-    if (sections == 0) return;
-    sections_ = resonators_for(response_, rate, sections);
-    misfit_ = misfit_db(*sections_, response_);
-}
-
-std::vector<double> Radiation::operator()(std::span<const double> force) const {
-    return sections_ ? filtered(*sections_, force) : convolved(force, response_);
-}
-
-std::vector<RadiatingTap> radiating_taps(const Scene& scene, double rate) {
-    std::vector<RadiatingTap> all;
-    for (std::size_t k = 0; scene.body && k < scene.taps.size(); ++k) {
-        const Tap& tap = scene.taps[k];
-        if (tap.string && scene.strings.size() > 1) continue;
+std::vector<std::vector<double>> body_responses(const Scene& scene, double rate) {
+    std::vector<std::vector<double>> all;
+    for (const Tap& tap : scene.taps) {
+        if (!scene.body || (tap.string && scene.strings.size() > 1)) continue;
         for (const RadiatingEnd& end : ends)
             if (tap.quantity == end.force && !((*scene.body).*end.response).empty())
-                all.push_back({static_cast<int>(k), radiation_of(*scene.body, end, rate)});
+                all.push_back(impulse_response((*scene.body).*end.response, rate, end.key));
     }
     return all;
 }

@@ -62,25 +62,22 @@ TEST(Played, StandsOneDecibelBelowFullScaleWhateverItsForce) {
     EXPECT_TRUE(says(bench::sound::level_text(over), "3 samples clipped"));
 }
 
-TEST(Played, ReadsBackToTheLastBitOfItsFormat) {
+TEST(Played, ReadsBackToTheLastBit) {
     const bench::sound::Played p = played(sine(1, 0, 4410), 48000);
     const auto folder = std::filesystem::temp_directory_path() / ("jvari-played-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
-    for (const std::string extension : {".wav", ".flac"})
-        for (const int bits : {24, 16}) {
-            const auto path = folder / ("x" + extension);
-            bench::sound::write_audio(path, bits == 16 ? bench::sound::Samples::pcm16 : bench::sound::Samples::pcm24, 48000, p.channels);
-            SF_INFO info{};
-            SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
-            ASSERT_TRUE(file) << extension;
-            EXPECT_EQ(info.samplerate, 48000);
-            EXPECT_EQ(info.channels, 1);
-            EXPECT_EQ(info.format & SF_FORMAT_SUBMASK, bits == 16 ? SF_FORMAT_PCM_16 : SF_FORMAT_PCM_24);
-            std::vector<double> back(5000);
-            EXPECT_EQ(sf_readf_double(file, back.data(), 5000), 4410);
-            sf_close(file);
-            for (int n = 0; n < 4410; ++n) ASSERT_NEAR(back[n], p.channels[0][n], std::exp2(1 - bits)) << extension << bits;
-        }
+    const auto path = folder / "x.wav";
+    bench::sound::write_audio(path, 48000, p.channels);
+    SF_INFO info{};
+    SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
+    ASSERT_TRUE(file);
+    EXPECT_EQ(info.samplerate, 48000);
+    EXPECT_EQ(info.channels, 1);
+    EXPECT_EQ(info.format & SF_FORMAT_SUBMASK, SF_FORMAT_PCM_24);
+    std::vector<double> back(5000);
+    EXPECT_EQ(sf_readf_double(file, back.data(), 5000), 4410);
+    sf_close(file);
+    for (int n = 0; n < 4410; ++n) ASSERT_NEAR(back[n], p.channels[0][n], std::exp2(-23));
     std::filesystem::remove_all(folder);
 }
 

@@ -13,7 +13,7 @@ const std::string run_for = "$J run free_string --scheme modal_two_point --durat
 const std::string small_comparison = "$J compare free_string --schemes modal_two_point --rates 44100 --duration 0.01 --repeats 1";
 
 TEST(Unwritable, ATraceThatTheDiskDoesNotHoldIsAnErrorAndLeavesNothing) {
-    for (const char* file : {"x.csv", "x.wav", "x.flac", "x.h5"}) {
+    for (const char* file : {"x.csv", "x.wav"}) {
         const Scratch scratch;
         const Outcome o = shell(scratch, "ulimit -f 16\n" + run_for + "0.4 --out " + file);  // 16 KiB
         EXPECT_TRUE(ends(o, 4, "cannot write " + std::string(file) + ": File too large")) << file;
@@ -23,7 +23,7 @@ TEST(Unwritable, ATraceThatTheDiskDoesNotHoldIsAnErrorAndLeavesNothing) {
 }
 
 TEST(Unwritable, ATraceStaysAsItWasWhereItsSuccessorDoesNotFit) {
-    for (const char* file : {"x.csv", "x.wav", "x.flac", "x.h5"}) {
+    for (const char* file : {"x.csv", "x.wav"}) {
         const Scratch scratch;
         ASSERT_EQ(shell(scratch, small_run + " --out " + file).code, 0);
         const std::string before = content(scratch / file);

@@ -22,7 +22,7 @@ here=$(dirname "$0")
 sed -n '/^```cpp$/,/^```$/{/^```/d;p}' "$here/../../docs/host.md" | cmp -s - "$here/main.cpp" || fail "docs/host.md does not show tests/host/main.cpp"
 
 needs=$(ldd "$host")
-for library in gsl fftw3 sundials hdf5 sndfile samplerate fmt; do
+for library in gsl fftw3 sundials sndfile samplerate fmt; do
     case $needs in *lib$library*) fail "the host needs $library: $needs" ;; esac
 done
 for folder in scenes schemes reference; do

@@ -41,7 +41,7 @@ Scene instrument() {
     low.tension *= 0.5625;
     scene.strings = {scene.strings.front(), still, low};
     scene.taps = {{"still", Quantity::displacement, 1, 0.3}, {"nut", Quantity::nut_force, {}, 0}, {"support", Quantity::velocity, 0, 0}};
-    scene.body = Body{"", "", 0, {resonance(145, 0.05, 20), resonance(410, 0.02, 35)}};
+    scene.body = Body{"", "", {resonance(145, 0.05, 20), resonance(410, 0.02, 35)}};
     return scene;
 }
 Scene lossless_instrument() {
@@ -202,7 +202,7 @@ TEST(MovingBody, PartialsOfAStringOnASpringWithAMassAreThoseOfTheClosedForm) {
     s.bending_stiffness = 0;
     s.initial = TriangleInitial{0.31, 1e-3, 0};
     const BodyMode light = resonance(200, 1e-3, 0);  // twice the string's mass; a spring to its first partial, a mass to those above 2
-    scene.body = Body{"", "", 0, {light}};
+    scene.body = Body{"", "", {light}};
     scene.duration = 0.5;
     std::vector<const Descriptor*> all = that_move_a_body();
     all.push_back(&sundials);
@@ -262,7 +262,7 @@ TEST(MovingBody, OverBridgesTheTwoPointSchemeConvergesAsThatOfOneString) {
 TEST(MovingBody, TheDroneConvergesToItsReferenceAtTheOrderOfTheSingleString) {
     Scene drone = read_scene("tanpura_drone");
     drone.duration = 0.01;
-    drone.body = Body{"", "", 0, {resonance(110, 0.3, 15), resonance(190, 0.15, 20), resonance(320, 0.1, 25), resonance(540, 0.08, 30)}};
+    drone.body = Body{"", "", {resonance(110, 0.3, 15), resonance(190, 0.15, 20), resonance(320, 0.1, 25), resonance(540, 0.08, 30)}};
     drone.taps = {{"nut", Quantity::nut_force, {}, 0}};
     for (String& s : drone.strings) {
         s.pluck.reset();
