@@ -26,11 +26,11 @@ Confirmation confirmation_of(const Descriptor& reference, const Scene& scene) {
     return reference.confirmation ? reference.confirmation(scene) : Confirmation{};
 }
 
-double finest_rate(const CertifySettings& settings) {
-    return settings.oversampled_rate > 0 ? settings.oversampled_rate : 64 * settings.tap_rate;
+double finest_rate(const CertifySettings& settings) {  // of the oversampled runs
+    return 64 * settings.tap_rate;
 }
 
-Settings coarsest(const CertifySettings& settings) {  // of the oversampled runs
+Settings coarsest(const CertifySettings& settings) {
     return {finest_rate(settings) / multiple, settings.tap_rate, settings.modes, {}};
 }
 
@@ -38,20 +38,15 @@ std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
     std::vector<const Descriptor*> able;
     for (const Descriptor& r : references())
         if ((needed_by(scene) - r.represents).empty()) able.push_back(&r);
-    const bool alone = able.size() == 1;
-    if (!settings.only.empty()) {
-        std::erase_if(able, [&](const Descriptor* r) { return r->name != settings.only; });
-        if (able.empty()) throw Refusal("no reference " + settings.only + " represents scene " + scene.name);
-    }
     std::vector<Job> jobs;
     for (const Descriptor* r : able)
         for (const Options& o : confirmation_of(*r, scene).accuracies) jobs.push_back({r, o, false});
     if (!able.empty())
         for (const Options& o : confirmation_of(*able.front(), scene).accuracies)
             if (const auto nearer = matched(*able.front(), scene, o)) jobs.push_back({able.front(), *nearer, false});
-    if (alone)
+    if (able.size() == 1)
         for (const Options& o : confirmation_of(*able.front(), scene).other_methods) jobs.push_back({able.front(), o, false});
-    if (jobs.empty() || settings.oversampled_rate > 0)
+    if (jobs.empty())
         if (const Descriptor* scheme = best_by_estimate(stand_ins(scene), scene, coarsest(settings), multiple))
             jobs.push_back({scheme, {}, true});
     if (jobs.empty())

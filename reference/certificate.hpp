@@ -48,13 +48,10 @@ struct Certificate {
 };
 
 struct CertifySettings {
-    int modes = 0;            // 0: every mode below 20 kHz
-    double tap_rate = 44100;  // [Hz]
-    double oversampled_rate =
-        0;  // also the stand-in scheme at this rate [Hz]; 0: only where no reference represents the scene, at 64 tap rates
+    int modes = 0;                                                                      // 0: every mode below 20 kHz
+    double tap_rate = 44100;                                                            // [Hz]
     std::function<void(const std::string& reference, int done, int of)> progress = {};  // before each run
     std::function<void(double fraction)> within = {};                                   // of the run under way
-    std::string only = {};  // this reference alone, at its two accuracies: a long run of one that is fast; "": all
 };
 
 // Throws BadScene, or Refusal where nothing at all represents the scene.

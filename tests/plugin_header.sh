@@ -14,7 +14,7 @@ runs() {  # runs WHAT SCHEME: modal_two_point's motion but for rounding
     agree "$1" other.csv
 }
 refused() {  # refused WHAT SENTENCE
-    said=$("$jvari" list schemes --plugin ./plugin.so 2>&1)
+    said=$("$jvari" check --plugin ./plugin.so 2>&1)
     code=$?
     [ $code = 2 ] && echo "$said" | grep -q "$2" && return
     fail "$1: expected \"$2\" and exit code 2, found $code: $said"

@@ -55,6 +55,11 @@ const Value positive{"X", CLI::Validator([](std::string&text) { return a_number(
 
 void Arguments::common(Common& c) {
     flag("--json", c.json, "one JSON object on standard output, nothing else there");
+    flag("--quiet", c.quiet, "errors only: no messages, no progress, no result as text (`list` still lists)");
+}
+
+void Arguments::common(Running& c) {
+    common(static_cast<Common&>(c));
     option("--plugin", c.plugins, {"LIB.so"}, "shared object with further schemes (repeatable)")->allow_extra_args(false);
     verb_
         .add_option_function<std::vector<std::string>>(
@@ -65,7 +70,6 @@ void Arguments::common(Common& c) {
             "any program as a scheme: it is called with the paths of the problem (JSON) and of the trace that it writes (repeatable)")
         ->type_name("COMMAND")
         ->allow_extra_args(false);
-    flag("--quiet", c.quiet, "errors only: no messages, no progress, no result as text (`list` still lists)");
 }
 
 void Arguments::scene(std::string& scene) {
@@ -99,10 +103,6 @@ void Arguments::duration(std::optional<double>& duration) {
 
 void Arguments::schemes(std::vector<std::string>& schemes, const char* help) {
     option("--schemes", schemes, {"A,B,..."}, help)->delimiter(',');
-}
-
-void Arguments::reference(std::string& reference) {
-    option("--reference", reference, {"NAME"}, "a reference or a scheme; absent: the highest reference that represents the scene");
 }
 
 void Arguments::comparison_folder(std::string& out) {

@@ -14,6 +14,8 @@ namespace jvari::bench::command {
 
 struct Common {
     bool json = false, quiet = false;
+};
+struct Running : Common {  // of a verb that runs schemes
     std::vector<std::string> plugins;
 };
 
@@ -40,6 +42,7 @@ public:
     void flag(const char* name, bool& to, const char* help) { verb_.add_flag(name, to, help); }
 
     void common(Common&);
+    void common(Running&);
     void scene(std::string&);
     void set(std::vector<std::string>&);
     void modes(int&);
@@ -47,7 +50,6 @@ public:
     void jobs(int&);
     void duration(std::optional<double>&);
     void schemes(std::vector<std::string>&, const char* help);
-    void reference(std::string&);
     void comparison_folder(std::string&);
 
 protected:

@@ -26,12 +26,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct CertifyRequest : Common {
-    std::string scene, out, reference;
+struct CertifyRequest : Running {
+    std::string scene, out;
     int modes = 0;
-    std::optional<double> duration, tap_rate, oversampled_rate;  // [s], [Hz], [Hz]
+    std::optional<double> duration, tap_rate;  // [s], [Hz]
     std::vector<std::string> set;
-    bool again = false;
 };
 
 fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed scene does not take the place of the one it was made from
@@ -43,8 +42,7 @@ fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed s
     }
     const fs::path folder = "results/certificates";
     store::make_folder(folder);
-    return folder / (trust::file_stem(scene.name) + (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) +
-                     (r.reference.empty() ? "" : "-" + r.reference) + ".json");
+    return folder / (trust::file_stem(scene.name) + (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) + ".json");
 }
 
 std::string entries_text(const Certificate& c) {
@@ -120,20 +118,13 @@ std::string text_of(const Certificate& c) {
            "\nnoise floor: the first against itself, started a relative 1e-12 apart";
 }
 
-// What lies there says more of the same scene than the one that is asked for would: it lasts longer, or it has entries that this one lacks.
+// What lies there says more of the same scene than the one that is asked for would: it lasts longer.
 bool covers_more(const trust::KeptCertificate& there, const trust::KeptCertificate& asked) {
     const Certificate &old = there.certificate, &fresh = asked.certificate;
     if (there.scene_hash != asked.scene_hash || old.modes != fresh.modes || old.tap_rate != fresh.tap_rate) return false;
-    if (old.duration < fresh.duration * (1 - 1e-9)) return false;
     const auto is_stand_in = [](const Certificate& c) { return c.entries.front().reference.starts_with("oversampled "); };
     if (is_stand_in(old) && !is_stand_in(fresh)) return false;  // the scene has become representable
-    const auto missing = [&fresh](const Certificate::Entry& e) {
-        return std::none_of(fresh.entries.begin(), fresh.entries.end(), [&e](const Certificate::Entry& f) {
-            return e.reference == f.reference && (e.options == f.options || !e.doubled.empty()) && e.sample_rate == f.sample_rate &&
-                   e.doubled == f.doubled;  // whichever model was doubled
-        });
-    };
-    return old.duration > fresh.duration * (1 + 1e-9) || std::any_of(old.entries.begin(), old.entries.end(), missing);
+    return old.duration > fresh.duration * (1 + 1e-9);
 }
 
 Certificate made(const Scene& scene, CertifySettings settings, const Console& console) {
@@ -156,8 +147,6 @@ int certify_command(CertifyRequest r) {
     CertifySettings settings;
     settings.modes = r.modes;
     settings.tap_rate = r.tap_rate.value_or(44100);
-    settings.oversampled_rate = r.oversampled_rate.value_or(0);
-    settings.only = r.reference;
     if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size()) > 1e8)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
     trust::KeptCertificate kept = trust::planned_certificate(scene, settings);
@@ -173,13 +162,11 @@ int certify_command(CertifyRequest r) {
         if (auto found = trust::read_certificate(path, why)) {
             if (covers_more(*found, kept))
                 throw store::UsageError(fmt::format(
-                    "{} covers more of this scene than is asked for: {:g} s and {} runs, against {:g} s and {}; it is kept. --out FILE "
-                    "writes elsewhere",
-                    path.string(), found->certificate.duration, found->certificate.entries.size(), kept.certificate.duration,
-                    kept.certificate.entries.size()));
-            cached = !r.again && found->key == kept.key;
+                    "{} covers more of this scene than is asked for: {:g} s against {:g} s; it is kept. --out FILE writes elsewhere",
+                    path.string(), found->certificate.duration, kept.certificate.duration));
+            cached = found->key == kept.key;
             if (cached) kept = std::move(*found);
-            else if (found->key != kept.key)
+            else
                 console.note(fmt::format("{} {}; it is made again", path.string(),
                                          trust::of_this_program(*found)
                                              ? "is of another scene or setting"
@@ -223,20 +210,16 @@ Act certify_verb(CLI::App& program) {
     v.modes(v.r.modes);
     v.option("--duration", v.r.duration, seconds, "in place of the scene's; compare uses a certificate as far as it reaches");
     v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second that are compared; 44100 where absent");
-    v.option("--oversampled-rate", v.r.oversampled_rate, {"HZ", positive.check},
-             "also the best scheme at a quarter, half and all of this rate, with its own estimate; absent: only where no reference "
-             "represents the scene, at 64 tap rates");
     v.option("--out", v.r.out, {"FILE"},
              "the file, .json; results/certificates/<scene>.json where absent, with part of the scene's hash in its name where --set "
              "changes the scene. What a clock measured goes beside it, to .cost.json");
-    v.option("--reference", v.r.reference, {"NAME"},
-             "this one alone, at its two accuracies: a whole second of one that is fast. Its file has its name in it");
-    v.flag("--again", v.r.again, "runs the references also where the file is there and of the same scene and settings");
     return v.does(
         certify_command,
         "Example: jvari certify tanpura_c3_release --duration 0.1\n"
         "\n"
-        "Every reference that represents the scene runs at two settings of its accuracy. The table says, pair by pair, how far they are "
+        "Every reference that represents the scene runs at two settings of its accuracy; where there is none, the best scheme at 16, 32 "
+        "and\n"
+        "64 tap rates, with its own estimate. The table says, pair by pair, how far they are "
         "apart and\n"
         "for how long they agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the "
         "figure.");

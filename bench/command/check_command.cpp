@@ -10,7 +10,7 @@
 namespace jvari::bench::command {
 
 namespace {
-struct CheckRequest : Common {
+struct CheckRequest : Running {
     std::vector<std::string> schemes;  // none: those of the plugins
     std::string junit;
 };

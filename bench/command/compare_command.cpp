@@ -23,7 +23,7 @@ namespace jvari::bench::command {
 namespace {
 namespace fs = std::filesystem;
 
-struct CompareCall : Common, compare::CompareRequest {
+struct CompareCall : Running, compare::CompareRequest {
     bool resume = false;
     std::vector<std::string> option_lists;
     std::string modes_of_reference = "0";
@@ -133,7 +133,6 @@ Act compare_verb(CLI::App& program) {
     v.schemes(v.r.schemes, "absent: every scheme that represents the scene, but for controls");
     v.flag("--controls", v.r.controls, "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
     v.option("--rates", v.r.rates, {"HZ,...", hertz.check}, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")->delimiter(',');
-    v.reference(v.r.reference);
     v.option("--reference-modes", v.r.modes_of_reference, {"N|cell"},
              "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
              "of the schemes");

@@ -25,7 +25,7 @@ int export_command(ExportRequest r) {
     store::must_be_writable(r.out);
     const judge::Exported problem = judge::exported(r);
     std::optional<study::Truth> truth;
-    if (!r.without_reference) truth = judge::reference_of(r, problem, compare::Catalogue(r.plugins), console);
+    if (!r.without_reference) truth = judge::reference_of(r, problem, compare::Catalogue(), console);
     store::write_fresh(r.out, judge::problem_json(problem, truth ? &*truth : nullptr));
     console.print(fmt::format("{} at {:.12g} Hz, {:.12g} rows a second{}", problem.scene.name, r.rate, problem.settings.tap_rate,
                               truth ? "; reference: " + truth->reference.choice.name() + ", " + truth->said : ""));

@@ -12,7 +12,7 @@
 namespace jvari::bench::command {
 
 namespace {
-struct JudgeRequest : Common, compare::CompareRequest {
+struct JudgeRequest : Running, compare::CompareRequest {
     std::string name = "mine";
     std::vector<std::string> files;  // HZ=FILE
     std::vector<double> costs;
@@ -92,7 +92,6 @@ Act judge_verb(CLI::App& program) {
     v.duration(v.r.duration);
     v.option("--tap-rate", v.r.tap_rate, hertz,
              "rows per second of the traces; 44100 where all rates are multiples of it, else the lowest");
-    v.reference(v.r.reference);
     v.jobs(v.r.jobs);
     v.comparison_folder(v.r.out);
     return v.does(

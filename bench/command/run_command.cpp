@@ -1,6 +1,7 @@
 // jvari run: one scheme on one scene, its trace to a file, its summary to standard output.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -27,13 +28,13 @@ namespace jvari::bench::command {
 namespace {
 using Json = nlohmann::ordered_json;
 
-struct RunRequest : Common {
+struct RunRequest : Running {
     std::string scene, scheme;
     std::optional<double> rate;  // [Hz]
     int modes = 0;
     std::optional<double> duration;  // [s]
     std::optional<double> tap_rate;  // [Hz]
-    bool energy = false;
+    bool energy = false, facts = false;
     std::vector<std::string> set;
     std::vector<std::string> options;
     std::string out, plot, width;
@@ -49,7 +50,20 @@ std::string dearest(const std::vector<Fact>& facts) {
         coupled);
 }
 
-std::string text_for(const study::Summary& s, const Scene& scene) {
+// Without `all` only those that tell how the scene is approximated.
+std::string facts_text(const Descriptor& d, const study::Summary& s, const Scene& scene, bool all) {
+    const auto approximates = [&](const std::string& name) {  // of one of several strings: behind the last dot
+        return std::ranges::any_of(d.approximates, [&](const Approximation& a) {
+            return name.substr(name.rfind('.') + 1) == a.fact.name && needed_by(scene).has(a.feature);
+        });
+    };
+    std::string text;
+    for (const Fact& f : s.facts)
+        if (all || approximates(f.name)) text += fmt::format("\n  {:<27} {:.6g} {}", f.name, f.value, f.unit);
+    return text;
+}
+
+std::string text_for(const RunRequest& r, const Descriptor& d, const study::Summary& s, const Scene& scene) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
     const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<27} {}", name, value); };
     for (const String& string : scene.strings) line("string", compare::tuning_text(string));
@@ -67,7 +81,7 @@ std::string text_for(const study::Summary& s, const Scene& scene) {
     if (!std::isnan(s.smallest_contact_force)) line("smallest contact force", fmt::format("{:.6g} N", s.smallest_contact_force));
     if (!std::isnan(s.largest_contact_force)) line("largest contact force", fmt::format("{:.6g} N", s.largest_contact_force));
     if (!std::isnan(s.deepest_penetration)) line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
-    for (const Fact& f : s.facts) line(f.name.c_str(), fmt::format("{:.6g} {}", f.value, f.unit));
+    text += facts_text(d, s, scene, r.facts);
     for (const study::Flag& f : study::flags_of(s)) text += "\n! " + f.sentence;
     return text;
 }
@@ -161,7 +175,7 @@ int run_command(RunRequest r) {
     }
     const study::Summary summary = study::summary_of(d, scene, settings, result);
     Json json = json_of(summary);
-    std::string text = text_for(summary, scene);
+    std::string text = text_for(r, d, summary, scene);
     if (!r.out.empty()) {
         std::string said;
         if (player && drawn > 0) said = player->write(part_of(result.trace, drawn, heard));
@@ -196,6 +210,7 @@ Act run_verb(CLI::App& program) {
     v.duration(v.r.duration);
     v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second; 44100 where absent, or the rate where that is no multiple of it");
     v.flag("--energy", v.r.energy, "probe the energy: three more columns, and the residuals of the balance");
+    v.flag("--facts", v.r.facts, "every fact that the scheme reports, its solver's counters among them; --json always has them");
     v.option("--out", v.r.out, {"FILE"}, "writes the trace, .csv, or what is heard of it, .wav");
     v.option("--width", v.r.width, {"WIDTH"}, "of the picture, as 85mm for a column of a paper");
     v.option("--plot", v.r.plot, {"FILE"},

@@ -22,7 +22,7 @@ namespace jvari::bench::command {
 namespace {
 namespace fs = std::filesystem;
 
-struct TrimCall : Common, trim::Request {
+struct TrimCall : Running, trim::Request {
     std::vector<std::string> option_lists;
 };
 
@@ -96,10 +96,10 @@ void keep_sounds(const fs::path& folder, const trim::Trimmed& t, const trim::Jud
 int trim_command(TrimCall r) {
     r.options = listed_options(r.option_lists);
     const Console console(r.json, r.quiet);
-    const compare::Catalogue catalogue(r.Common::plugins);
+    const compare::Catalogue catalogue(r.Running::plugins);
     compare::note_slow_plugins(console);
     trim::Request request = r;
-    request.plugins = r.Common::plugins;
+    request.plugins = r.Running::plugins;
     std::optional<store::WhenInterrupted> last_word;
     if (!r.out.empty())
         last_word.emplace(
@@ -147,7 +147,6 @@ Act trim_verb(CLI::App& program) {
     v.options(v.r.option_lists);
     v.option("--duration", v.r.duration, seconds, "how much of the scene is run and judged; 0.05 where absent");
     v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second that are compared, and the lowest rate that is tried; 44100 where absent");
-    v.reference(v.r.reference);
     v.option("--reference-modes", v.r.reference_modes, {"N", CLI::Validator(CLI::NonNegativeNumber).description("")},
              "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach");
     v.jobs(v.r.jobs);

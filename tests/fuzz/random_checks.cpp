@@ -182,7 +182,7 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     if (!best || !needs.has(Feature::lumped_barrier) || needs.has(Feature::profile_barrier)) return;
     at("certificate");
     const double until = std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate;
-    const Certificate certificate = certify(c.scene, {c.settings.modes, c.settings.tap_rate, 0, {}, {}});
+    const Certificate certificate = certify(c.scene, {c.settings.modes, c.settings.tap_rate, {}, {}});
     const auto with = [&](const char* rtol) { return Settings{0, c.settings.tap_rate, certificate.modes, {{"rtol", rtol}}}; };
     const Settings own{0, c.settings.tap_rate, certificate.modes, {}};
     const Run r = run(*best, c.scene, own), truth = run(sundials, c.scene, with("1e-14"));  // finer than any entry of the certificate
@@ -231,7 +231,7 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
         if (cpu_seconds() - from > about_scene_seconds) throw PastItsLimit{};
     };
     const bool profile = needed_by(c.scene).has(Feature::profile_barrier);
-    CertifySettings settings{std::min(model_modes, modes_for(c.scene, {})), c.settings.tap_rate, 0, {}, [&](double) { look(); }};
+    CertifySettings settings{std::min(model_modes, modes_for(c.scene, {})), c.settings.tap_rate, {}, [&](double) { look(); }};
     at("certificate about the scene");
     const Certificate certificate = certify(c.scene, settings);
     const auto trust_in = [&](const OptionValues& options) {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/command/console.hpp"
@@ -22,7 +21,6 @@ using Json = nlohmann::ordered_json;
 
 struct ListRequest : Common {
     std::string what;  // "": everything
-    bool markdown = false;
 };
 
 using Schemes = std::vector<const Descriptor*>;
@@ -66,7 +64,7 @@ Listing list_scenes(const Shelf& shelf) {
         all.push_back({{"name", name}, {"error", why}});
         text += fmt::format("  {}  cannot be read: {}\n", name, why);
     }
-    return {std::move(all), text, ""};
+    return {std::move(all), text};
 }
 
 Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {
@@ -85,7 +83,7 @@ Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {
             if (compare::represents(*d, scene)) able.push_back(name);
         text += fmt::format("  {:<{}}  {}\n", d->name, width, fmt::join(able, ", "));
     }
-    return {std::move(all), text, ""};
+    return {std::move(all), text};
 }
 
 Listing list_suites() {
@@ -103,29 +101,14 @@ Listing list_suites() {
             text += fmt::format("  {}  cannot be read: {}\n", name, e.what());
         }
     if (all.empty()) text += "  none\n";
-    return {std::move(all), text, ""};
+    return {std::move(all), text};
 }
 
 int list_command(ListRequest r) {
     const Console console(r.json, false);  // --quiet: the list is all that was asked for
-    const compare::Catalogue catalogue(r.plugins);
+    const compare::Catalogue catalogue;
     Schemes both = catalogue.schemes;
     both.insert(both.end(), catalogue.references.begin(), catalogue.references.end());
-    if (r.markdown) {
-        const std::map<std::string, std::function<Listing()>> tables{{"schemes", [&] { return list_descriptors("", both); }},
-                                                                     {"options", [&] { return list_options(both); }},
-                                                                     {"facts", list_facts},
-                                                                     {"keys", list_keys},
-                                                                     {"columns", list_columns}};
-        const auto table = tables.find(r.what);
-        if (table == tables.end())
-            throw store::UsageError(
-                "--markdown goes with `jvari list schemes`, and with options, facts, keys or columns in place of schemes");
-        const std::string markdown = table->second().markdown;
-        console.print(markdown);
-        console.print_json(store::indented({{"markdown", markdown}}));
-        return exit_code::done;
-    }
     Json json = Json::object();
     std::string text;
     const auto add = [&](const char* what, const Listing& l) {
@@ -158,9 +141,7 @@ Act list_verb(CLI::App& program) {
              {"WHAT", CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites", "keys", "columns"})},
              "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or columns (of cells.csv); absent: "
              "all, and the matrix");
-    v.flag("--markdown", v.r.markdown,
-           "with `schemes`: the table of docs/schemes.md; with `options`, `facts`, `keys` or `columns`: their table");
-    return v.does(list_command, "Example: jvari list schemes --markdown");
+    return v.does(list_command, "Example: jvari list schemes");
 }
 
 }  // namespace jvari::bench::command

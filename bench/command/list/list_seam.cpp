@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "schemes/controls.hpp"
@@ -21,10 +20,9 @@ const char* name_of(Balance b) {
     return b == Balance::exact ? "exact" : b == Balance::to_tolerance ? "to tolerance" : "none";
 }
 
-std::vector<std::string> approximations_of(const Descriptor& d, const char* quote) {  // "damping (fact start_phase_error)"
+std::vector<std::string> approximations_of(const Descriptor& d) {  // "damping (fact start_phase_error)"
     std::vector<std::string> all;
-    for (const Approximation& a : d.approximates)
-        all.push_back(fmt::format("{} (fact {}{}{})", jvari::name_of(a.feature), quote, a.fact.name, quote));
+    for (const Approximation& a : d.approximates) all.push_back(fmt::format("{} (fact {})", jvari::name_of(a.feature), a.fact.name));
     return all;
 }
 
@@ -66,12 +64,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
     Json json = Json::array();
     std::size_t width = 0;
     for (const Descriptor* d : list) width = std::max(width, std::string(d->name).size());
-    std::string text = fmt::format("{}\n", title), head = "| scheme |", rule = "|---|", body, notes;
-    std::vector<std::pair<std::string, std::string>> noted;  // a note, and the schemes that have it
-    for (int i = 0; i < feature_count; ++i) {
-        head += fmt::format(" {} |", jvari::name_of(static_cast<Feature>(1u << i)));
-        rule += ":-:|";
-    }
+    std::string text = fmt::format("{}\n", title);
     for (const Descriptor* d : list) {
         const std::string note = d->note;
         const Features not_quite = approximated(*d);
@@ -85,6 +78,7 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
                         {"approximates", approximates},
                         {"note", note},
                         {"options", options},
+                        {"control", is_control(*d)},
                         {"limit", d->limit.name ? Json(d->limit.name) : Json()},
                         {"balance", name_of(d->balance)},
                         {"clock", d->clock == Clock::continuous ? "continuous" : "stepped"}});
@@ -92,28 +86,10 @@ Listing list_descriptors(const char* title, const std::vector<const Descriptor*>
         text += fmt::format("  {:<{}}  {}\n  {:<{}}  energy balance {}{}; represents {}\n", d->name, width, d->source, "", width,
                             name_of(d->balance), d->clock == Clock::continuous ? "; continuous time" : "",
                             fmt::join(compare::names_in(d->represents - not_quite), ", "));
-        if (!not_quite.empty()) text += fmt::format("  {:<{}}  approximates {}\n", "", width, fmt::join(approximations_of(*d, ""), ", "));
+        if (!not_quite.empty()) text += fmt::format("  {:<{}}  approximates {}\n", "", width, fmt::join(approximations_of(*d), ", "));
         if (!note.empty()) text += fmt::format("  {:<{}}  {}\n", "", width, note);
-
-        if (is_control(*d)) continue;  // the table is for those who choose a scheme
-        body += fmt::format("| `{}` |", d->name);
-        for (int i = 0; i < feature_count; ++i) {
-            const auto feature = static_cast<Feature>(1u << i);
-            body += not_quite.has(feature) ? "◐|" : d->represents.has(feature) ? "●|" : "|";
-        }
-        body += fmt::format(" {} |\n", name_of(d->balance));
-        if (not_quite.empty() && note.empty()) continue;
-        const std::string line = (not_quite.empty() ? "" : fmt::format(" ◐ {}.", fmt::join(approximations_of(*d, "`"), ", "))) +
-                                 (note.empty() ? "" : " " + note);
-        const auto known = std::ranges::find(noted, line, &std::pair<std::string, std::string>::first);
-        if (known != noted.end()) known->second += fmt::format(", `{}`", d->name);
-        else noted.emplace_back(line, fmt::format("`{}`", d->name));
     }
-    for (const auto& [line, names] : noted) notes += fmt::format("- {}:{}\n", names, line);
-    return {std::move(json), text + (list.empty() ? "  none\n" : ""),
-            head + " energy balance |\n" + rule + "---|\n" + body +
-                "\n● as in the scene; ◐ approximated, and a fact of the run says how. Every scheme takes several strings and a body.\n\n" +
-                notes};
+    return {std::move(json), text + (list.empty() ? "  none\n" : "")};
 }
 
 Listing list_pairings() {
@@ -126,36 +102,29 @@ Listing list_pairings() {
         if (p.string != string) text += fmt::format("  {}\n", string = p.string);
         text += fmt::format("    {:<{}}  {}{}{}\n", p.rule, width, p.scheme, p.options.empty() ? "" : " ", p.options);
     }
-    return {std::move(json), text, ""};
+    return {std::move(json), text};
 }
 
 Listing list_options(const std::vector<const Descriptor*>& schemes) {
     Json json = Json::array();
-    std::string text = "options\n", markdown = "| option | default | meaning | schemes |\n|---|---|---|---|\n";
+    std::string text = "options\n";
     for (const Listed& l : options_of(schemes)) {
         const Option& o = *l.option;
         json.push_back(
             {{"name", o.name}, {"default", o.fallback}, {"meaning", o.meaning}, {"choices", words_of(o)}, {"schemes", l.schemes}});
         text += fmt::format("  {:<16}{:<10}{}\n  {:<26}{}\n", o.name, o.fallback, meaning_of(o), "", fmt::join(l.schemes, ", "));
-        std::vector<std::string> quoted;
-        for (const std::string& name : l.schemes) quoted.push_back("`" + name + "`");
-        markdown += fmt::format("| `{}` | {} | {} | {} |\n", o.name, o.fallback, meaning_of(o), fmt::join(quoted, ", "));
     }
-    return {std::move(json), text, markdown};
+    return {std::move(json), text};
 }
 
 Listing list_measured(const char* title, int name_width, int unit_width, const std::vector<Measured>& all) {
     Json json = Json::array();
-    std::string text = fmt::format("{}\n", title), markdown;
+    std::string text = fmt::format("{}\n", title);
     for (const auto& [names, unit, meaning] : all) {  // one name, or several with a comma between them
         json.push_back({{"name", names}, {"unit", unit}, {"meaning", meaning}});
         text += fmt::format("  {:<{}}{:<{}}{}\n", names, name_width, unit, unit_width, meaning);
-        std::string quoted = "`" + names + "`";
-        for (auto at = quoted.find(", "); at != std::string::npos; at = quoted.find(", ", at + 4)) quoted.replace(at, 2, "`, `");
-        markdown += fmt::format("| {} | {} | {} |\n", quoted, unit, meaning);
     }
-    const std::string head = std::string(title, std::strlen(title) - 1);  // of one: "fact"
-    return {std::move(json), text, fmt::format("| {} | unit | meaning |\n|---|---|---|\n", head) + markdown};
+    return {std::move(json), text};
 }
 
 Listing list_facts() {

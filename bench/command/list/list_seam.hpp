@@ -9,10 +9,10 @@
 
 namespace jvari::bench::command {
 
-// One thing listed in its three forms.
+// One thing listed in its two forms.
 struct Listing {
     nlohmann::ordered_json json;
-    std::string text, markdown;
+    std::string text;
 };
 // What has a unit: "  name  unit  meaning" a line, names and units filled to these widths.
 struct Measured {
@@ -20,7 +20,7 @@ struct Measured {
 };
 Listing list_measured(const char* title, int name_width, int unit_width, const std::vector<Measured>&);
 
-Listing list_descriptors(const char* title, const std::vector<const Descriptor*>&);  // markdown: the table of docs/schemes.md
+Listing list_descriptors(const char* title, const std::vector<const Descriptor*>&);
 Listing list_pairings();
 Listing list_options(const std::vector<const Descriptor*>&);
 Listing list_facts();
