@@ -105,7 +105,6 @@ set_tests_properties(host.configure PROPERTIES ENVIRONMENT PKG_CONFIG_LIBDIR=${C
 jvari_gate(Installed.TheSchemesAloneNeedNoLibraryUnderTheGpl host/check.sh $<TARGET_FILE:jvari> ${CMAKE_BINARY_DIR}/host/host ${prefix})
 set_tests_properties(Installed.TheSchemesAloneNeedNoLibraryUnderTheGpl PROPERTIES FIXTURES_REQUIRED host_built)
 jvari_gate(Installed.AllThatIsInstalledIsMadeWithTheProgram installable.sh ${CMAKE_BINARY_DIR})
-jvari_gate(Installed.ManualAndCompletionsKnowWhatTheProgramKnows manual.sh $<TARGET_FILE:jvari> ${CMAKE_BINARY_DIR}/manual)
 jvari_gate(Installed.TheDebianPackageHoldsWhatItNeeds package.sh ${CMAKE_BINARY_DIR})
 jvari_full(Installed.TheEngineIsALibraryForAnyProgram Installed.TheSchemesAloneNeedNoLibraryUnderTheGpl Installed.TheDebianPackageHoldsWhatItNeeds)
 

@@ -10,8 +10,7 @@ fail() { echo "$*"; exit 1; }
 cpack -G DEB --config "$build/CPackConfig.cmake" -B "$dir" > "$dir/log" 2>&1 || { cat "$dir/log"; exit 1; }
 deb=$(ls "$dir"/*.deb)
 dpkg-deb -x "$deb" "$dir/root"
-for file in bin/jvari share/man/man1/jvari.1 share/bash-completion/completions/jvari share/zsh/vendor-completions/_jvari \
-    share/fish/vendor_completions.d/jvari.fish share/jvari/scenes/tanpura_c3.toml share/jvari/suites/smoke.toml \
+for file in bin/jvari share/jvari/scenes/tanpura_c3.toml share/jvari/suites/smoke.toml \
     share/jvari/certificates/tanpura_c3_release.json share/doc/jvari/copyright include/jvari/schemes/scheme.hpp; do
     [ -s "$dir/root/usr/$file" ] || fail "the package lacks usr/$file"
 done
