@@ -8,7 +8,6 @@
 
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
-#include "bench/command/slurm/slurm_script.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
@@ -33,11 +32,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct SuiteRequest : Common {
+struct SuiteRequest : Running {
     std::string suite, out;
     bool resume = false;
-    std::string print;  // "slurm"
-    int jobs = 0;       // 0: as many as there are cores
+    int jobs = 0;  // 0: as many as there are cores
 };
 
 Json manifest_of(const suite::Suite& suite, const study::Plan& plan) {
@@ -92,14 +90,6 @@ std::string kept_text(const study::Plan& plan, const fs::path& folder) {
     return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", study::kept_of(plan, folder), folder.string());
 }
 
-int print_script(const SuiteRequest& r, const suite::Suite& suite, const Console& console) {
-    if (r.out.empty()) throw store::UsageError("--print: there is no --out DIR for the tasks to share");
-    const std::string script = slurm_script(suite, r.suite, r.out, r.plugins);
-    console.print(script);
-    console.print_json(store::indented({{"script", script}}));
-    return exit_code::done;
-}
-
 void note_missing_locks(const fs::path& folder, const Console& console) {
     try {
         if (store::FileLock(folder / "cells" / "any", "begins").held()) return;
@@ -116,7 +106,6 @@ int suite_command(SuiteRequest r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     study::Plan plan = suite::plan_of(suite, catalogue, r.plugins);
-    if (!r.print.empty()) return print_script(r, suite, console);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
     const fs::path kept_cells = cells_folder(folder, "suite " + suite.name, console);
@@ -161,12 +150,8 @@ Act suite_verb(CLI::App& program) {
              "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures");
     v.flag("--resume", v.r.resume,
            "reads back the cells that DIR holds and runs the others; any number of processes may do so at once in one DIR");
-    v.option("--print", v.r.print, {"slurm", CLI::IsMember({"slurm"}).description("")},
-             "runs nothing: writes the script of a Slurm array, whose tasks share DIR, to standard output");
     v.jobs(v.r.jobs);
-    return v.does(suite_command,
-                  "Examples: jvari suite paper-deshmukh --out sitar --resume\n"
-                  "          jvari suite stability --out maps --print slurm > job.sh && sbatch job.sh");
+    return v.does(suite_command, "Example: jvari suite paper-deshmukh --out sitar --resume");
 }
 
 }  // namespace jvari::bench::command

@@ -162,7 +162,6 @@ Suite read_suite(const std::string& name) {
         throw store::UsageError(store::unknown("suite", name, library_suites()) + " (neither a file nor a suite of the library)");
     const std::string path = file ? name : shelved.string();
     Suite suite = parse_suite(store::read_whole(path), path);
-    suite.shelved = known;
     // a scene's file is looked for beside the suite's, then where the program runs; a name of the library is neither
     const auto find = [&](std::string& scene) {
         if (const fs::path beside = fs::path(path).parent_path() / scene;

@@ -41,7 +41,6 @@ struct CellSet
 
 struct Suite {
     std::string name, question, source;
-    bool shelved = false;  // it is the library's, found by its name
     std::vector<CellSet> sets;
     std::vector<map::Map> maps;
 };

@@ -235,33 +235,6 @@ TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
     EXPECT_EQ(files(".clock"), 2);
 }
 
-TEST(SharedFolder, TheScriptForSlurmIsOneThatAShellReads) {
-    const Scratch scratch;
-    std::ofstream(scratch / "it's a.toml") << study;
-    Outcome o = shell(scratch, "$J suite \"it's a.toml\" --out 'my study' --print slurm > job.sh && sh -n job.sh && cat job.sh");
-    EXPECT_TRUE(ends(o, 0,
-                     "\nexec " JVARI_PROGRAM " suite '" + (scratch / "it'\\''s a.toml") + "' --out '" + (scratch / "my study") +
-                         "' --resume --jobs \"${SLURM_CPUS_PER_TASK:-1}\"\n"));
-    EXPECT_EQ(o.out.find("#!/bin/sh\n#SBATCH --array="), 0u) << o.out;
-    EXPECT_LE(std::count(o.out.begin(), o.out.end(), '\n'), 10);
-    EXPECT_FALSE(fs::exists(scratch / "my study"));
-    EXPECT_EQ(shell(scratch, "$J suite \"it's a.toml\" --print slurm").code, 2);
-
-    // a suite of the library is called by its name, whatever stands there under that name
-    o = shell(scratch, "mkdir smoke; $J suite smoke --out smoke --print slurm");
-    EXPECT_TRUE(says(o.out, " suite smoke --out " + (scratch / "smoke") + " ")) << o.err;
-
-    // a line break would be a line of the script
-    for (const char* with :
-         {"$'b\\ntouch RAN\\n.toml' --out x", "b.toml --out $'x\\ntouch RAN\\n'", "b.toml --out x --plugin $'p\\np.so'"}) {
-        o = shell(scratch, "cp it* b.toml; cp it* $'b\\ntouch RAN\\n.toml'; cp " JVARI_HONEST " $'p\\np.so'; $J suite " +
-                               std::string(with) + " --print slurm");
-        EXPECT_EQ(o.code, 2) << with;
-        EXPECT_EQ(o.out, "") << with;
-        EXPECT_TRUE(says(o.err, "a file name holds a control character")) << with;
-    }
-}
-
 // ---- Two machines
 
 bench::store::Table timed_on(

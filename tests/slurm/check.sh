@@ -101,8 +101,15 @@ fi
 
 cd "$dir"
 touch hold/v1 hold/v2
-"$jvari" suite "$here/suite.toml" --plugin "$plugin" --out all --print slurm > job.sh
-sbatch --output=task-%a job.sh
+# The lines of docs/using.md, where the program has the plugin and the suite of the library is the test's.
+mkdir -p build/release suites
+printf '#!/bin/sh\nexec "%s" "$@" --plugin "%s"\n' "$jvari" "$plugin" > build/release/jvari
+chmod +x build/release/jvari
+cp "$here/suite.toml" suites/stability.toml
+export JVARI_SUITES=$dir/suites SBATCH_OUTPUT=task-%a
+sed -n "/^    sbatch <</,/^    END$/s/^    //p" "$here/../../docs/using.md" > lines
+[ "$(wc -l < lines)" = 5 ] || { echo "docs/using.md has no five lines for Slurm"; exit 1; }
+bash lines
 
 held_on() {  # NODE: the task that stopped itself there
     local file
@@ -126,15 +133,15 @@ end "$killed"                                                                 # 
 idle() { local jobs; jobs=$(squeue -h -o %A 2>/dev/null) && [ -z "$jobs" ]; }
 wait_for_all() { for _ in $(seq 600); do ! idle || return 0; sleep 0.5; done; echo "jobs are left after 5 minutes"; return 1; }
 # Meanwhile the same in one process.
-"$jvari" suite "$here/suite.toml" --plugin "$plugin" --out whole --quiet > /dev/null
+build/release/jvari suite stability --out whole --quiet > /dev/null
 wait_for_all
 requeued=$(grep -c "due to failure of node v2" log/slurmctld.log || true)
 [ "$requeued" -ge 1 ] || { echo "no task of the lost node was put back"; exit 1; }
 cells=$(($(wc -l < whole/errors.csv) - 1)) ran=0
 for n in $(sed -n "s/^$cells cells, \([0-9]*\) run, .*/\1/p" task-*); do ran=$((ran + n)); done
 [ "$ran" -ge 1 ] && [ "$ran" -le "$cells" ] || { echo "the tasks that came to their end ran $ran of $cells cells"; exit 1; }
-for table in errors.csv maps.csv boundaries.csv convergence.csv; do cmp whole/$table all/$table; done
-"$jvari" suite "$here/suite.toml" --plugin "$plugin" --out all --resume > last
+for table in errors.csv maps.csv boundaries.csv convergence.csv; do cmp whole/$table maps/$table; done
+build/release/jvari suite stability --out maps --resume > last
 grep -q "^$cells cells, 0 run, 0 timed, " last
-[ -z "$(find all -name '*.lock')" ] || { find all -name '*.lock'; exit 1; }
+[ -z "$(find maps -name '*.lock')" ] || { find maps -name '*.lock'; exit 1; }
 say "8 tasks on three nodes, $requeued put back, one lost: $cells rows, as one process writes them"
