@@ -134,7 +134,6 @@ int suite_command(SuiteRequest r) {
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
     for (const std::string& warning : compare::warnings_of(cells)) console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + folder.string());
-    if (const std::string several = store::machines_text(cells); !several.empty()) console.note(several);
     const int code = code_of(run.records);
     console.print_json(with_results(
         {{"suite", suite.name}, {"status", exit_code::status(code)}, {"ran", run.ran}, {"timed", run.timed}, {"read_back", run.read_back}},

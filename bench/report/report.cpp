@@ -10,7 +10,6 @@
 #include "bench/report/samples.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/base64.hpp"
-#include "bench/store/cell_rows.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/study/errors.hpp"
 #include "bench/study/record.hpp"
@@ -92,7 +91,6 @@ Json data_of(const Results& r) {
     Json data = empty_data(r.name, r.source + (r.source.empty() ? "" : " \u2014 ") + r.about);
     data["source"] = r.source;
     data["command"] = r.command;
-    data["machines"] = store::machines_text(r.cells);
     data["measures"] = measures();
     data["manifest"] = Json::parse(r.manifest, nullptr, false);
     for (const auto& [name, table] : r.tables)
@@ -133,7 +131,7 @@ nlohmann::ordered_json empty_data(const std::string& title, const std::string& a
     for (const auto& list : {schemes(), references()})
         for (const Descriptor& d : list) known.push_back({d.name, is_control(d)});
     Json data{{"title", title}, {"about", about}, {"schemes", known}, {"tables", Json::object()}, {"manifest", Json::object()}};
-    for (const char* text : {"source", "command", "missing", "machines"}) data[text] = "";
+    for (const char* text : {"source", "command", "missing"}) data[text] = "";
     for (const char* list : {"measures", "sounds", "levels", "pictures"}) data[list] = none;
     for (const char* of : {"cells", "sounds", "figures"}) data["left_out"][of] = none;
     return data;

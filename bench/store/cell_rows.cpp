@@ -51,27 +51,6 @@ std::vector<Rows> differing_in_rate(const Table& cells, const Rows& rows, const 
     return all;
 }
 
-std::vector<std::string> machines_of(const Table& cells) {
-    std::vector<std::string> machines;
-    for (std::size_t i = 0; i < cells.rows.size(); ++i)
-        if (const std::string& m = cells.at(i, "machine"); !m.empty() && std::find(machines.begin(), machines.end(), m) == machines.end())
-            machines.push_back(m);
-    return machines;
-}
-
-std::vector<std::string> with_machine(const Table& cells, std::vector<std::string> columns) {
-    if (machines_of(cells).size() > 1) columns.push_back("machine");
-    return columns;
-}
-
-std::string machines_text(const Table& cells) {
-    const auto machines = machines_of(cells);
-    if (machines.size() < 2) return "";
-    std::string text = "cells were timed on " + std::to_string(machines.size()) + " machines; costs are compared within each alone:";
-    for (const std::string& m : machines) text += "\n  " + m;
-    return text;
-}
-
 std::string run_name(const Table& cells, std::size_t row) {
     std::string name = variant_name(cells.at(row, "scheme"), cells.at(row, "options"));
     const bool grid = cells.number(row, "fact_grid_intervals") > 0;

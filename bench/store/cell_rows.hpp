@@ -27,9 +27,4 @@ Rows all_rows(const Table&);
 // "modal_two_point compliance=matched, 133 modes at 88.2 kHz"; of a grid, which takes its nodes from the rate, without them.
 std::string run_name(const Table& cells, std::size_t row);
 
-// What tells problems apart where a clock is compared: `columns`, and the machine where the cells were timed on several.
-std::vector<std::string> machines_of(const Table& cells);  // each once, in the order in which they come; cells without a clock have none
-std::vector<std::string> with_machine(const Table& cells, std::vector<std::string> columns);
-std::string machines_text(const Table& cells);  // the sentence that says so; "" where there is one machine
-
 }  // namespace jvari::bench::store

@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 
-#include "bench/store/checksum.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/system/time_limit.hpp"
 #include "schemes/run.hpp"
@@ -143,38 +142,8 @@ std::optional<Timing> read_clock(const fs::path& path, const std::string& identi
     });
 }
 
-std::string clock_file(const Job& cell, const store::Stamp& stamp) {
-    return cell.id + "." + store::hash_of(stamp.name).substr(0, 8) + ".clock";
-}
-
-std::vector<Clocks> clocks_in(const fs::path& folder, const Plan& plan, const store::Rows& cells) {
-    std::multimap<std::string, fs::path> files;  // by the id of their cell
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (const std::string name = entry.path().filename().string(); name.front() != '.' && entry.path().extension() == ".clock")
-            files.emplace(name.substr(0, name.find('.')), entry.path());
-    std::vector<Clocks> all;
-    for (const std::size_t i : cells) {
-        Clocks& own = all.emplace_back();
-        const auto [from, to] = files.equal_range(plan.jobs[i].id);
-        for (auto file = from; file != to; ++file)
-            if (auto clock = read_clock(file->second, plan.jobs[i].identity)) own.emplace(clock->stamp.name, std::move(*clock));
-    }
-    return all;
-}
-
-Chosen machine_of(const std::vector<Clocks>& cells) {
-    std::map<std::string, std::size_t> timed;
-    for (const Clocks& c : cells)
-        for (const auto& [machine, clock] : c) ++timed[machine];
-    const auto own = timed.find(store::stamp_now().name);
-    if (own != timed.end() && own->second == cells.size()) return {own->first, true};
-    Chosen best;
-    std::size_t most = 0;
-    for (const auto& [machine, count] : timed)
-        if (count > most) best.machine = machine, most = count;
-    best.all = most == cells.size();
-    return best;
+std::string clock_file(const Job& job) {
+    return job.id + ".clock";
 }
 
 }  // namespace jvari::bench::study

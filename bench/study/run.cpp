@@ -64,56 +64,48 @@ void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, Refe
         [&](std::size_t k) { return what_of(plan.jobs[missing[k]]); });
 }
 
-// Jobs of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike. Where one of them has
-// no clock of the machine that timed the others, all are timed here.
-std::vector<Clocks> time_set(const Plan& plan, const store::Rows& indices, const Kept& keep, Study& into, const store::Listener& listener) {
-    std::vector<Clocks> clocks(indices.size());
-    if (keep.resume && !keep.folder.empty()) clocks = clocks_in(keep.folder, plan, indices);
-    if (machine_of(clocks).all) return clocks;
-    const std::string here = store::stamp_now().name;
-    std::vector<std::size_t> todo;  // of indices
-    std::vector<Cell> cells;
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-        if (clocks[k].contains(here)) continue;
-        todo.push_back(k);
-        cells.push_back(into.records[indices[k]].cell);
-    }
+// Jobs of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.
+void time_set(const Plan& plan, const store::Rows& indices, const Kept& keep, Study& into, const store::Listener& listener) {
     std::vector<Contender> contenders;
-    for (std::size_t t = 0; t < todo.size(); ++t) {
-        const Point& p = *plan.jobs[indices[todo[t]]].point;
-        contenders.push_back({&cells[t], &p.scene});
-    }
+    for (const std::size_t i : indices) contenders.push_back({&into.records[i].cell, &plan.jobs[i].point->scene});
     time_cells(contenders, plan.jobs[indices.front()].repeats, listener);
-    for (std::size_t t = 0; t < todo.size(); ++t) {
-        const Job& job = plan.jobs[indices[todo[t]]];
-        const Timing& clock = cells[t].clock;
-        if (!keep.folder.empty()) store::write_fresh(keep.folder / clock_file(job, clock.stamp), clock_json(clock, job.identity));
-        clocks[todo[t]].insert_or_assign(clock.stamp.name, clock);
+    for (const std::size_t i : indices) {
+        const Job& job = plan.jobs[i];
+        if (!keep.folder.empty()) store::write_fresh(keep.folder / clock_file(job), clock_json(into.records[i].cell.clock, job.identity));
         ++into.timed;
     }
-    return clocks;
 }
 
-// Into the records of those jobs: the costs of one machine, of others where that has none.
-void show_clocks(const store::Rows& indices, const std::vector<Clocks>& clocks, Study& into) {
-    const std::string machine = machine_of(clocks).machine;
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-        if (clocks[k].empty()) continue;
-        const auto own = clocks[k].find(machine);
-        into.records[indices[k]].cell.clock = own == clocks[k].end() ? clocks[k].begin()->second : own->second;
-    }
-}
-
-// One process of the folder times while no other does. None of them runs jobs then: each begins here once all are there.
+// One process of the folder times while no other does. None of them runs jobs then: each begins here once all are there. A folder has the
+// costs of one machine.
 void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Listener& listener) {
-    std::map<int, store::Rows> sets;
+    store::Rows timed;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i)
-        if (plan.jobs[i].repeats > 0 && !*plan.jobs[i].cell.scheme->untimed && into.records[i].cell.ran())
-            sets[plan.jobs[i].set].push_back(i);
-    if (sets.empty()) return;
+        if (plan.jobs[i].repeats > 0 && !*plan.jobs[i].cell.scheme->untimed && into.records[i].cell.ran()) timed.push_back(i);
+    if (timed.empty()) return;
     const auto lock =
         store::lock_once_free(keep.folder.empty() ? keep.folder : keep.folder / "clock", "times the cells of this folder", listener);
-    for (const auto& [number, set] : sets) show_clocks(set, time_set(plan, set, keep, into, listener), into);
+    std::map<int, store::Rows> sets;  // of what has no cost
+    const std::string here = store::stamp_now().name;
+    std::string elsewhere;
+    for (const std::size_t i : timed) {
+        const Job& job = plan.jobs[i];
+        const bool read = keep.resume && !keep.folder.empty();
+        const std::optional<Timing> known = read ? read_clock(keep.folder / clock_file(job), job.identity) : std::nullopt;
+        if (known) into.records[i].cell.clock = *known;
+        else sets[job.set].push_back(i);
+        if (known && known->stamp.name != here) elsewhere = known->stamp.name;
+    }
+    if (sets.empty()) return;
+    if (!elsewhere.empty()) {
+        const std::string folder = keep.folder.string();
+        listener.note(
+            fmt::format("the costs in {} come from another machine, {}; cells without a cost are not timed here. Remove {}/*.clock "
+                        "to time all of them on this machine",
+                        folder, elsewhere, folder));
+        return;
+    }
+    for (const auto& [number, set] : sets) time_set(plan, set, keep, into, listener);
 }
 }  // namespace
 

@@ -224,9 +224,14 @@ double Judge::cost(const Model& m) {
     const study::Plan plan = plan_of(m, 0);
     const study::Job& job = plan.jobs.front();
     if (const auto known = costs_.find(job.id); known != costs_.end()) return known->second;
-    const fs::path file = keep_.folder / study::clock_file(job, stamp_);
-    if (const auto kept = request_.out.empty() ? std::nullopt : study::read_clock(file, job.identity))
+    const fs::path file = keep_.folder / study::clock_file(job);
+    if (const auto kept = request_.out.empty() ? std::nullopt : study::read_clock(file, job.identity)) {
+        if (kept->stamp.name != stamp_.name)
+            throw store::UsageError(
+                fmt::format("--out {}: its costs come from another machine, {}; choose another folder, or remove {}/*.clock", request_.out,
+                            kept->stamp.name, keep_.folder.string()));
         return costs_[job.id] = kept->processor.median / scene_.duration;
+    }
     const double cost = costs_[job.id] = cost_of_(m, job.point->scene);
     study::Timing clock;
     clock.processor = clock.wall = spread_of(std::vector{cost * scene_.duration});

@@ -152,7 +152,7 @@ bool may_win(const store::Table& cells, std::size_t row, Controls controls) {
 }
 
 store::Table cheapest_of(const store::Table& cells, Controls controls) {
-    const std::vector<std::string> swept = store::with_machine(cells, store::swept_keys(cells));
+    const std::vector<std::string> swept = store::swept_keys(cells);
     store::Table t;
     t.columns = {"scene"};
     t.columns.insert(t.columns.end(), swept.begin(), swept.end());
@@ -212,7 +212,6 @@ std::string cheapest_text(const store::Table& t) {
                 text += fmt::format("    without matched compliance: {}\n", published);
         }
     }
-    if (t.column("machine") >= 0) text += "cells were timed on several machines: each has its own cheapest\n";
     if (!text.empty()) text.pop_back();
     return text;
 }

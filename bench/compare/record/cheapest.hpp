@@ -14,7 +14,6 @@ namespace jvari::bench::compare {
 //   as_published: where the cell found has matched compliance, the cheapest without it, its error and cost; or "none".
 //   why:     of what is found by third octaves, that the uncertainty of the reference is unknown where it is; of not_known, what the
 //   reference is known to, and by which other taps it is known; of none, for a waveform, what stands in the way (diagnosis.hpp).
-// Where cells were timed on several machines there is a row for each of them, and a column `machine` before `measure`.
 // Only cells that are timed and trusted count. The waveform's measure is the headline error of the scene. A control is known to be wrong
 // somewhere: it is named only where it was asked to compete.
 enum class Controls { stand_beside, compete };

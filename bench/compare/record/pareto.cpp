@@ -44,16 +44,9 @@ std::vector<bool> pareto_front(std::span<const Point> points) {
 }
 
 std::vector<bool> pareto_front(const store::Table& cells, const store::Rows& rows, const std::string& error, const std::string& cost) {
-    std::vector<bool> front(cells.rows.size(), false), of_rows;
-    const std::vector<std::string> apart = is_clock(cost) ? std::vector<std::string>{"machine"} : std::vector<std::string>{};
-    for (const store::Rows& one_machine : store::alike(cells, rows, apart)) {
-        std::vector<Point> points;
-        for (const std::size_t row : one_machine) points.push_back(point_of(cells, row, error, cost));
-        const std::vector<bool> own = pareto_front(points);
-        for (std::size_t k = 0; k < own.size(); ++k) front[one_machine[k]] = own[k];
-    }
-    for (const std::size_t row : rows) of_rows.push_back(front[row]);
-    return of_rows;
+    std::vector<Point> points;
+    for (const std::size_t row : rows) points.push_back(point_of(cells, row, error, cost));
+    return pareto_front(points);
 }
 
 store::Table with_front(store::Table cells) {

@@ -19,7 +19,7 @@ struct Point {
 std::vector<bool> pareto_front(std::span<const Point>);
 
 // Which of the rows of cells.csv are on the front of an error column and a cost column: of those that are trusted and whose error is
-// known. Where the cost is a clock's and cells were timed on several machines, each machine has a front of its own.
+// known.
 std::vector<bool> pareto_front(const store::Table& cells, const store::Rows&, const std::string& error, const std::string& cost);
 
 // The table with the column `pareto` after what the clock said: 1 for the rows on the front of `cost_s_per_s` and the headline error of

@@ -62,7 +62,7 @@ function bands_of(rows, error) {
   return {floor: known(floor), certificate: least === most ? known(most) : null};
 }
 
-const goal_text = g => `${g.goal}: ${g.run}${g.ties ? ` or ${g.ties}` : ""}${g.machine ? ` (${g.machine})` : ""}`;
+const goal_text = g => `${g.goal}: ${g.run}${g.ties ? ` or ${g.ties}` : ""}`;
 // The goals that some cells of the scene reach and some do not, so that they lie among the points.
 function goals_of(rows, scene, error) {
   const most = c => number(c[error]) + (is_percent(error) ? number(c["certificate" + error.slice(5)]) : 0);
@@ -72,7 +72,7 @@ function goals_of(rows, scene, error) {
 
 function front_of(rows, error, cost) {  // the points of the front, from the cheapest on, with the name of each scheme at its dearest
   const on = of_scene(records("fronts"), rows[0]?.problem).filter(f => f.error === error && f.cost === cost).map(f => cells()[f.row]);
-  const front = on.map(c => ({n: c.n, series: c.line, machine: c.machine ?? "", x: number(c[cost]) * (cost === "rate" ? 1e-3 : 1), y: error_of(c, error)})).filter(p => p.y > 0);
+  const front = on.map(c => ({n: c.n, series: c.line, x: number(c[cost]) * (cost === "rate" ? 1e-3 : 1), y: error_of(c, error)})).filter(p => p.y > 0);
   for (const p of front) p.name = front.some(o => o.series === p.series && o.x > p.x) ? "" : p.series;
   return front.sort((a, b) => a.x - b.x);
 }
@@ -123,7 +123,7 @@ function work_precision_spec(choice, print) {
     ...band(bands.certificate, "the reference is certain to here", "#56b4e9", 0.16), ...band(bands.floor, "noise floor", "#888", 0.18), ...real_time(cost),
     {data: {values: goals}, mark: {type: "rule", strokeDash: [2, 4], color: "#888"}, encoding: {x: null}},
     ...(print ? [{data: {values: goals}, mark: {type: "text", x: {expr: "width - 6"}, dy: -6, align: "right", fontSize: 10, limit: {expr: "0.6 * width"}, opacity: {expr: "width < 500 ? 0 : 1"}}, encoding: {x: null, text: {field: "text"}}}] : []),
-    ...[[10, front_edge], [7, front_track]].map(([strokeWidth, tone]) => ({data: {values: front}, mark: {type: "line", strokeWidth, color: tone[0], strokeCap: "round", strokeJoin: "round", tooltip: null}, encoding: {order: {field: "x"}, detail: {field: "machine"}}})),
+    ...[[10, front_edge], [7, front_track]].map(([strokeWidth, tone]) => ({data: {values: front}, mark: {type: "line", strokeWidth, color: tone[0], strokeCap: "round", strokeJoin: "round", tooltip: null}, encoding: {order: {field: "x"}}})),
     {data: {values: sound.filter(p => p.from > 0 && p.to > 0)}, mark: {type: "rule", strokeWidth: 1}, encoding: {x: {field: "from", type: "quantitative"}, x2: {field: "to"}, color, opacity}},
     lines(true, 0.8), lines(false, 1.8), {...marks(true, {}), ...(print || choice.narrow ? {} : zoomed("x", "y"))}, marks(false, {filled: false, strokeWidth: 1.6}),  // hollow: not to be trusted
     print ? front_labels(front, all) : line_labels_layer(),
@@ -168,7 +168,6 @@ function work_precision_section() {
     "Down is more accurate, left is cheaper. The grey track is the Pareto front; its points say their rates. Bars are quartiles of the cost. Crosses at the upper edge are runs that failed. Dotted lines are accuracies that were asked for.",
     "A hue is a family of schemes, a marker a scheme, a dash its options; thin grey lines are controls, known to be wrong somewhere. Click a name in the legend to bring it out, more names with it, or the same name again to go back."];
   if (cells().some(c => c.flags)) notes.push("Hollow points are not to be trusted: the run's own figures speak against it. They are on no front.");
-  if (page.machines) notes.push("Each machine has a front of its own: " + page.machines);
   if (scenes.some(scene => Object.values(bands_of(of_scene(cells(), scene), errors_in(of_scene(cells(), scene))[0].column)).some(x => x !== null)))
     notes.push("Points in the grey band cannot be told apart, because the problem is too sensitive. Points in the blue band are below the accuracy of the reference. If the uncertainty of the reference is more than a tenth of an error, it is added to it: the point is an upper bound.");
   const twins = scenes.slice(0, most_twins).map(scene => ({file: twin_file("work_precision", scene, scenes_of_cells()), choice: first_choice(menus(scene), scene)}));
