@@ -7,7 +7,7 @@
 namespace jvari::bench::store {
 
 struct Said {
-    int code;  // its exit code, 128 + the signal that ended it, or -errno where it could not be started
+    int code;          // its exit code, 128 + the signal that ended it, or -errno where it could not be started
     std::string text;  // what it writes to its standard output and error
 };
 
