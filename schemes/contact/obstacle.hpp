@@ -17,7 +17,7 @@
 // ladder's masses, R and B what all of it and its branch with the mass resist in a step. So with Q = P - B v, W = (R C/span + 1/2)^-1 and
 // K = C W,
 //     D+ = D + K (F - Q),   P+ = P + W (F - Q),   points at reading + C P,   r = free - K Q + (Theta + K) F,
-// the equation above with Theta + K for Theta. (P' C P + v' M v)/2 is stored, and what LadderStep says is lost.
+// the equation above with Theta + K for Theta. (P' C P + v' M v)/2 is stored, and what MassStep says is lost.
 #pragma once
 
 #include <algorithm>
