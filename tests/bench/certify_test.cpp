@@ -193,8 +193,6 @@ TEST(CertifyCommand, MakesABrokenOrForeignFileAgainAndSaysSo) {
         EXPECT_TRUE(says(verb.last.err, "another scene or setting"));
         EXPECT_EQ(verb.run(other)["cached"], true) << other;
     }
-    verb.alter("program", "jvari 0.0.0");
-    verb.alter("key", "0");
     EXPECT_EQ(verb.run("--tap-rate 22050")["cached"], false);
     verb.alter("program", "jvari 0.0.0");
     verb.alter("key", "0");
