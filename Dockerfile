@@ -11,7 +11,7 @@ RUN cmake --install build/release --prefix /usr/local
 
 FROM debian:12-slim
 RUN apt-get update && apt-get install -y --no-install-recommends \
-    libfftw3-double3 libfmt9 libgsl27 libhwy1 libsamplerate0 libsndfile1 libsundials-arkode5 libsundials-cvode6 libtomlplusplus3 \
+    libfftw3-double3 libfmt9 libgsl27 libhwy1 libsamplerate0 libsndfile1 libsundials-cvode6 libtomlplusplus3 \
     nodejs && rm -rf /var/lib/apt/lists/*
 COPY --from=build /usr/local /usr/local
 COPY --from=build /jvari/node_modules /usr/local/share/jvari/node_modules

@@ -1,8 +1,8 @@
 // Which references agree on a scene, until when, to how much, and at what cost: what a reference may be trusted with.
 //
-// Every reference that represents the scene runs at two settings of its own accuracy, its default among them; all pairs are compared tap by
-// tap. Where one reference stands alone and offers several integrators, it also runs by another one. The noise floor is the first of them
-// against itself, started a relative 1e-12 apart: no two programs can agree better for long.
+// Every reference that represents the scene runs at its default accuracy and at those that it offers beside; all pairs are compared tap by
+// tap. Where sundials stands alone, it also runs to a finer tolerance and by another method. The noise floor is the first of them against
+// itself, started a relative 1e-12 apart: no two programs can agree better for long.
 //
 // All of these share one cut of the modes and one set of points for each profile, which they agree about and which the scene does not have.
 // So the first reference also runs with twice the modes, and with twice the points: what that changes is what the model leaves out.

@@ -144,6 +144,15 @@ void InstrumentEquations::slope(double t, const double* z, double* dz) const noe
         for (int i = 0; i < s.count; ++i) dv[s.first + i] -= a / s.mass * s.mu[i];
 }
 
+void InstrumentEquations::solve(double, double gamma, const double*, const double* b, double* x) noexcept {
+    std::copy_n(b, size(), x);
+    for (int i = 0; i < padded; ++i) {  // the blocks [1, -gamma w; gamma w, 1 + 2 gamma sigma]
+        const double w = gamma * omega_[i], damped = 1 + gamma * damping_[i], p = b[i], v = b[padded + i];
+        x[i] = (damped * p + w * v) / (damped + w * w);
+        x[padded + i] = (v - w * p) / (damped + w * w);
+    }
+}
+
 double InstrumentEquations::energy(const double* z) const noexcept {
     const double *p = z, *v = z + padded, speed = w_speed(z), at = w(z);
     double sum = 0.5 * inertia_ * speed * speed + 0.5 * tension_ * at * at;

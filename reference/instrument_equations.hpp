@@ -14,7 +14,7 @@
 
 #include <optional>
 
-#include "reference/equations.hpp"
+#include "reference/integrator.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/contact/contact.hpp"
 
@@ -53,8 +53,7 @@ struct InstrumentEquations final : Equations {
     double penetration_speed(int contact, const double* z) const noexcept override;
     double contact_force(int contact, const double* z) const noexcept override;
     double scale_squared(const double* z) const noexcept override;
-    void solve(double, double, const double*, const double*, double*) noexcept override {}  // explicit methods alone
-    void jacobian(double, const double*, double*) const noexcept override {}
+    void solve(double, double gamma, const double* z, const double* b, double* x) noexcept override;  // of the modes without their coupling
 
     double pace(const double* z) const noexcept;  // of the fastest motion [1/s]
     double energy(const double* z) const noexcept;

@@ -29,13 +29,11 @@ struct Heard {  // of one string
 class IntegratedInstrument final : public Scheme {
 public:
     IntegratedInstrument(const Scene& scene, const std::vector<String>& strings, std::vector<Modes> modes, double tap_rate,
-                         const Integrator::Settings& integrator, double first_step, double longest_step)
+                         const Integrator::Settings& integrator)
         : modes_(std::move(modes)),
           equations_(strings, modes_, scene.body->modes),
           integrator_(equations_, integrator),
           tolerance_(integrator.tolerance),
-          first_step_(first_step),
-          longest_step_(longest_step),
           tap_rate_(tap_rate) {
         std::vector<bool> heard(scene.taps.size(), false);
         std::size_t most_taps = 0, most_modes = 0;
@@ -93,8 +91,7 @@ private:
         std::fill(seen_.begin(), seen_.end(), 0.0);
         equations_.time = begun_ = time;
         for (auto& s : equations_.strings) s.plucked = s.pluck && time >= s.pluck->start && time < s.pluck->start + s.pluck->duration;
-        const double scale = 1 / equations_.pace(z);
-        integrator_.restart(first_step_ * scale, longest_step_ * scale);
+        integrator_.restart(1 / equations_.pace(z));
     }
 
     bool interval(const Block& out) noexcept {  // to the next row
@@ -157,7 +154,7 @@ private:
     std::vector<Heard> heard_;
     std::vector<double> start_, tap_, y_;
     std::vector<double> seen_, sums_;  // of the integrator's sums: taken already; since the last row
-    double tolerance_, first_step_, longest_step_, tap_rate_;
+    double tolerance_, tap_rate_;
     double begun_ = 0;  // t = 0 of the integrator [s]
     long row_ = 0;
     double events_ = 0;
@@ -165,8 +162,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Scheme> integrated_instrument(const Descriptor& descriptor, const Scene& scene, const Settings& settings,
-                                              const Integrator::Settings& integrator, double first_step, double longest_step) {
-    if (integrator.method != Method::erk) throw Refusal(std::string(descriptor.name) + ": a moving body takes method=erk alone");
+                                              const Integrator::Settings& integrator) {
     matched_without_loss(descriptor, scene, settings);
     std::vector<Modes> modes;
     std::vector<String> strings;
@@ -174,8 +170,7 @@ std::unique_ptr<Scheme> integrated_instrument(const Descriptor& descriptor, cons
         modes.push_back(modes_of(s, settings));
         strings.push_back(with_points(s, modes.back().count(), profile_points(settings)));
     }
-    return std::make_unique<IntegratedInstrument>(scene, strings, std::move(modes), settings.tap_rate, integrator, first_step,
-                                                  longest_step);
+    return std::make_unique<IntegratedInstrument>(scene, strings, std::move(modes), settings.tap_rate, integrator);
 }
 
 }  // namespace jvari

@@ -1,6 +1,6 @@
 // All strings of a scene on a body that moves, integrated to a stated tolerance: the reference for schemes/body. Between contacts nothing
 // is exact here, and contacts are found by steps short enough for root finding to see them (integrator.hpp), which is a belief and not a
-// bound. Leaves out: implicit methods, compliance=matched.
+// bound. Leaves out: compliance=matched.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,6 @@
 
 namespace jvari {
 
-// Steps in units of the time in which the fastest motion goes a radian.
-std::unique_ptr<Scheme> integrated_instrument(const Descriptor&, const Scene&, const Settings&, const Integrator::Settings&,
-                                              double first_step, double longest_step);
+std::unique_ptr<Scheme> integrated_instrument(const Descriptor&, const Scene&, const Settings&, const Integrator::Settings&);
 
 }  // namespace jvari

@@ -1,39 +1,48 @@
 // An adaptive integrator for Equations that stops where a barrier's surface is crossed: SUNDIALS behind plain doubles.
 //
-// Multi-step (CVODE: BDF, Adams) and one-step methods (ARKODE: explicit and ESDIRK). A crossing is found by the library's own root finding
-// on the penetrations, from outside where a barrier is not touched and from inside where it is. The library interpolates the state there
-// with fifth degree at most, which is worse than a one-step method's own order: so the last step is made again to end at the crossing, and
-// one Newton step puts the state onto the surface. A step whose ends' tangents meet beyond the surface is made again in two, so that no way
-// there and back is stepped over. The error weights leave the equations' four sums out.
+// Multi-step methods (CVODE: BDF, Adams). A crossing is found by the library's own root finding on the penetrations, from outside where a
+// barrier is not touched and from inside where it is, and one Newton step puts the state onto the surface. A step whose ends' tangents meet
+// beyond the surface is made again in two, so that no way there and back is stepped over. The error weights leave the equations' sums out.
 #pragma once
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
-#include "reference/equations.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
 
-enum class Method { bdf, adams, erk, esdirk };
-enum class LinearSolver { woodbury, dense };  // of the implicit methods
+// First-order equations with contacts: string_equations.hpp of one string, instrument_equations.hpp of all strings on a body that moves.
+struct Equations {
+    int padded = 0;             // components of p, and of v, in whole vectors; what is beyond the last stays zero
+    int contacts = 0;           // points 0 ... contacts - 1 are barriers
+    std::vector<char> touched;  // [contact]: given, not decided here
+
+    virtual ~Equations() = default;
+    virtual int size() const = 0;  // p, v, sums: the sums are not weighed
+    virtual void slope(double t, const double* z, double* dz) const noexcept = 0;
+    virtual double penetration(int contact, const double* z) const noexcept = 0;                           // eta [m]
+    virtual double penetration_speed(int contact, const double* z) const noexcept = 0;                     // [m/s]
+    virtual double contact_force(int contact, const double* z) const noexcept = 0;                         // [N], whether touched or not
+    virtual double scale_squared(const double* z) const noexcept = 0;                                      // of p and v [m^2/s^2]
+    virtual void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept = 0;  // (I - gamma J(z)) x = b
+};
+
+enum class Method { bdf, adams };
 
 class Integrator {
 public:
     struct Settings {
         Method method;
-        double
-            tolerance;  // relative, per step; absolute: this times `floor` times the root of equations.scale_squared()/size at the restart
-        double floor;
-        LinearSolver solver;
-        int order;  // highest, of the multi-step methods
+        double tolerance;  // relative, per step; absolute: of a thousandth of the root of equations.scale_squared()/size at the restart
     };
     Integrator(Equations&, const Settings&);  // throws std::bad_alloc
     ~Integrator();
 
-    double* state() noexcept;                                       // of size equations.size()
-    double time() const noexcept;                                   // since the restart [s]
-    void restart(double first_step, double longest_step) noexcept;  // from state() at time 0 [s]
+    double* state() noexcept;                    // of size equations.size()
+    double time() const noexcept;                // since the restart [s]
+    void restart(double longest_step) noexcept;  // from state() at time 0 [s]
 
     enum class Stop { reached, crossed, failed };
     Stop advance(double to, const Block& out) noexcept;  // fails where the caller wants no more of `out`; allocates nothing

@@ -19,9 +19,8 @@ struct SeriesStates {
     double yield(int a, const double* w) const noexcept { return count > 0 ? w[a] / width_[a] : 0; }               // D_a [m]
     double yield_speed(int a, const double* w) const noexcept { return count > 0 ? moved(a, w) / width_[a] : 0; }  // D_a' without forces
     double at_once(int a) const noexcept { return count > 0 ? push_[a * points + a] / width_[a] : 0; }             // D_a' by F_a [m/(N s)]
-    double drift(int i, int j) const noexcept { return drift_[i * count + j]; }
     double push(int i, int a) const noexcept { return push_[i * points + a]; }
-    double share(int i, int a) const noexcept { return i == a ? 1 / width_[a] : 0; }  // of a state in D_a
+    double share(int a) const noexcept { return 1 / width_[a]; }  // of state a in D_a
     void speed(const double* w, const double* force, double* out) const noexcept;
     double lost(const double* speed, const double* other) const noexcept;  // speed' Q other [W]
 

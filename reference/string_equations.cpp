@@ -76,6 +76,7 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
     if (s.pluck) {
         pluck_.push_back(*s.pluck);
         add_point(footprint_weights(modes, s.pluck->position, s.pluck->width));
+        least_scale_ = 1e-6 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
     }
     touched.assign(contacts, 0);
     inverse_.assign(padded, 0.0);
@@ -166,7 +167,7 @@ double StringEquations::scale_squared(const double* z) const noexcept {
     for (int i = 0; i < 2 * padded; ++i) sum += z[i] * z[i];
     for (int a = 0; a < points; ++a)
         if (acts(a)) pressed += potential(a, motion(a, z).y);
-    return std::max(sum, 2 * pressed / mass_);
+    return std::max({sum, 2 * pressed / mass_, 2 * padded * least_scale_ * least_scale_});
 }
 
 // An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/sum(g^2/m_i) what the modes have there.
@@ -229,7 +230,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         for (int c = 0; c < points; ++c)
             if (acts(c)) equation[c] += (gamma * f.K + f.R) * gamma * compliance_[a * points + c];
         for (int c = 0; series_.count > 0 && c < points; ++c)
-            if (acts(c)) equation[c] += gamma * (f.K * series_.answer(a, c) * series_.share(a, a) + f.R * series_.answer_speed(a, c));
+            if (acts(c)) equation[c] += gamma * (f.K * series_.answer(a, c) * series_.share(a) + f.R * series_.answer_speed(a, c));
         equation[points] = -f.K * d.y - f.R * d.v;
     }
     for (int c = 0; c < points; ++c) {  // elimination; the matrix is I + (positive diagonal) x (Gram matrix): pivots on the diagonal hold
@@ -282,52 +283,6 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
     if (plucked) {
         const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
         sum[supplied] += gamma * F * dot(row(weights_, points), xv, padded);
-    }
-}
-
-void StringEquations::jacobian(double t, const double* z, double* J) const noexcept {
-    const int n = size();
-    std::fill_n(J, static_cast<long>(n) * n, 0.0);
-    const auto at = [&](int i, int j) -> double& { return J[static_cast<long>(j) * n + i]; };
-    const double* v = z + padded;
-    for (int i = 0; i < padded; ++i) {
-        at(i, padded + i) = omega_[i];
-        at(padded + i, i) = -omega_[i];
-        at(padded + i, padded + i) = -damping_[i];
-        at(2 * padded + dissipated, padded + i) = 2 * loss_[i] * v[i];
-    }
-    const int first = padded + modes_, count = series_.count, lost = 2 * padded + dissipated;  // first: of what is in series
-    std::fill(acting_.begin(), acting_.end(), 0.0);
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j) at(first + i, first + j) += series_.drift(i, j);
-    for (int a = 0; a < points; ++a) {
-        if (!acts(a)) continue;
-        const Motion m = motion(a, z);
-        const Pull f = pull(a, m);
-        acting_[a] = f.F;
-        const double *y = row(reads_, a), *g = row(weights_, a), *d = row(gains_, a);
-        const double by_force = a >= contacts ? series_.at_once(a) : 0, v_a = m.v + by_force * f.F;
-        const auto add_column = [&](int j, double reads, double moves) {  // of what reads the point and its velocity so
-            const double F = -f.K * reads - f.R * moves;
-            for (int i = 0; i < modes_; ++i) at(padded + i, j) += d[i] * F;
-            for (int i = 0; i < count; ++i) at(first + i, j) += series_.push(i, a) * F;
-            at(2 * padded + (a < contacts ? bridge_impulse : thread_impulse), j) += F;
-            at(lost, j) += 2 * f.drag * v_a * (moves + by_force * F) - f.drag_slope * v_a * v_a * reads;
-        };
-        for (int j = 0; j < modes_; ++j) {
-            add_column(j, y[j], 0);
-            add_column(padded + j, 0, g[j]);
-        }
-        for (int j = 0; j < count; ++j) add_column(first + j, series_.share(j, a), series_.drift(a, j) * series_.share(a, a));
-    }
-    series_.speed(states(z), acting_.data(), speed_.data());
-    for (int k = 0; k < 2 * padded; ++k) {
-        for (int j = 0; j < count; ++j) change_[j] = at(first + j, k);
-        at(lost, k) += 2 * series_.lost(speed_.data(), change_.data());
-    }
-    if (plucked) {
-        const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
-        for (int j = 0; j < padded; ++j) at(2 * padded + supplied, padded + j) += F * row(weights_, points)[j];
     }
 }
 

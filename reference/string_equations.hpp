@@ -2,8 +2,8 @@
 // Issanchou et al. 2016, eq 24). With p = omega0 y, so that every component is a velocity and energy is m/2 times their squares,
 //
 //     p_i' = omega0_i v_i,    v_i' = -omega0_i p_i - 2 sigma_i v_i + sum_a d_ai F_a,      d_ai = g_ai/m
-// and where the string stretches, less EA L/8 beta_i^2/m sum (beta_j/omega0_j)^2 p_j^2 p_i/omega0_i (Kirchhoff, Carrier), which no Jacobian
-// here has: for explicit methods.
+// and where the string stretches, less EA L/8 beta_i^2/m sum (beta_j/omega0_j)^2 p_j^2 p_i/omega0_i (Kirchhoff, Carrier), which solve()
+// leaves out of J.
 //
 //     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c) - r_c v_c of the thread, F_e(t) of the pluck.
 //
@@ -16,7 +16,7 @@
 
 #include <vector>
 
-#include "reference/equations.hpp"
+#include "reference/integrator.hpp"
 #include "reference/series_states.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/contact/contact.hpp"
@@ -42,13 +42,12 @@ struct StringEquations final : Equations {
     double potential(int point, double y) const noexcept;                                    // [J], of a barrier or the thread
     double reach(int mode) const noexcept { return reach_.empty() ? 0 : reach_[mode]; }      // (beta/omega0)^2
     double stretching(double sum) const noexcept { return EA_ * length_ / 32 * sum * sum; }  // of sum reach p^2 [J]
-    double scale_squared(
-        const double* z) const noexcept override;  // sum of p^2 + v^2, or what barriers and thread press, 2 potential/m, where that is more
+    // The most of: sum of p^2 + v^2, what barriers and thread press, 2 potential/m, and a millionth of the speed that the pluck makes.
+    double scale_squared(const double* z) const noexcept override;
     // Of the motion in contacts that are this deep and this fast, a bound [1/s]; decays: of a point without mass as well.
     double pace(const double* z, bool decays = true) const noexcept;
 
     void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept override;  // (I - gamma J(z)) x = b
-    void jacobian(double t, const double* z, double* J) const noexcept override;                        // dense, column by column
 
 private:
     struct Point {
@@ -70,6 +69,7 @@ private:
     double* states(double* z) const noexcept { return z + padded + modes_; }
 
     double mass_, EA_, length_;
+    double least_scale_ = 0;  // of what the pluck makes [m/s]
     int modes_;
     SeriesStates series_;
     std::vector<Point> point_;

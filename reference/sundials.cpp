@@ -1,10 +1,8 @@
-// The only file that sees SUNDIALS (6.4): CVODE and ARKODE behind integrator.hpp, and what an event asks of either; hence its length.
-#include <arkode/arkode_arkstep.h>
+// The only file that sees SUNDIALS (6.4): CVODE behind integrator.hpp, and what an event asks of it.
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
+#include <sundials/sundials_linearsolver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +18,7 @@ static_assert(std::is_same_v<realtype, double>, "SUNDIALS in double precision");
 
 namespace {
 constexpr double unweighted = 1e-30;  // error weight of what is not controlled
-constexpr double settled = 1e-6;      // one Newton step moves a crossing by less than this part of the integrator's step
-
-constexpr int most_splits = 40;  // of steps that might have touched or left and come back, in one go
-
-bool multistep(Method m) {
-    return m == Method::bdf || m == Method::adams;
-}
+constexpr int most_splits = 40;       // of steps that might have touched or left and come back, in one go
 }  // namespace
 
 struct Integrator::Library {
@@ -43,15 +35,13 @@ struct Integrator::Library {
     bool reinit(double t) noexcept;
     int step(double to) noexcept;  // one step of the library's own
     void look(std::vector<Depth>&) noexcept;
-    bool run_again(double to) noexcept;  // from `before` to `to`, blind
     double last_step() const noexcept;
     double turns_beyond() const noexcept;
-    bool onto_surface(double to) noexcept;  // the crossing at `time`, no later than `to`
+    void onto_surface(double to) noexcept;  // the crossing at `time`, no later than `to`
 
     static int slope(realtype t, N_Vector z, N_Vector dz, void* user);
     static int penetrations(realtype t, N_Vector z, realtype* out, void* user);
     static int weights(N_Vector z, N_Vector w, void* user);
-    static int jacobian(realtype t, N_Vector z, N_Vector f, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector);
     static SUNLinearSolver_Type type(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
     static int solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype);
     static void quiet(int, const char*, const char*, char*, void*) {}
@@ -60,14 +50,12 @@ struct Integrator::Library {
     const Settings settings;
     SUNContext context = nullptr;
     N_Vector z = nullptr;
-    SUNMatrix matrix = nullptr;
     SUNLinearSolver solver = nullptr;
     void* memory = nullptr;
-    double time = 0, first_step = 0, longest_step = 0, floor = 0;
+    double time = 0, longest_step = 0, floor = 0;
     double time_before = 0;
     std::vector<double> before, dz;  // the state one step ago; a slope
     int contact = -1;
-    bool blind = false;  // root finding sees nothing
     std::vector<Depth> depth, depth_before;
     std::vector<int> found, direction;
     Effort effort;
@@ -82,7 +70,7 @@ int Integrator::Library::slope(realtype t, N_Vector z, N_Vector dz, void* user) 
 
 int Integrator::Library::penetrations(realtype, N_Vector z, realtype* out, void* user) {
     auto& l = *static_cast<Library*>(user);
-    for (int a = 0; a < l.equations.contacts; ++a) out[a] = l.blind ? 1 : l.equations.penetration(a, N_VGetArrayPointer(z));
+    for (int a = 0; a < l.equations.contacts; ++a) out[a] = l.equations.penetration(a, N_VGetArrayPointer(z));
     return 0;
 }
 
@@ -96,21 +84,13 @@ int Integrator::Library::weights(N_Vector z, N_Vector w, void* user) {
     return 0;
 }
 
-int Integrator::Library::jacobian(realtype t, N_Vector z, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
-    static_cast<Library*>(user)->equations.jacobian(t, N_VGetArrayPointer(z), SUNDenseMatrix_Data(J));
-    return 0;
-}
-
 // A matrix-free direct solver: the Newton matrix I - gamma J at the iterate itself, so Newton's own order of convergence holds.
 int Integrator::Library::solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
     auto& l = *static_cast<Library*>(s->content);
     double t = 0, gamma = 0, rl1 = 0;
     N_Vector predicted = nullptr, current = nullptr, f = nullptr, other = nullptr;
     void* user = nullptr;
-    const int failed = multistep(l.settings.method)
-                           ? CVodeGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f, &gamma, &rl1, &other, &user)
-                           : ARKStepGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f, &gamma, &other, &user);
-    if (failed) return failed;
+    if (const int failed = CVodeGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f, &gamma, &rl1, &other, &user)) return failed;
     ++l.effort.solves;
     l.equations.solve(t, gamma, N_VGetArrayPointer(current), N_VGetArrayPointer(b), N_VGetArrayPointer(x));
     return 0;
@@ -130,71 +110,40 @@ Integrator::Library::Library(Equations& e, const Settings& s) : equations(e), se
     direction.assign(e.contacts + 1, 0);
     depth.assign(e.contacts + 1, {});
     depth_before = depth;
-    const bool implicit = s.method != Method::erk;
-    if (implicit && s.solver == LinearSolver::dense) {
-        need((matrix = SUNDenseMatrix(size, size, context)) != nullptr);
-        need((solver = SUNLinSol_Dense(z, matrix, context)) != nullptr);
-    } else if (implicit) {
-        need((solver = SUNLinSolNewEmpty(context)) != nullptr);
-        solver->ops->gettype = type;
-        solver->ops->solve = solve;
-        solver->content = this;
-    }
-    if (multistep(s.method)) {
-        need((memory = CVodeCreate(s.method == Method::bdf ? CV_BDF : CV_ADAMS, context)) != nullptr);
-        need(CVodeInit(memory, slope, 0, z) == CV_SUCCESS && CVodeSetUserData(memory, this) == CV_SUCCESS);
-        need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS && CVodeWFtolerances(memory, weights) == CV_SUCCESS);
-        need(CVodeSetMaxOrd(memory, s.order) == CV_SUCCESS);
-        need(CVodeSetLinearSolver(memory, solver, matrix) == CV_SUCCESS);
-        if (matrix) need(CVodeSetJacFn(memory, jacobian) == CV_SUCCESS);
-        if (e.contacts > 0) need(CVodeRootInit(memory, e.contacts, penetrations) == CV_SUCCESS);
-    } else {
-        need((memory = ARKStepCreate(implicit ? nullptr : slope, implicit ? slope : nullptr, 0, z, context)) != nullptr);
-        need(ARKStepSetUserData(memory, this) == ARK_SUCCESS);
-        need(ARKStepSetErrHandlerFn(memory, quiet, nullptr) == ARK_SUCCESS && ARKStepWFtolerances(memory, weights) == ARK_SUCCESS);
-        need(ARKStepSetOrder(memory, s.order) == ARK_SUCCESS);
-        if (implicit) need(ARKStepSetLinearSolver(memory, solver, matrix) == ARK_SUCCESS);
-        if (matrix) need(ARKStepSetJacFn(memory, jacobian) == ARK_SUCCESS);
-        if (e.contacts > 0) need(ARKStepRootInit(memory, e.contacts, penetrations) == ARK_SUCCESS);
-    }
+    need((solver = SUNLinSolNewEmpty(context)) != nullptr);
+    solver->ops->gettype = type;
+    solver->ops->solve = solve;
+    solver->content = this;
+    need((memory = CVodeCreate(s.method == Method::bdf ? CV_BDF : CV_ADAMS, context)) != nullptr);
+    need(CVodeInit(memory, slope, 0, z) == CV_SUCCESS && CVodeSetUserData(memory, this) == CV_SUCCESS);
+    need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS && CVodeWFtolerances(memory, weights) == CV_SUCCESS);
+    need(CVodeSetLinearSolver(memory, solver, nullptr) == CV_SUCCESS);
+    if (e.contacts > 0) need(CVodeRootInit(memory, e.contacts, penetrations) == CV_SUCCESS);
     floor = 1;
-    first_step = longest_step = 1e-9;
-    blind = true;  // one step from rest: what the library allocates late, it allocates now
-    need(reinit(0) && step(1e-9) >= 0);
-    blind = false;
+    longest_step = 1e-9;
+    need(reinit(0) && step(1e-9) >= 0);  // from rest: what the library allocates late, it allocates now
     N_VConst(0, z);
     effort = {};
 }
 
 Integrator::Library::~Library() {
-    if (memory) multistep(settings.method) ? CVodeFree(&memory) : ARKStepFree(&memory);
-    if (solver && !matrix) solver->content = nullptr;  // it is this object
+    if (memory) CVodeFree(&memory);
+    if (solver) solver->content = nullptr;  // it is this object
     if (solver) SUNLinSolFree(solver);
-    if (matrix) SUNMatDestroy(matrix);
     if (z) N_VDestroy(z);
     if (context) SUNContext_Free(&context);
 }
 
 bool Integrator::Library::reinit(double t) noexcept {
     time = t;
-    if (multistep(settings.method))
-        return CVodeReInit(memory, t, z) == CV_SUCCESS && CVodeSetInitStep(memory, 0) == CV_SUCCESS &&
-               CVodeSetMaxStep(memory, longest_step) == CV_SUCCESS &&
-               (equations.contacts == 0 || CVodeSetRootDirection(memory, direction.data()) == CV_SUCCESS);
-    const bool implicit = settings.method == Method::esdirk;
-    return ARKStepReInit(memory, implicit ? nullptr : slope, implicit ? slope : nullptr, t, z) == ARK_SUCCESS &&
-           ARKStepSetInitStep(memory, first_step) == ARK_SUCCESS && ARKStepSetMaxStep(memory, longest_step) == ARK_SUCCESS &&
-           (equations.contacts == 0 || ARKStepSetRootDirection(memory, direction.data()) == ARK_SUCCESS);
+    return CVodeReInit(memory, t, z) == CV_SUCCESS && CVodeSetMaxStep(memory, longest_step) == CV_SUCCESS &&
+           (equations.contacts == 0 || CVodeSetRootDirection(memory, direction.data()) == CV_SUCCESS);
 }
 
 int Integrator::Library::step(double to) noexcept {
     ++effort.steps;
-    if (multistep(settings.method)) {
-        if (CVodeSetStopTime(memory, to) != CV_SUCCESS) return -1;
-        return CVode(memory, to, z, &time, CV_ONE_STEP);
-    }
-    if (ARKStepSetStopTime(memory, to) != ARK_SUCCESS) return -1;
-    return ARKStepEvolve(memory, to, z, &time, ARK_ONE_STEP);
+    if (CVodeSetStopTime(memory, to) != CV_SUCCESS) return -1;
+    return CVode(memory, to, z, &time, CV_ONE_STEP);
 }
 
 void Integrator::Library::look(std::vector<Depth>& at) noexcept {
@@ -216,34 +165,18 @@ double Integrator::Library::turns_beyond() const noexcept {
 
 double Integrator::Library::last_step() const noexcept {
     double h = 0;
-    multistep(settings.method) ? CVodeGetLastStep(memory, &h) : ARKStepGetLastStep(memory, &h);
+    CVodeGetLastStep(memory, &h);
     return h;
 }
 
-bool Integrator::Library::run_again(double to) noexcept {
-    std::copy(before.begin(), before.end(), state());
-    blind = true;
-    bool ok = reinit(time_before);
-    while (ok && time < to) ok = step(to) >= 0;
-    blind = false;
-    return ok;
-}
-
-bool Integrator::Library::onto_surface(double to) noexcept {
-    if (!multistep(settings.method) && time > time_before && !run_again(time)) return false;
-    for (int tries = 0;; ++tries) {
-        const double speed = equations.penetration_speed(contact, state());
-        const double room = time - time_before;
-        if (speed == 0) return true;
-        const double shift = std::clamp(-equations.penetration(contact, state()) / speed, -0.5 * room, std::min(0.5 * room, to - time));
-        if (multistep(settings.method) || std::abs(shift) <= settled * room || tries == 3) {
-            equations.slope(time, state(), dz.data());
-            for (int i = 0; i < equations.size(); ++i) state()[i] += shift * dz[i];
-            time += shift;
-            return true;
-        }
-        if (!run_again(time + shift)) return false;
-    }
+void Integrator::Library::onto_surface(double to) noexcept {
+    const double speed = equations.penetration_speed(contact, state());
+    const double room = time - time_before;
+    if (speed == 0) return;
+    const double shift = std::clamp(-equations.penetration(contact, state()) / speed, -0.5 * room, std::min(0.5 * room, to - time));
+    equations.slope(time, state(), dz.data());
+    for (int i = 0; i < equations.size(); ++i) state()[i] += shift * dz[i];
+    time += shift;
 }
 
 Integrator::Integrator(Equations& e, const Settings& s) : library_(std::make_unique<Library>(e, s)) {}
@@ -264,12 +197,11 @@ void Integrator::forget_effort() noexcept {
     library_->effort = {};
 }
 
-void Integrator::restart(double first_step, double longest_step) noexcept {
+void Integrator::restart(double longest_step) noexcept {
     Library& l = *library_;
-    l.first_step = first_step;
     l.longest_step = longest_step;
     // By what presses as well as by what moves: a string at rest that a barrier or a thread is about to push has no size of its own yet.
-    l.floor = std::max(l.settings.floor * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)), 1e-30);  // [m/s]
+    l.floor = std::max(1e-3 * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)), 1e-30);  // [m/s]
     for (int a = 0; a < l.equations.contacts; ++a) l.direction[a] = l.equations.touched[a] ? -1 : 1;
     l.look(l.depth);
     l.contact = l.reinit(0) ? -1 : -2;
@@ -293,9 +225,7 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
         if (crawled > 10000) return Stop::failed;
         l.contact = -1;
         if (result == CV_ROOT_RETURN) {
-            const bool failed = multistep(l.settings.method) ? CVodeGetRootInfo(l.memory, l.found.data()) != CV_SUCCESS
-                                                             : ARKStepGetRootInfo(l.memory, l.found.data()) != ARK_SUCCESS;
-            if (failed) return Stop::failed;
+            if (CVodeGetRootInfo(l.memory, l.found.data()) != CV_SUCCESS) return Stop::failed;
             for (int a = contacts - 1; a >= 0; --a)
                 if (l.found[a]) l.contact = a;
         }
@@ -319,7 +249,10 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
             target = std::min(split, to);
             continue;
         }
-        if (crosses) return l.onto_surface(to) ? Stop::crossed : Stop::failed;
+        if (crosses) {
+            l.onto_surface(to);
+            return Stop::crossed;
+        }
         if (l.contact >= 0) {
             std::copy(l.before.begin(), l.before.end(), l.state());
             l.time = l.time_before;

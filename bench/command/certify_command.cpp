@@ -217,12 +217,9 @@ Act certify_verb(CLI::App& program) {
         certify_command,
         "Example: jvari certify tanpura_c3_release --duration 0.1\n"
         "\n"
-        "Every reference that represents the scene runs at two settings of its accuracy; where there is none, the best scheme at 16, 32 "
-        "and\n"
-        "64 tap rates, with its own estimate. The table says, pair by pair, how far they are "
-        "apart and\n"
-        "for how long they agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the "
-        "figure.");
+        "Every reference that represents the scene runs, the best one at two settings of its accuracy; where there is none, the best scheme\n"
+        "at 16, 32 and 64 tap rates, with its own estimate. The table says, pair by pair, how far they are apart and for how long they\n"
+        "agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the figure.");
 }
 
 }  // namespace jvari::bench::command

@@ -2,8 +2,9 @@
 //
 // Sources: string_equations.hpp (van Walstijn et al. 2016, eqs 5-22, with any exponent; Issanchou et al. 2016, eq 24). While no barrier is
 // touched the motion is linear and flies exactly, its next contact isolated rigorously (flight.hpp); while one is, SUNDIALS integrates to a
-// stated tolerance and finds the crossings (integrator.hpp). With flight = integrate everything is integrated, by steps short enough for
-// root finding to see contacts, which is a belief and not a bound: it is there to be compared with.
+// stated tolerance and finds the crossings (integrator.hpp). With flight = integrate, and where the string stretches, everything is
+// integrated, by steps short enough for root finding to see contacts, which is a belief and not a bound: the option is there to be compared
+// with, because exact_contact flies by the same code.
 // On a body that moves there is no exact flight: all strings are integrated together (integrated_instrument.hpp).
 // A profile acts as the points of profile_points.hpp. Leaves out: polarisation.
 #include <algorithm>
@@ -24,7 +25,6 @@ namespace {
 struct Choice {
     Integrator::Settings integrator;
     bool exact_flight;
-    double first_step, longest_step;  // x 1/growth rate of the springs that act
 };
 
 class IntegratedContact final : public Scheme {
@@ -190,8 +190,8 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
     std::fill(std::begin(seen_), std::end(seen_), 0.0);
     equations_.plucked = plucked;
     equations_.pluck_time = since_pluck;
-    const bool implicit = choice_.integrator.method == Method::bdf || choice_.integrator.method == Method::esdirk;  // of stiff decays
-    integrator_.restart(choice_.first_step / pace(true), choice_.longest_step / pace(!implicit));
+    const double longest_step = choice_.exact_flight ? 3 : 1;
+    integrator_.restart(longest_step / pace(choice_.integrator.method == Method::adams));  // BDF takes stiff decays in long steps
     running_ = true;
 }
 
@@ -233,54 +233,24 @@ std::vector<Fact> IntegratedContact::facts() const {
     return facts;
 }
 
-constexpr Option method_option{
-    "method", "erk", "integrator: multistep (bdf, adams) or Runge-Kutta, explicit or implicit", {"bdf", "adams", "erk", "esdirk"}};
-constexpr Option order_option{"order", "", "order of the method, whole; absent: its highest, or 6 for erk with an exponent other than 1"};
-constexpr Option rtol_option{"rtol", "", "relative tolerance below 1; absent: 1e-10, or 1e-12 with an exponent other than 1"};
-constexpr Option floor_option{"floor", "", "absolute tolerance over the relative one; absent: 1e-2, or 1e-3 with an exponent other than 1"};
-constexpr Option linear_solver_option{"linear_solver", "woodbury", "solver of an implicit method's linear systems", {"woodbury", "dense"}};
+constexpr Option method_option{"method", "adams", "multistep method of the integrator", {"bdf", "adams"}};
+constexpr Option rtol_option{"rtol", "1e-13", "relative tolerance below 1"};
 constexpr Option flight_option{"flight", "exact", "motion between contacts: exact, or integrated like the rest", {"exact", "integrate"}};
-constexpr Option first_step_option{"first_step", "", "first step in time constants; absent: 0.1, or 1e-3 with an exponent other than 1"};
-constexpr Option longest_step_option{"longest_step", "", "longest step in time constants; absent: 3, or 1 with flight=integrate"};
-constexpr Option options[] = {method_option, order_option,      rtol_option,         floor_option, linear_solver_option,
-                              flight_option, first_step_option, longest_step_option, nodes_option, compliance_option};
-
-double above_zero(const Settings& settings, const Option& o, double fallback) {
-    const double value = number_option(settings, o, fallback);
-    if (!(value > 0)) throw Refusal("option " + std::string(o.name) + ": expected a number above 0");
-    return value;
-}
+constexpr Option options[] = {method_option, rtol_option, flight_option, nodes_option, compliance_option};
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+    const Features needed = needed_by(scene);
+    const bool moves = needed.has(Feature::moving_body), stretches = needed.has(Feature::tension_modulation);
+    if (moves && stretches) throw Refusal(std::string(descriptor.name) + ": a string that stretches ends at rest");
     Choice choice;
-    Integrator::Settings& i = choice.integrator;
-    const std::string method = choice_option(settings, method_option);
-    i.method = method == "bdf" ? Method::bdf : method == "adams" ? Method::adams : method == "erk" ? Method::erk : Method::esdirk;
-    i.solver = choice_option(settings, linear_solver_option) == "dense" ? LinearSolver::dense : LinearSolver::woodbury;
-    const bool stretches = needed_by(scene).has(Feature::tension_modulation);
     choice.exact_flight = choice_option(settings, flight_option) == "exact" && !stretches;
-    if (stretches && (i.method != Method::erk || needed_by(scene).has(Feature::moving_body)))
-        throw Refusal(std::string(descriptor.name) + ": a string that stretches takes method=erk, and ends at rest");
-    // A force like eta^alpha is smooth on the surface for alpha = 1 alone. Elsewhere a lower order errs as it estimates, from a small step
-    // on.
-    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
-    i.tolerance = above_zero(settings, rtol_option, smooth ? 1e-10 : 1e-12);
-    if (i.tolerance >= 1) throw Refusal("option rtol: expected a tolerance between 0 and 1");
-    i.floor = above_zero(settings, floor_option, smooth ? 1e-2 : 1e-3);
-    choice.first_step = above_zero(settings, first_step_option, smooth ? 0.1 : 1e-3);
-    choice.longest_step = above_zero(settings, longest_step_option, choice.exact_flight ? 3 : 1);
-    const int lowest = i.method == Method::bdf || i.method == Method::adams ? 1 : 3;
-    const int highest = i.method == Method::erk ? 8 : i.method == Method::adams ? 12 : 5;
-    const double order = number_option(settings, order_option, i.method == Method::erk && !smooth ? 6 : highest);
-    if (order != std::floor(order) || order < lowest || order > highest)
-        throw Refusal("option order: expected a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
-    i.order = static_cast<int>(order);
+    Integrator::Settings& i = choice.integrator;
+    i.method = choice_option(settings, method_option) == "bdf" ? Method::bdf : Method::adams;
+    i.tolerance = number_option(settings, rtol_option);
+    if (!(i.tolerance > 0 && i.tolerance < 1)) throw Refusal("option rtol: expected a tolerance between 0 and 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    if (needed_by(scene).has(Feature::moving_body)) {
-        const double longest = above_zero(settings, longest_step_option, 1);
-        return integrated_instrument(descriptor, scene, unsampled, i, choice.first_step, longest);
-    }
+    if (moves) return integrated_instrument(descriptor, scene, unsampled, i);
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, settings);
     if (series && scene.strings.front().pluck)
@@ -289,31 +259,23 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate, choice, series);
 }
 
-// An integrator of another kind is there for scenes that nothing else can confirm.
-Confirmation confirmation(const Scene& scene) {
-    const bool smooth = !needed_by(scene).has(Feature::power_law_contact);
-    const Features needed = needed_by(scene);
-    if (needed.has(Feature::moving_body) ||
-        needed.has(Feature::tension_modulation))  // explicit methods alone: another one, of shorter steps
-        return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}},
-                {{{order_option.name, smooth ? "6" : "8"}, {rtol_option.name, "1e-12"}, {longest_step_option.name, "0.5"}}}};
-    return {{{{rtol_option.name, smooth ? "1e-12" : "1e-13"}}, {}}, {{{method_option.name, "adams"}, {rtol_option.name, "1e-12"}}}};
-}
 }  // namespace
 
-const Descriptor sundials = {.name = "sundials",
-                             .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
-                             .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                                           Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                                           Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                                           Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                                           Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) |
-                                           Features(Feature::moving_body) | Features(Feature::tension_modulation),
-                             .balance = Balance::to_tolerance,
-                             .clock = Clock::continuous,
-                             .make = made,
-                             .options = options,
-                             .approximates = points_for_a_profile,
-                             .confirmation = confirmation};
+const Descriptor sundials = {
+    .name = "sundials",
+    .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
+    .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
+                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
+                  Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body) |
+                  Features(Feature::tension_modulation),
+    .balance = Balance::to_tolerance,
+    .clock = Clock::continuous,
+    .make = made,
+    .options = options,
+    .approximates = points_for_a_profile,
+    .confirmation = [](const Scene&) {
+        return Confirmation{{{}}, {{{rtol_option.name, "1e-14"}}, {{method_option.name, "bdf"}, {rtol_option.name, "1e-14"}}}};
+    }};
 
 }  // namespace jvari

@@ -107,7 +107,7 @@ void check_trace(const Descriptor& d, const RandomCase& c, const Settings& setti
 
 // A scheme on the scene as a job of a study: judged by nothing but what is looked at here.
 //
-// An explicit integrator takes steps as short as the fastest decay asks, however slow the motion: under a contact loss of 100 s/m that is
+// The integrator takes steps as short as the fastest decay asks, however slow the motion: under a contact loss of 100 s/m that is
 // minutes for a row. It is ended by a limit, and that is no finding. No other run has one but that of its scene.
 void check_run(const Descriptor& d, const RandomCase& c, Tally& tally, const Finding& finding) {
     study::Plan plan;

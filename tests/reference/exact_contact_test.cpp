@@ -462,10 +462,7 @@ TEST(ExactContact, EveryStiffnessIsWhatAStiffIntegratorMakesOfIt) {
         Scene scene = c3();
         scene.duration = 2e-3;
         std::get<LumpedBarrier>(scene.strings[0].barriers[0]).stiffness.k = k;
-        Settings tight;
-        tight.modes = 80;
-        tight.options = {{"rtol", "1e-12"}};
-        const jvari::Run r = run(exact_contact, scene, settings(80)), want = run(sundials, scene, tight);
+        const jvari::Run r = run(exact_contact, scene, settings(80)), want = run(sundials, scene, {0, 44100, 80, {}});
         for (int tap = 0; tap < 5; ++tap) EXPECT_LT(difference(r.trace.column(tap), want.trace.column(tap)), 1e-8) << k << " tap " << tap;
     }
 }

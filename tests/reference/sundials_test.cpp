@@ -48,37 +48,29 @@ struct Equations : testing::Test {
             b[i] = normal(random);
         }
         for (int i = 13; i < equations->padded; ++i) z[i] = z[equations->padded + i] = b[i] = b[equations->padded + i] = 0;
-        jacobian.resize(equations->size(), equations->size());
-        equations->jacobian(1e-3, z.data(), jacobian.data());
     }
     std::optional<StringEquations> equations;
     Eigen::VectorXd z, b;
-    Eigen::MatrixXd jacobian;
 };
 
-TEST_F(Equations, HaveTheJacobianOfTheirSlope) {
+TEST_F(Equations, SolveTheNewtonMatrixOfTheirSlopeAsADenseSolverDoes) {
     const int n = equations->size();
-    Eigen::VectorXd up(n), down(n);
+    Eigen::MatrixXd jacobian(n, n);
     for (int j = 0; j < n; ++j) {
-        Eigen::VectorXd moved = z;
+        Eigen::VectorXd moved = z, up(n), down(n);
         const double step = 1e-8;
         moved[j] += step;
         equations->slope(1e-3, moved.data(), up.data());
         moved[j] -= 2 * step;
         equations->slope(1e-3, moved.data(), down.data());
-        const Eigen::VectorXd difference = (up - down) / (2 * step) - jacobian.col(j);
-        EXPECT_LT(difference.norm(), 1e-5 * (1 + jacobian.col(j).norm())) << "column " << j;
+        jacobian.col(j) = (up - down) / (2 * step);
     }
-}
-
-TEST_F(Equations, SolveTheirNewtonMatrixAsADenseSolverDoes) {
-    const int n = equations->size();
     for (const double gamma : {1e-9, 1e-7, 1e-5}) {
         Eigen::VectorXd x(n);
         equations->solve(1e-3, gamma, z.data(), b.data(), x.data());
         const Eigen::VectorXd dense = (Eigen::MatrixXd::Identity(n, n) - gamma * jacobian).partialPivLu().solve(b);
-        EXPECT_LT((x - dense).norm(), 1e-10 * dense.norm()) << "gamma " << gamma;
-        EXPECT_LT((x - dense).tail(StringEquations::sums).norm(), 1e-9 * dense.tail(StringEquations::sums).norm()) << "gamma " << gamma;
+        EXPECT_LT((x - dense).norm(), 1e-6 * dense.norm()) << "gamma " << gamma;
+        EXPECT_LT((x - dense).tail(StringEquations::sums).norm(), 1e-5 * dense.tail(StringEquations::sums).norm()) << "gamma " << gamma;
     }
 }
 
@@ -117,7 +109,7 @@ struct Impact {
 TEST(Impact, LastsAsLongAsALinearSpringsHalfPeriod) {
     const Impact impact;
     const double k = 1e9, duration = pi / std::sqrt(k / impact.mass + impact.omega0 * impact.omega0);
-    for (const char* method : {"erk", "esdirk", "bdf", "adams"}) {
+    for (const char* method : {"bdf", "adams"}) {
         const auto outcome = impact.outcome(impact.scene(k, 1, 0), {{"method", method}});
         EXPECT_NEAR(outcome.duration, duration, 1e-7 * duration) << method;
         EXPECT_NEAR(outcome.speed, impact.speed(), 1e-7 * impact.speed()) << method;
@@ -132,7 +124,7 @@ TEST(Impact, OfAPowerLawLastsAsTheBetaFunctionSays) {
         const double k = 1e7 * std::pow(1e-5, 1 - exponent), n = exponent + 1, v = impact.speed();
         const double deepest = std::pow(n * impact.mass * v * v / (2 * k), 1 / n);
         const double duration = 2 * deepest / v * std::beta(1 / n, 0.5) / n;
-        for (const char* method : {"erk", "esdirk", "adams"}) {
+        for (const char* method : {"bdf", "adams"}) {
             const auto outcome = impact.outcome(impact.scene(k, exponent, 0), {{"method", method}});
             const double stiffness = std::pow(impact.omega0 * duration, 2);
             ASSERT_LT(stiffness, 0.05);
@@ -199,21 +191,12 @@ TEST(Integrated, AgreesWithTheExactReferenceAndFindsItsEvents) {
     }
 }
 
-// A long step's interpolant is far worse than the step: 4.7e-10 here, 1.9e-8 where a crossing is taken from it as it stands.
-TEST(Integrated, FindsTheSurfaceAtALooseToleranceToo) {
-    Scene scene = c3_release();
-    scene.duration = 10e-3;
-    const auto truth = run(exact_contact, scene, {0, 44100, 133, {}}), r = integrated(scene, 133, {{"rtol", "1e-6"}});
-    EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 3e-9);
-}
-
 TEST(Integrated, ByAnyMethodIsTheSame) {
     Scene scene = c3_release();
     scene.duration = 4e-3;
     const auto truth = run(exact_contact, scene, {0, 44100, 20, {}});
-    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"method", "esdirk"}},
-                             Options{{"method", "bdf"}, {"linear_solver", "dense"}}, Options{{"method", "erk"}, {"order", "5"}},
-                             Options{{"method", "erk"}, {"flight", "integrate"}}, Options{{"method", "adams"}, {"flight", "integrate"}}}) {
+    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"method", "bdf"}, {"flight", "integrate"}},
+                             Options{{"method", "adams"}, {"flight", "integrate"}}}) {
         const auto r = integrated(scene, 20, o);
         ASSERT_EQ(r.status.outcome, Outcome::ok) << o[0].second;
         EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 3e-8) << o[0].second << " " << o.back().second;
@@ -230,21 +213,20 @@ Scene power_law(double loss) {
 
 TEST(Integrated, PowerLawsAgreeBetweenIntegratorsAndTolerances) {
     const Scene scene = power_law(0);
-    const auto best = integrated(scene, 20, {{"rtol", "1e-13"}});
-    for (const Options& o : {Options{}, Options{{"method", "erk"}, {"order", "5"}}, Options{{"method", "adams"}, {"rtol", "1e-11"}}}) {
+    const auto best = integrated(scene, 20);
+    for (const Options& o : {Options{{"rtol", "1e-12"}}, Options{{"method", "bdf"}}}) {
         const auto r = integrated(scene, 20, o);
         EXPECT_LT(relative_l2(r.trace.column(0), best.trace.column(0)), 1e-7);
         EXPECT_EQ(fact(r, "events"), fact(best, "events"));
     }
 }
 
-// At 133 modes two tolerances, two orders, Adams and BDF agree within 8e-8 after 20 ms (results/integrators).
 TEST(Integrated, AgreesWithItselfOverTwentyMillisecondsOfTheTwoPointBridge) {
     Scene scene = read_scene("two_point_bridge");
     scene.duration = 20e-3;
-    const auto best = integrated(scene, 16, {{"rtol", "1e-13"}});
+    const auto best = integrated(scene, 16);
     EXPECT_GT(fact(best, "events"), 20);
-    for (const Options& o : {Options{}, Options{{"method", "adams"}, {"rtol", "1e-13"}}}) {
+    for (const Options& o : {Options{{"rtol", "1e-12"}}, Options{{"method", "bdf"}}}) {
         const auto r = integrated(scene, 16, o);
         EXPECT_EQ(fact(r, "events"), fact(best, "events"));
         for (int k = 0; k < 3; ++k) EXPECT_LT(relative_l2(r.trace.column(k), best.trace.column(k)), 1e-7) << r.trace.names[k];
@@ -299,9 +281,9 @@ TEST(Integrated, StartsFromRestWhereABarrierPresses) {
         ASSERT_EQ(r.status.outcome, Outcome::ok) << flight;
         EXPECT_LT(relative_l2(r.trace.column(1), truth.trace.column(1)), 1e-7) << flight;
     }
-    const auto r = integrated(pressed(1.15), 20, {}, true), finer = integrated(pressed(1.15), 20, {{"rtol", "1e-13"}});
+    const auto r = integrated(pressed(1.15), 20, {}, true), coarser = integrated(pressed(1.15), 20, {{"rtol", "1e-12"}});
     ASSERT_EQ(r.status.outcome, Outcome::ok);
-    EXPECT_LT(relative_l2(r.trace.column(1), finer.trace.column(1)), 1e-7);
+    EXPECT_LT(relative_l2(r.trace.column(1), coarser.trace.column(1)), 1e-7);
     const auto stored = r.trace.energy_column(0), dissipated = r.trace.energy_column(2);
     EXPECT_GT(stored[0], 0);
     for (long n = 1; n < r.trace.rows; ++n) ASSERT_LE(std::abs(stored[n] - stored[n - 1] + dissipated[n]), 1e-9 * stored[0]) << n;
@@ -361,6 +343,8 @@ TEST(References, CanBeEndedWithinARow) {  // of 2^20 s
             scene = c3_free();
             scene.strings.front().pluck = Pluck{-0.4, 1e9, 0, 0, 0.5, 0};
         }
+        const bool integrated = d.name == std::string("sundials");
+        if (integrated) scene = c3_release();
         const bool lattice = d.name == std::string("characteristic_lattice");  // of 2^31 steps a row at most
         if (lattice) scene = read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"});
         scene.duration = 1e7;
@@ -368,15 +352,15 @@ TEST(References, CanBeEndedWithinARow) {  // of 2^20 s
         const RunOptions until_enough{.progress = [&](long, long) {
             if (++words == 2) throw Enough{};
         }};
-        EXPECT_THROW(run(d, scene, {0, 1.0 / (lattice ? 1 << 7 : 1 << 20), 20, {}}, until_enough), Enough) << d.name;
+        const Options all_of_it = integrated ? Options{{"flight", "integrate"}} : Options{};
+        EXPECT_THROW(run(d, scene, {0, 1.0 / (lattice ? 1 << 7 : 1 << 20), 20, all_of_it}, until_enough), Enough) << d.name;
     }
 }
 
 TEST(Integrated, AllocatesNothingAndRepeatsItselfByAnyMethod) {
     Scene scene = c3_release();
     const int taps = static_cast<int>(scene.taps.size());
-    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"method", "esdirk"}},
-                             Options{{"method", "bdf"}, {"linear_solver", "dense"}}, Options{{"flight", "integrate"}}}) {
+    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"flight", "integrate"}}}) {
         const auto scheme = make_scheme(sundials, scene, {0, 44100, 10, o});
         std::vector<double> first(128 * taps), again(first), energy(3 * 128);
         const bench::check::Allocations allocations;
@@ -401,9 +385,8 @@ TEST(Integrated, RefusesWhatItDoesNotRepresent) {
     Scene turning = c3_release();
     turning.strings.front().polarisation = Polarisation{0.1, 0};
     EXPECT_NE(reason(turning, {}).find("polarisation"), std::string::npos);
-    EXPECT_EQ(reason(c3_release(), {{"method", "euler"}}), "option method: found \"euler\", expected one of bdf, adams, erk, esdirk");
+    EXPECT_EQ(reason(c3_release(), {{"method", "euler"}}), "option method: found \"euler\", expected one of bdf, adams");
     EXPECT_EQ(reason(c3_release(), {{"rtol", "2"}}), "option rtol: expected a tolerance between 0 and 1");
-    EXPECT_NE(reason(c3_release(), {{"order", "11"}}).find("order"), std::string::npos);
     EXPECT_NE(reason(c3_release(), {{"atol", "1"}}).find("unknown option atol"), std::string::npos);
 }
 
