@@ -32,5 +32,5 @@ for file in bench/trim/target.cpp bench/sound/radiation.cpp bench/diff/rules.cpp
     plant $file JVARI_CELL_SOURCES other
 done
 for file in schemes/modal/modal_two_point.cpp reference/exact/exact_contact.cpp scenes/damping.cpp; do plant $file JVARI_RUN_SOURCES other; done
-for file in bench/report/page.cpp bench/command/console.cpp bench/kernels/two_point_benchmark.cpp bench/README.md; do plant $file JVARI_CELL_SOURCES same; done
+for file in bench/report/page.cpp bench/command/console.cpp bench/kernels/table.cpp bench/README.md; do plant $file JVARI_CELL_SOURCES same; done
 exit $status

@@ -1,4 +1,4 @@
-// The sitar scenes of the tests and the benchmark: C5 on a fretted string, the paper's pitch and loss; its other figures are ours
+// The sitar scenes of the tests: C5 on a fretted string, the paper's pitch and loss; its other figures are ours
 // (scenes/sitar_c5.toml says which).
 #pragma once
 

@@ -39,7 +39,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
     const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
     const GridString g = on_grid(descriptor, scene, settings, grid, fit_losses(s));
-    return driven<typename AtTheMiddle<Rule>::type>(std::make_unique<MidpointString<GridSolve>>(g, dt), descriptor, settings);
+    return driven<typename AtTheMiddle<Rule>::type>(std::make_unique<MidpointString>(g, dt), descriptor, settings);
 }
 }  // namespace
 

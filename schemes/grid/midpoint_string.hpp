@@ -1,5 +1,4 @@
-// A string on a grid stepped by the two-step midpoint rule: finite_difference_hamiltonian.cpp has its equations and source. `Solve` is
-// how its five diagonals are solved: GridSolve, or what is to be compared with it.
+// A string on a grid stepped by the two-step midpoint rule: finite_difference_hamiltonian.cpp has its equations and source.
 #pragma once
 
 #include <cmath>
@@ -13,7 +12,6 @@
 
 namespace jvari {
 
-template <class Solve>  // as GridSolve
 class MidpointString {
 public:
     static constexpr int levels = 1;
@@ -21,7 +19,8 @@ public:
 
     MidpointString(const GridString& string, double dt) : g_(string), dt_(dt), xi_(dt * dt / (2 * g_.mass)) {
         const double quarter = 0.25 * dt * dt, h2 = g_.grid.dx * g_.grid.dx;
-        solve_ = Solve(g_.grid, 1 + g_.loss.sigma0 * dt, -quarter * g_.c2 - g_.loss.sigma1 * dt, quarter * g_.kappa2 + g_.loss.sigma2 * dt);
+        solve_ =
+            GridSolve(g_.grid, 1 + g_.loss.sigma0 * dt, -quarter * g_.c2 - g_.loss.sigma1 * dt, quarter * g_.kappa2 + g_.loss.sigma2 * dt);
         double slope = quarter * g_.c2 / h2, curve = quarter * g_.kappa2 / (h2 * h2);
         const double unit = std::ldexp(1.0, std::ilogb(2 * slope + 6 * curve) - 52);  // all multiples of it are doubles up to a0
         slope = unit * std::nearbyint(slope / unit);
@@ -119,7 +118,7 @@ private:
     FivePointWeights pull_;  // 2 (q - A y), A = dt^2 K/4
     FivePointPass pass_ = nullptr;
     MidpointPass move_ = midpoint_pass();
-    Solve solve_;  // I + A + B
+    GridSolve solve_;  // I + A + B
     std::vector<Stencil> responses_;
     std::vector<double> older_, free_;
     AlignedVector y_store_, q_store_, s_store_;

@@ -186,7 +186,6 @@ TEST(Sitar, RowsFurtherApartAreRowsOfTheSameMotion) {
     }
 }
 
-// The state halves; so does the time, away from the bridge: sitar_benchmark, `rails` against `rails_two_planes`.
 TEST(Sitar, AnAbsentPolarisationCarriesNoState) {
     Scene scene = with_taps(sitar_scene(), {tap(Quantity::nut_force)});
     const int one = run_sitar("sitar_waveguide", scene).dofs, one_fractional = run_sitar("sitar_waveguide", scene, fractional).dofs;
