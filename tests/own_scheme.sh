@@ -26,6 +26,11 @@ grep -q again judged/work_precision.svg || fail "the picture lacks the trace"
 said=$("$jvari" judge $scene --trace 88200=own.csv --schemes modal_two_point)
 echo "$said" | grep -q "it differs from modal_two_point by 0 (nut), 0 (y03), 0 (bridge), 0 (thread)" || fail "a trace differs from its own scheme: $said"
 
+# A matched trace is nearer to the scene than to a string of as many modes with its own compliance: no error from such a string is told.
+"$jvari" run $scene --scheme modal_two_point --rate 88200 --option compliance=matched --out matched.csv --quiet || exit 2
+of_it() { "$jvari" judge $scene --trace "88200=$1" | grep -c "of it against a string of as many modes"; }
+[ "$(of_it own.csv) $(of_it matched.csv)" = "1 0" ] || fail "an error is told from a string of another compliance, or from none"
+
 # A fault that is planted in one line of the Octave template is told at its size, however wrong the scheme itself is.
 if command -v octave-cli >/dev/null; then
     sed 's/F_c = v_c - beta_c\*F_b;/F_b = 1.001*F_b; F_c = v_c - beta_c*F_b;/' "$templates/two_point.m" > mine.m

@@ -63,10 +63,11 @@ Order order_of(const store::Table& cells, std::size_t row, const std::string& me
     return fall_over_rates(cells, series, measure).order;
 }
 
-std::string of_the_rate(const store::Table& cells, std::size_t row, const std::string& measure, double most) {
-    const Order o = order_of(cells, row, measure);
+std::string of_the_rate(const Order& o, const store::Table& cells, std::size_t row, const std::string& measure, double most) {
     if (o.points < fewest_points || !std::isfinite(o.half_width))
         return o.points < 2 ? "" : " Two rates are too few to extrapolate: run a third.";
+    if (o.order - o.half_width <= 0 && o.order + o.half_width >= least_order)
+        return " From these rates it cannot be told whether a higher rate helps.";
     if (o.order < hardly || o.order - o.half_width <= 0)
         return fmt::format(" The error hardly falls with the rate (order {:.2f}), so a higher rate will not help.", std::max(0.0, o.order));
     const double rate = cells.number(row, "rate") * std::pow(cells.number(row, measure) / most, 1 / o.order);
@@ -76,12 +77,14 @@ std::string of_the_rate(const store::Table& cells, std::size_t row, const std::s
                        rate_text(rate));
 }
 
+std::string in_model(std::string measure) {
+    return measure.starts_with("error_") ? measure.insert(6, "in_model_") : measure;
+}
+
 std::string of_the_modes_left_out(const store::Table& cells, std::size_t row, const std::string& measure) {
-    std::string in_model = measure;
-    if (in_model.starts_with("error_")) in_model.insert(6, "in_model_");
     const double modes = cells.number(row, "modes"), error = cells.number(row, measure);
     if (is_grid(cells, row) || !(modes > 0)) return "";
-    if (cells.number(row, in_model) < of_the_modes * error)
+    if (cells.number(row, in_model(measure)) < of_the_modes * error)
         return fmt::format(" Most of that comes from the modes left out: try `--modes {:.0f}`.", 2 * modes);
     const std::vector<std::string> same = same_series(cells, {"rate"});
     for (std::size_t i = 0; i < cells.rows.size(); ++i) {  // fewer, at its rate
@@ -90,6 +93,13 @@ std::string of_the_modes_left_out(const store::Table& cells, std::size_t row, co
             return fmt::format(" The error falls with the modes: try `--modes {:.0f}`.", 2 * modes);
     }
     return "";
+}
+
+// Where no string with as many modes was run that would tell whether they stand in the way.
+std::string of_more_modes(const store::Table& cells, std::size_t row, const std::string& measure) {
+    const double modes = cells.number(row, "modes"), most = cells.number(row, "reference_modes");
+    if (is_grid(cells, row) || std::isfinite(cells.number(row, in_model(measure))) || !(modes > 0 && modes < most)) return "";
+    return fmt::format(" More modes may help: try `--modes {:.0f}`.", std::min(2 * modes, most));
 }
 
 std::string of_the_compliance(const store::Table& cells, const store::Rows& rows, std::size_t row) {
@@ -133,7 +143,9 @@ std::string why_none(const store::Table& cells, const store::Rows& rows, const s
         text += fmt::format(" The reference is known to {} only.", percent(b.certificate));
     } else {
         const std::string modes = of_the_modes_left_out(cells, *best, measure);
-        text += modes.empty() ? of_the_rate(cells, *best, measure, most) : modes;
+        const Order o = order_of(cells, *best, measure);
+        const bool falls = o.order - o.half_width > 0;
+        text += modes.empty() ? of_the_rate(o, cells, *best, measure, most) + (falls ? "" : of_more_modes(cells, *best, measure)) : modes;
         text += of_the_compliance(cells, rows, *best);
     }
     const double h = cells.number(*best, "horizon_s"), end = cells.number(*best, "wall_seconds") / cells.number(*best, "cost_s_per_s");

@@ -55,6 +55,15 @@ void report_costs(compare::Comparison& c, const std::map<double, double>& costs)
     }
 }
 
+// A trace does not say what compliance its string has. Where it is nearer to the scene than to a string of as many modes with its own
+// compliance, it is not of such a string, and its error in the model is unknown.
+void forget_errors_in_other_models(compare::Comparison& c) {
+    const std::size_t whole = study::measure("error_l2_whole"), nut = static_cast<std::size_t>(c.headline.nut);
+    for (study::Record& r : c.outcome.records)
+        if (is_candidate(r.cell) && !r.cell.in_model.empty() && r.cell.in_model[nut][whole] > r.cell.errors[nut][whole])
+            r.cell.in_model.clear();
+}
+
 std::string sentence_of(const store::Table& cells, std::size_t row) {
     const std::string headline = compare::headline_error(cells, store::all_rows(cells));
     const compare::Bound bound = compare::bound_of(cells, row, headline);
@@ -113,6 +122,7 @@ compare::Comparison judge(Candidate candidate, compare::CompareRequest request, 
     all.push_back(enter(std::move(candidate)));
     compare::Comparison c = compare::compare(request, compare::Catalogue(all), listener, keep);
     report_costs(c, costs);
+    forget_errors_in_other_models(c);
     return c;
 }
 

@@ -140,8 +140,8 @@ const std::vector<Declared>& declared() {
          [](F f) { return number(horizon_of(f.record.against.floor, f.headline)); }},
         {{"reference_doubling", "", Rule::text, "how far its modes were doubled"}, [](F f) { return f.record.against.doubling; }},
         {{"{M}", "as the error", Rule::error,
-          "the same errors against a reference with as many modes as the scheme: of scheme and step, without the cut. Empty where no such "
-          "reference was run"},
+          "the same errors against a reference with as many modes as the scheme, and matched compliance where that has it: of scheme and "
+          "step, without the cut. Empty where no such reference was run"},
          [](F f) { return number(f.in(f.cell().in_model)); }},
         {{"{M}_{t}", "as the error", Rule::error, ""}, [](F f) { return number(f.in(f.cell().in_model)); }},
         {{"certificate_in_model_{w}", "1", Rule::motion, "how far that reference solves its model"},

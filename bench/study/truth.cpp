@@ -141,13 +141,14 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
 
 const Reference* of_modes(const Cell& cell, const Reference& model, const Truth& truth) {
     const int modes = cell.settings.modes == 0 ? model.choice.settings.modes : cell.settings.modes;
+    const bool matched = is_matched(cell.settings.options);
     const auto is_model = [&](const Reference& r) {
-        return r.choice.settings.modes == modes && is_matched(r.choice.settings.options) == is_matched(cell.settings.options);
+        return r.choice.settings.modes == modes && is_matched(r.choice.settings.options) == matched;
     };
     for (const Reference& r : truth.coarser)
         if (is_model(r)) return &r;
     if (is_model(truth.reference)) return &truth.reference;
-    return model.choice.settings.modes == modes ? &model : nullptr;
+    return is_model(model) || (model.choice.settings.modes == modes && !matched) ? &model : nullptr;
 }
 
 }  // namespace jvari::bench::study

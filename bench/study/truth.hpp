@@ -31,7 +31,7 @@ Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, in
                 double time_limit = HUGE_VAL);
 
 // Of those that were run the one with the cell's modes and compliance, or nullptr. `model`: with the modes that cells take unasked (0: each
-// its own); it serves for both compliances where the truth has none with these.
+// its own); where it is matched it serves cells of either compliance.
 const Reference* of_modes(const Cell&, const Reference& model, const Truth&);
 
 }  // namespace jvari::bench::study

@@ -540,6 +540,23 @@ TEST(Truth, AGivenNumberIsTakenWithItsHalfAndItsQuarterToTellWhatItLeavesOut) {
     EXPECT_EQ(truth.coarser[1].choice.settings.modes, 100);
 }
 
+TEST(Truth, AMatchedCellIsInNoModelWithComplianceOfItsOwn) {
+    const auto truth = truth_of(40, 1e-3);  // matched, 10, 20 and 40 modes
+    bench::study::Reference model = truth.reference;
+    model.choice.settings.options.clear();
+    const auto model_of = [&](int modes, const OptionValues& options) {
+        model.choice.settings.modes = modes;
+        const Settings settings{44100, 44100, modes, options};
+        return bench::study::of_modes({truth.reference.choice.scheme, settings}, model, truth);
+    };
+    const OptionValues matched = {{"compliance", "matched"}};
+    EXPECT_EQ(model_of(20, matched), &truth.coarser[1]);
+    EXPECT_EQ(model_of(40, matched), &truth.reference);
+    EXPECT_EQ(model_of(30, matched), nullptr);
+    EXPECT_EQ(model_of(30, {}), &model);
+    EXPECT_EQ(model_of(20, {}), &model);
+}
+
 TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
     EXPECT_NEAR(left_after(1e-3, 3e-3, false), 5e-4, 1e-12);      // 1/3 + 1/9 + ...
     EXPECT_NEAR(left_after(1e-6, 1e-1, false), 1e-6 / 3, 1e-18);  // no better than order two, since one pair can agree by chance

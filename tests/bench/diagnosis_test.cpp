@@ -104,6 +104,23 @@ TEST(Diagnosis, TooFewRatesNoConvergenceAndOutOfReachAreThreeSentences) {
     EXPECT_TRUE(says(slow, "falls with the rate (order 0.3), but no rate within reach is enough"));
 }
 
+TEST(Diagnosis, OfThreeRatesWithAWideIntervalNothingIsSaidOfAHigherRate) {
+    store::Table t = cells_of({{44100, 0.0152}, {88200, 0.0049}, {176400, 0.0041}});  // order 0.95 +- 5
+    const auto text = [&t] { return compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.001); };
+    EXPECT_TRUE(says(text(), "From these rates it cannot be told whether a higher rate helps.")) << text();
+    EXPECT_FALSE(says(text(), "order")) << text();
+    EXPECT_FALSE(says(text(), "--modes")) << text();
+    t.columns.emplace_back("reference_modes");
+    for (auto& row : t.rows) row.emplace_back("15");
+    EXPECT_TRUE(says(text(), "helps. More modes may help: try `--modes 15`.")) << text();
+    for (auto& row : t.rows) row[static_cast<std::size_t>(t.column("error_in_model_l2_50ms"))] = "0.004";  // the error is of the scheme
+    EXPECT_FALSE(says(text(), "--modes")) << text();
+    store::Table falls = cells_of(falling(1, 0.4));
+    falls.columns.emplace_back("reference_modes");
+    for (auto& row : falls.rows) row.emplace_back("15");
+    EXPECT_FALSE(says(compare::why_none(falls, store::all_rows(falls), "error_l2_50ms", 0.01), "--modes"));
+}
+
 TEST(Diagnosis, RatesThatWereRunOverTheHeadlinesWindowAloneCountForTheOrder) {
     std::vector<Sample> some = falling(1, 0.4);
     some[0].status = some[1].status = "not_needed";
