@@ -7,28 +7,28 @@
 
 namespace jvari {
 
-#define JVARI_SCHEME(name) extern const Descriptor name;
-#define JVARI_CONTROL(name) JVARI_SCHEME(name)
+#define JVARI_BUILTIN(name) extern const Descriptor name;
+#define JVARI_CONTROL(name) JVARI_BUILTIN(name)
 #include "schemes/schemes.def"
-#undef JVARI_SCHEME
+#undef JVARI_BUILTIN
 
 std::span<const Descriptor> schemes() {
-#define JVARI_SCHEME(name) name,
+#define JVARI_BUILTIN(name) name,
     static const Descriptor table[] = {
 #include "schemes/schemes.def"
     };
-#undef JVARI_SCHEME
+#undef JVARI_BUILTIN
 #undef JVARI_CONTROL
     return table;
 }
 
 bool is_control(const Descriptor& d) {
-#define JVARI_SCHEME(name) false,
+#define JVARI_BUILTIN(name) false,
 #define JVARI_CONTROL(name) true,
     static constexpr bool controls[] = {
 #include "schemes/schemes.def"
     };
-#undef JVARI_SCHEME
+#undef JVARI_BUILTIN
 #undef JVARI_CONTROL
     const auto place =
         std::find_if(schemes().begin(), schemes().end(), [&d](const Descriptor& one) { return &one == &d; }) - schemes().begin();

@@ -20,7 +20,7 @@ mkdir "$tree" && tar -C "$here" --exclude=./build --exclude=./node_modules --exc
     echo "const Descriptor $name{\"$name\", \"a test\", honest_features, Balance::exact, Clock::stepped, planted<Honest>};"
     echo '}  // namespace jvari'
 } >"$tree/schemes/modal/$name.cpp"
-echo "JVARI_SCHEME($name)" >>"$tree/schemes/schemes.def"  # the line
+echo "JVARI_BUILTIN($name)" >>"$tree/schemes/schemes.def"  # the line
 cp "$here/tests/regularised_rule.hpp" "$tree/schemes/contact/"  # a rule, and its row
 sed -i -e 's|^#include "schemes/contact/quadratised_rule.hpp"|&\n#include "schemes/contact/regularised_rule.hpp"|' \
     -e 's|^    ROW(penalty,|    ROW(regularised, RegularisedRule, "a test") \\\n&|' "$tree/schemes/contact/rules.hpp"
