@@ -40,7 +40,7 @@ bench::trust::KeptCertificate made(const Scene& scene, const CertifySettings& se
 
 TEST(CertificateFile, ReadsBackToWhatItWasWrittenFrom) {
     const Scratch scratch;
-    const bench::trust::KeptCertificate kept = made(short_scene("tanpura_c3_release", 3e-3), {20, 44100, 8 * 44100.0, {}, {}});
+    const bench::trust::KeptCertificate kept = made(short_scene("tanpura_c3_release", 3e-3), {20, 44100, {}, {}});
     const fs::path path = scratch / "a.json";
     write(path, bench::trust::json_of(kept));
     write(bench::trust::cost_path(path), bench::trust::cost_json_of(kept));
@@ -76,7 +76,6 @@ TEST(CertificateFile, HasAKeyOfAllThatItDependsOnAndAHashOfTheSceneWhateverItsDu
     EXPECT_TRUE(differs(short_scene("free_string", 6e-3), settings));
     EXPECT_TRUE(differs(scene, {11, 44100, {}, {}}));
     EXPECT_TRUE(differs(scene, {10, 88200, {}, {}}));
-    EXPECT_TRUE(differs(scene, {10, 44100, 441000, {}, {}}));
     Scene tighter = scene;
     tighter.strings[0].tension *= 1.01;
     EXPECT_TRUE(differs(tighter, settings));
