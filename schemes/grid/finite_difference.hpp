@@ -68,7 +68,10 @@ double tuned_theta(const String&, double dt, double dx);
 // ---- The grid a scheme takes: option `grid`, or the finest that the limit allows, or `over_limit` times finer than the limit on purpose;
 // with both, `grid`, which may then be up to `over_limit` times finer than the limit.
 // Settings::modes asks for modes, which a grid does not have; the grid comes from the rate, and fact `grid_intervals` reports it.
-inline constexpr Option grid_option{"grid", "", "intervals of the grid, a whole number from 5 on; absent: the finest that is stable"};
+inline constexpr Option grid_option{
+    "grid", "",
+    "intervals of the grid, a whole number from 5 on; absent: the finest that is stable, or where any is the "
+    "finest of the explicit scheme without loss"};
 inline constexpr Option over_limit_option{"over_limit", "",
                                           "factor above 1: lets the grid be finer than is stable by as much; absent: it may not be"};
 Grid grid_for(const Descriptor&, const String&, const Settings&, double spacing_limit);

@@ -17,9 +17,7 @@
 namespace jvari {
 
 namespace {
-constexpr Option intervals_option{"grid", "",
-                                  "intervals of the grid, a whole number from 5 on; absent: those of the explicit scheme without loss"};
-constexpr Option options[] = {compliance_option, profile_points_option, intervals_option};
+constexpr Option options[] = {compliance_option, profile_points_option, grid_option};
 
 // All of the midpoint rule is taken at the middle of the step, gamma of a quadratised contact too: at the older level, its lag adds to the
 // warp of the string, and a soft profile errs by 2.4 % at 176.4 kHz in place of 0.9 %.
@@ -37,7 +35,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     const double dt = 1 / settings.sample_rate;
     const String& s = scene.strings.front();
     const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
-    const Grid grid = grid_of(descriptor, s, number_option(settings, intervals_option, own));
+    const Grid grid = grid_of(descriptor, s, number_option(settings, grid_option, own));
     const GridString g = on_grid(descriptor, scene, settings, grid, fit_losses(s));
     return driven<typename AtTheMiddle<Rule>::type>(std::make_unique<MidpointString>(g, dt), descriptor, settings);
 }
