@@ -217,7 +217,8 @@ Act certify_verb(CLI::App& program) {
         certify_command,
         "Example: jvari certify tanpura_c3_release --duration 0.1\n"
         "\n"
-        "Every reference that represents the scene runs, the best one at two settings of its accuracy; where there is none, the best scheme\n"
+        "Every reference that represents the scene runs, the best one at two settings of its accuracy; where there is none, the best "
+        "scheme\n"
         "at 16, 32 and 64 tap rates, with its own estimate. The table says, pair by pair, how far they are apart and for how long they\n"
         "agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the figure.");
 }
