@@ -76,7 +76,7 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
     if (s.pluck) {
         pluck_.push_back(*s.pluck);
         add_point(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        least_scale_ = 1e-6 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
+        least_scale_ = 1e-2 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
     }
     touched.assign(contacts, 0);
     inverse_.assign(padded, 0.0);

@@ -42,7 +42,7 @@ struct StringEquations final : Equations {
     double potential(int point, double y) const noexcept;                                    // [J], of a barrier or the thread
     double reach(int mode) const noexcept { return reach_.empty() ? 0 : reach_[mode]; }      // (beta/omega0)^2
     double stretching(double sum) const noexcept { return EA_ * length_ / 32 * sum * sum; }  // of sum reach p^2 [J]
-    // The most of: sum of p^2 + v^2, what barriers and thread press, 2 potential/m, and a millionth of the speed that the pluck makes.
+    // The most of: sum of p^2 + v^2, what barriers and thread press, 2 potential/m, and a hundredth of the speed that the pluck makes.
     double scale_squared(const double* z) const noexcept override;
     // Of the motion in contacts that are this deep and this fast, a bound [1/s]; decays: of a point without mass as well.
     double pace(const double* z, bool decays = true) const noexcept;
