@@ -127,7 +127,8 @@ bool IntegratedContact::interval(const Block& out) noexcept {
 }
 
 bool IntegratedContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
-    for (double at = from; at < to;) {
+    const double nothing = 1e-15 * interval_;  // the library cannot step so little
+    for (double at = from; to - at > nothing;) {
         const double left = to - at;
         const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.window.osc.rate) : 0;
         double step;
@@ -138,7 +139,7 @@ bool IntegratedContact::stretch(double from, double to, bool plucked, const Bloc
             if (landing.contact >= 0) toggle(landing.contact);
         } else step = integrate(left, plucked, since_pluck, out);
         if (!(step >= 0) || out.stopped()) return false;
-        idle_ = step > 1e-15 * interval_ ? 0 : idle_ + 1;
+        idle_ = step > nothing ? 0 : idle_ + 1;
         if (idle_ > 1000) return false;
         at = step == left ? to : at + step;
     }
