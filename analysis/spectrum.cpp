@@ -1,16 +1,14 @@
-// Source: spectrum.hpp. The only file that sees FFTW. Plans are estimated, not measured: the same signal gives the same bits in each run.
+// Source: spectrum.hpp.
 #include "analysis/spectrum.hpp"
-
-#include <fftw3.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+
+#include "analysis/squared_transform.hpp"
 
 namespace jvari {
 
@@ -18,39 +16,22 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-std::mutex planner;  // FFTW plans one at a time; transforms may run side by side
-// and other files plan too, under a lock of their own: FFTW is told before main() to lock for itself
-[[maybe_unused]] const bool locked_for_all = (fftw_make_planner_thread_safe(), true);
-
-struct Free {
-    void operator()(void* p) const { fftw_free(p); }
-};
-
 // |X|^2 of real frames of n rows, scaled to one-sided mean squares.
 class Transform {
 public:
-    Transform(int n, Taper taper) : n_(n), window_(n, 1.0), in_(fftw_alloc_real(n)), out_(fftw_alloc_complex(n / 2 + 1)) {
+    Transform(int n, Taper taper) : n_(n), window_(n, 1.0), transform_(n) {
         if (taper == Taper::hann)
             for (int i = 0; i < n; ++i) window_[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * i / n);
         for (double w : window_) weight_ += w * w;
-        const std::lock_guard lock(planner);
-        plan_ = fftw_plan_dft_r2c_1d(n, in_.get(), out_.get(), FFTW_ESTIMATE);
     }
-    ~Transform() {
-        const std::lock_guard lock(planner);
-        fftw_destroy_plan(plan_);
-    }
-    Transform(const Transform&) = delete;
-    Transform& operator=(const Transform&) = delete;
 
     int bins() const { return n_ / 2 + 1; }
     void operator()(std::span<const double> x, double* power) {  // rows past the end of x are zero
-        for (int i = 0; i < n_; ++i) in_.get()[i] = i < static_cast<int>(x.size()) ? window_[i] * x[i] : 0.0;
-        fftw_execute(plan_);
+        for (int i = 0; i < n_; ++i) transform_.rows()[i] = i < static_cast<int>(x.size()) ? window_[i] * x[i] : 0.0;
+        transform_.write(power);
         for (int k = 0; k < bins(); ++k) {
-            const double re = out_.get()[k][0], im = out_.get()[k][1];
             const double sides = k == 0 || 2 * k == n_ ? 1 : 2;
-            power[k] = weight_ > 0 ? sides * (re * re + im * im) / (n_ * weight_) : 0.0;  // Parseval: the sum is sum (x w)^2/sum w^2
+            power[k] = weight_ > 0 ? sides * power[k] / (n_ * weight_) : 0.0;  // Parseval: the sum is sum (x w)^2/sum w^2
         }
     }
 
@@ -58,9 +39,7 @@ private:
     int n_;
     std::vector<double> window_;
     double weight_ = 0;
-    std::unique_ptr<double, Free> in_;
-    std::unique_ptr<fftw_complex, Free> out_;
-    fftw_plan plan_ = nullptr;
+    SquaredTransform transform_;
 };
 
 double decibel(double power) {

@@ -37,7 +37,7 @@ Settings coarsest(const CertifySettings& settings) {
 std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
     std::vector<const Descriptor*> able;
     for (const Descriptor& r : references())
-        if ((needed_by(scene) - r.represents).empty()) able.push_back(&r);
+        if (represents(r, scene)) able.push_back(&r);
     std::vector<Job> jobs;
     for (const Descriptor* r : able)
         for (const Options& o : confirmation_of(*r, scene).accuracies) jobs.push_back({r, o, false});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari {
@@ -42,7 +43,7 @@ Oversampled oversampled(const Descriptor& scheme, const Scene& scene, const Sett
 std::vector<const Descriptor*> stand_ins(const Scene& scene) {
     std::vector<const Descriptor*> able;
     for (const Descriptor& d : schemes()) {
-        if (!(needed_by(scene) - d.represents).empty() || d.stand_in_rank < 1) continue;
+        if (!represents(d, scene) || d.stand_in_rank < 1) continue;
         if (!able.empty() && d.stand_in_rank > able.front()->stand_in_rank) able.clear();
         if (able.empty() || d.stand_in_rank == able.front()->stand_in_rank) able.push_back(&d);
     }

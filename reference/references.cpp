@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 
@@ -20,7 +21,7 @@ std::span<const Descriptor> references() {
 
 const Descriptor* best_reference(const Scene& scene) {
     for (const Descriptor& r : references())
-        if ((needed_by(scene) - r.represents).empty()) return &r;
+        if (represents(r, scene)) return &r;
     return nullptr;
 }
 

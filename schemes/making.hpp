@@ -16,6 +16,7 @@ Modes modes_of(const String&, const Settings&);  // those; Refusal where there i
 
 // What a descriptor says. margin_of: the least margin that the scheme's limit leaves on a string of the scene; NaN where it has nothing to
 // say.
+bool represents(const Descriptor&, const Scene&);
 bool declares(const Descriptor&, const std::string& option_name);
 Features approximated(const Descriptor&);
 double margin_of(const Descriptor&, const Scene&, const Settings&);

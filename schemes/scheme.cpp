@@ -56,6 +56,20 @@ void refuse_bad_options(const Descriptor& scheme, const Settings& settings) {
 }
 }  // namespace
 
+double fact_of(const std::vector<Fact>& facts, const std::string& name) {
+    double worst = std::numeric_limits<double>::quiet_NaN();
+    for (const Fact& f : facts) {
+        if (f.name == name) return f.value;
+        if (!f.name.starts_with("string.") || !f.name.ends_with("." + name)) continue;
+        worst = name == facts::smallest_contact_force.name ? std::fmin(worst, f.value) : std::fmax(worst, f.value);
+    }
+    return worst;
+}
+
+bool represents(const Descriptor& scheme, const Scene& scene) {
+    return (needed_by(scene) - scheme.represents).empty();
+}
+
 bool declares(const Descriptor& scheme, const std::string& name) {
     return std::any_of(scheme.options.begin(), scheme.options.end(), [&name](const Option& o) { return name == o.name; });
 }

@@ -54,6 +54,13 @@ struct Fact {
     std::string unit;  // "N"
 };
 
+// The value of a fact, NaN where the scheme does not report it. Where each of several strings has its own: the least of smallest contact
+// forces, of any other the largest.
+double fact_of(const std::vector<Fact>&, const std::string& name);
+inline double fact_of(const std::vector<Fact>& all, const FactName& known) {
+    return fact_of(all, known.name);
+}
+
 // A mode of the free string as a scheme's own recursion has it: z = exp((i omega - sigma) dt) is a root of it.
 struct FreeMode {
     double omega = 0;  // damped angular frequency [rad/s]; 0 where overdamped

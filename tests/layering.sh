@@ -1,5 +1,5 @@
 #!/bin/sh
-# The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp and scenes; bench is a staircase of rooms above them; tests see all.
+# The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp, run.hpp and scenes; bench is a staircase of rooms above them; tests see all.
 # No scheme includes another, and each library is seen where docs/dependencies.md says and nowhere else. usage: layering.sh [TREE]
 cd "${1:-$(dirname "$0")/..}" || exit 2
 status=0
@@ -42,7 +42,7 @@ forbid "nothing sees the page's module" '#include "web/' $(files scenes schemes 
 forbid "the Python module sees the engine, not the command line" '#include "bench/command/' $(files python)
 forbid "the engine sees no Python" '#include "python/' $(files scenes schemes reference analysis bench)
 forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
-forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^t]|schemes/t[^r]|reference/|bench/)' $(files analysis)
+forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^tr]|schemes/t[^r]|schemes/r[^u]|reference/|bench/)' $(files analysis)
 # Libraries, as the table of docs/dependencies.md says. The benchmarks of bench/kernels and the tests compare with any of them.
 product=$(files scenes schemes reference analysis bench python | grep -v '^bench/kernels/')
 only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin with PLACES alone include PATTERN
@@ -52,7 +52,7 @@ only "toml++" 'toml' 'scenes/document'
 only GSL 'gsl/' 'analysis/'
 only Eigen 'Eigen/' 'schemes/|reference/(in_series|exact/(touching_set|collocated_contact|series_window))|analysis/'
 only Highway 'hwy/' 'schemes/|reference/exact/modal_sweep'
-only FFTW 'fftw' 'analysis/(spectrum|convolution)'
+only FFTW 'fftw' 'analysis/(squared_transform|convolution)'
 only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'
 only CLI11 'CLI/' 'bench/command/'
 only JSON 'nlohmann/' 'bench/'

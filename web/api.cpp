@@ -2,13 +2,15 @@
 // of the refusal, which is that of the program; after a call that returns a text, the text stays valid until the next call.
 #include <emscripten.h>
 
-#include <chrono>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
+#include "analysis/cheapest.hpp"
 #include "analysis/error.hpp"
+#include "analysis/spectrum.hpp"
 #include "reference/agreement.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
@@ -69,16 +71,19 @@ void add_shape(Scene& scene, const char* places) {
     for (const std::string& place : lines_of(places))
         scene.taps.push_back({"at " + place, Quantity::displacement, 0, scene.strings[0].length * number_of(place).value_or(0.5)});
 }
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 }  // namespace
 
 struct Kept {
     Run run;
     Scene scene;
-    double making = 0;  // [s]
+    Balance promised = Balance::none;
+
+    std::span<const double> column(int tap) const { return run.trace.column(tap); }
+    double power_above(double hertz, int tap) const {
+        const PowerSpectrum s = power_spectrum(column(tap), run.trace.tap_rate);
+        const auto first = static_cast<std::size_t>(std::ceil(hertz / s.bin_hz));
+        return std::accumulate(s.power.begin() + static_cast<long>(std::min(first, s.power.size())), s.power.end(), 0.0);
+    }
 };
 }  // namespace jvari::web
 
@@ -114,7 +119,6 @@ JV const char* jv_problem(const char* text, const char* overrides, double rate, 
 JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, double rate, double tap_rate, int modes, const char* options,
                 double duration, const char* shape, int energy) {
     return tried([&]() -> Kept* {
-        const auto start = std::chrono::steady_clock::now();
         auto kept = std::make_unique<Kept>();
         Scene& scene = kept->scene = parse_scene(text, "scene", lines_of(overrides));
         if (duration > 0) scene.duration = duration;
@@ -124,15 +128,15 @@ JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, dou
         if (static_cast<double>(rows_of(scene, settings)) * static_cast<double>(scene.taps.size() + 3) > most_values)
             throw Refusal("A run of " + number_text(scene.duration) + " s is too long for the page: use the program, `jvari run " +
                           scene.name + " --scheme " + d.name + "`.");
+        kept->promised = d.balance;
         const auto made = make_scheme(d, scene, settings);
-        kept->making = seconds_since(start);
         kept->run = run(*made, scene, settings, {.energy = energy != 0});
         return kept.release();
     });
 }
 
 JV const char* jv_about(const Kept* k) {
-    return (said = run_text(k->run, k->making)).c_str();
+    return (said = run_text(k->run, k->scene, k->promised)).c_str();
 }
 JV const double* jv_tap(const Kept* k, int tap) {
     return k->run.trace.column(tap).data();
@@ -144,13 +148,30 @@ JV void jv_free(Kept* k) {
     delete k;
 }
 
-// How far two runs of one scene are apart on a tap: ||a - b||/||b|| from `from` up to `to` [s], and for how long the two agree within 10 %.
+// How far two runs of one scene are apart on a tap: ||a - b||/||b|| from `from` up to `to` [s], for how long the two agree within 10 %,
+// in third octaves within `range` [dB] of the loudest [dB], and how much louder a is above a frequency [dB].
 JV double jv_error(const Kept* a, const Kept* b, int tap, double from, double to) {
-    return relative_l2(a->run.trace.column(tap), b->run.trace.column(tap), b->run.trace.tap_rate, {from, to});
+    return relative_l2(a->column(tap), b->column(tap), b->run.trace.tap_rate, {from, to});
 }
 JV double jv_horizon(const Kept* a, const Kept* b, int tap) {
-    return horizon(a->run.trace.column(tap), b->run.trace.column(tap), b->run.trace.tap_rate);
+    return horizon(a->column(tap), b->column(tap), b->run.trace.tap_rate);
+}
+JV double jv_third_octaves(const Kept* a, const Kept* b, int tap, double range) {
+    return third_octave_difference(a->column(tap), b->column(tap), b->run.trace.tap_rate, {.range = range});
+}
+JV double jv_louder(const Kept* a, const Kept* b, int tap, double hertz) {
+    return 10 * std::log10(a->power_above(hertz, tap) / b->power_above(hertz, tap));
 }
 JV double jv_left_after(double last, double before, int matched) {
     return left_after(last, before, matched != 0);
+}
+
+// Of runs by these schemes, a line each: `figures` holds error, its uncertainty, the cost and its quartiles of each.
+JV const char* jv_cheapest(const char* schemes, const double* figures, double accuracy) {
+    std::vector<Offer> offers;
+    for (const std::string& name : lines_of(schemes)) {
+        offers.push_back({name, at_most(figures[0], figures[1]), at_least(figures[0], figures[1]), figures[2], figures[3], figures[4]});
+        figures += 5;
+    }
+    return (said = choice_text(cheapest_within(accuracy, offers))).c_str();
 }

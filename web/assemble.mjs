@@ -24,7 +24,7 @@ function recorded(asked) {
 const safe = text => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 const parts = {
     STYLE: web("play.css"), GLUE: safe(readFileSync(join(build, "jvari.js"), "utf8")), CORE: safe(web("core.js")), WORKER: safe(web("worker.js")), MODULE: gzipSync(wasm, {level: 9}).toString("base64"),
-    LIBRARY: safe(JSON.stringify(library)), PROGRAM: safe(["state.js", "client.js", "spectrum.js", "sound.js", "picture.js", "chart.js", "map.js", "own.js", "tours.js", "main.js"].map(web).join("\n")),
+    LIBRARY: safe(JSON.stringify(library)), PROGRAM: safe(["state.js", "client.js", "sound.js", "picture.js", "chart.js", "map.js", "own.js", "tours.js", "main.js"].map(web).join("\n")),
     RECORDED_SCHEME: recorded({scheme: "modal_two_point", rate: 44100}), RECORDED_REFERENCE: recorded({scheme: "exact_contact", options: ["compliance=matched"]})
 };
 const page = web("play.html").replace(/@([A-Z_]+)@/g, (_, name) => parts[name]), limit = 1.5e6;

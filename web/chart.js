@@ -16,10 +16,7 @@ function chart_cells() {
     return lines.flatMap(([scheme, compliance]) => chart_rates.map(rate => ({scheme, compliance, rate})));
 }
 
-// What is known of an error e where the reference is uncertain by c, as in the program: at most e + c, at least e - c. Nothing, where c is unknown.
-const most_of = p => Number.isFinite(p.uncertainty) ? p.error + p.uncertainty : Infinity;
-const least_of = p => Number.isFinite(p.uncertainty) ? Math.max(0, p.error - p.uncertainty) : 0;
-const error_text = p => most_of(p) > 1.1 * p.error ? `\u2264 ${percent(most_of(p))}` : percent(p.error);
+const error_text = p => p.uncertainty > 0.1 * p.error ? `\u2264 ${percent(p.error + p.uncertainty)}` : percent(p.error);
 const sound_point = p => p.outcome === "ok" && Number.isFinite(p.error);
 const label_of = p => p.scheme + (p.compliance === "matched" ? ", matched" : "");
 function percent(x) {
@@ -30,32 +27,31 @@ function percent(x) {
 const two_digits = x => String(Number(x.toPrecision(2)));
 const time_text = s => s >= 1 ? `${two_digits(s)} s` : s >= 1e-3 ? `${two_digits(1e3 * s)} ms` : `${two_digits(1e6 * s)} µs`;
 
-// The cheapest within an accuracy, by the rules of `jvari compare`: of the runs whose quartiles of cost touch those of the cheapest the one of least
-// error is named, the other schemes among them are ties, and a control does not compete. Costs are of this browser, and its clock is coarse.
-function verdict(points, accuracy) {
-    const all = points.filter(p => p.scheme !== "mine" && !descriptor(p.scheme)?.control && sound_point(p)).sort((a, b) => a.cost - b.cost);
-    const met = all.filter(p => most_of(p) <= accuracy), tied = met.filter(p => p.lower <= met[0].upper);
-    const best = [...tied].sort((a, b) => most_of(a) - most_of(b))[0], undecided = p => most_of(p) > accuracy && least_of(p) <= accuracy;
-    const others = which => all.filter(p => p.scheme !== best?.scheme && which(p)).filter((p, k, list) => list.findIndex(q => q.scheme === p.scheme) === k);
-    return {best, ties: others(p => tied.includes(p)), perhaps: others(p => undecided(p) && !(best && p.cost >= best.cost))};
+// The cheapest within an accuracy, by the rules of `jvari compare` (analysis/cheapest.hpp). Costs are of this browser, and its clock is coarse.
+async function verdict(points, accuracy) {
+    const all = points.filter(p => p.scheme !== "mine" && !descriptor(p.scheme)?.control && sound_point(p)), found = await ask("cheapest", {points: all, accuracy});
+    return {best: all[found.best], ties: found.ties.map(k => all[k]), perhaps: found.perhaps.map(k => all[k])};
 }
 const run_name = p => `${label_of(p)} at ${p.rate / 1e3} kHz`, run_names = list => list.map(run_name).join("; ");
 
-function answer_of(accuracy, done) {
-    const {best, ties, perhaps} = verdict(chart.points, accuracy);
+function answer_of({best, ties, perhaps}, done) {
     if (!best && !done) return ["…"];
     if (!best) return perhaps.length ? ["cannot be decided", `the reference is known to ${percent(perhaps[0].uncertainty)} only`, `candidates: ${run_names(perhaps)}`] : ["none"];
     return [label_of(best), `${best.rate / 1e3} kHz, ${error_text(best)} error, ${time_text(best.cost)} per second in this browser`,
         ties.length && `a tie with ${run_names(ties)}`, perhaps.length && `perhaps for less ${run_names(perhaps)}`].filter(Boolean);
 }
-function draw_answers(done) {
-    document.getElementById("answers").replaceChildren(...[0.1, 0.01, 0.001].map(accuracy => {
-        const [found, ...more] = answer_of(accuracy, done), {best} = verdict(chart.points, accuracy), card = element("div", {className: "card"});
-        card.append(element("p", {className: "soft"}, `within ${100 * accuracy} %`), element("p", {}, found), ...more.map(text => element("p", {className: "soft"}, text)));
-        if (best) card.style.borderLeftColor = colour_of(best.scheme);
+async function draw_answers(done) {
+    const asked = ++draw_answers.count, accuracies = [0.1, 0.01, 0.001];
+    const told = await Promise.all(accuracies.map(accuracy => verdict(chart.points, accuracy))).catch(error => { if (!(error instanceof Stale_question)) throw error; });
+    if (!told || asked !== draw_answers.count) return;  // the worker was replaced, or there are newer points
+    document.getElementById("answers").replaceChildren(...told.map((v, k) => {
+        const [found, ...more] = answer_of(v, done), card = element("div", {className: "card"});
+        card.append(element("p", {className: "soft"}, `within ${100 * accuracies[k]} %`), element("p", {}, found), ...more.map(text => element("p", {className: "soft"}, text)));
+        if (v.best) card.style.borderLeftColor = colour_of(v.best.scheme);
         return card;
     }));
 }
+draw_answers.count = 0;
 
 function svg(name, attributes, ...inside) {
     const made = document.createElementNS("http://www.w3.org/2000/svg", name);

@@ -36,6 +36,13 @@ function jvari_core(module) {
         error: (a, b, tap, from = 0, to = 1e300) => call("jv_error", "number", a.handle, b.handle, tap, from, to),
         horizon: (a, b, tap) => call("jv_horizon", "number", a.handle, b.handle, tap),
         left_after: (last, before, matched) => call("jv_left_after", "number", last, before, matched),
+        third_octaves: (a, b, tap, range) => call("jv_third_octaves", "number", a.handle, b.handle, tap, range),
+        louder: (a, b, tap, hertz) => call("jv_louder", "number", a.handle, b.handle, tap, hertz),
+        cheapest(points, accuracy) {  // their places: of the best (null: none), of ties, of those that are perhaps cheaper
+            const at = module._malloc(40 * points.length);
+            new Float64Array(module.HEAPF64.buffer, at, 5 * points.length).set(points.flatMap(p => [p.error, p.uncertainty ?? NaN, p.cost, p.lower, p.upper]));
+            try { return told(call("jv_cheapest", "string", points.map(p => p.scheme).join("\n"), at, accuracy)); } finally { module._free(at); }
+        },
         memory: () => module.HEAPF64.length * 8
     };
 }

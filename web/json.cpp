@@ -6,14 +6,15 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/judgement.hpp"
 #include "reference/references.hpp"
 #include "scenes/barrier.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/wording.hpp"
 #include "schemes/controls.hpp"
+#include "schemes/making.hpp"
 #include "schemes/open/problem.hpp"
 #include "schemes/registry.hpp"
-#include "schemes/vector_instructions.hpp"
 
 namespace jvari::web {
 
@@ -69,22 +70,12 @@ private:
     std::string inside_;
 };
 
-std::string scheme_text(const Descriptor& d, bool reference) {
-    const auto option = [](const Option& o) {
-        return Object()
-            .with("name", o.name)
-            .with("fallback", o.fallback)
-            .with("meaning", o.meaning)
-            .raw("words", array(o.words(), [](const char* w) { return quote(w); }))
-            .text();
-    };
+std::string scheme_text(const Descriptor& d) {
+    const auto option = [](const Option& o) { return Object().with("name", o.name).text(); };
     return Object()
         .with("name", d.name)
         .with("source", d.source)
-        .with("note", d.note)
-        .with("reference", reference)
         .with("control", is_control(d))
-        .with("stepped", d.clock == Clock::stepped)
         .raw("options", array(d.options, option))
         .text();
 }
@@ -142,22 +133,17 @@ std::string string_text(const String& s) {
 }  // namespace
 
 std::string list_text() {
-    return Object()
-        .with("instructions", vector_instructions())
-        .raw("schemes", array(schemes(), [](const Descriptor& d) { return scheme_text(d, false); }))
-        .raw("references", array(references(), [](const Descriptor& d) { return scheme_text(d, true); }))
-        .text();
+    return Object().raw("schemes", array(schemes(), scheme_text)).raw("references", array(references(), scheme_text)).text();
 }
 
 std::string scene_text(const Scene& scene) {
     const Descriptor* reference = best_reference(scene);
-    const Features needed = needed_by(scene);
     const auto tap = [](const Tap& t) {
         return Object().with("name", t.name).with("quantity", name_of(t.quantity)).with("unit", unit_of(t.quantity)).text();
     };
     std::vector<std::string> able;
     for (const Descriptor& d : schemes())
-        if ((needed - d.represents).empty()) able.emplace_back(d.name);
+        if (represents(d, scene)) able.emplace_back(d.name);
     return Object()
         .with("name", scene.name)
         .with("source", scene.source)
@@ -178,7 +164,8 @@ std::string problem_text(const Scene& scene, const Settings& settings) {
     return o.text();
 }
 
-std::string run_text(const Run& r, double making) {
+std::string run_text(const Run& r, const Scene& scene, Balance promised) {
+    const Figures figures = figures_of(promised, scene, r);
     const auto fact = [](const Fact& f) { return Object().with("name", f.name).with("value", f.value).with("unit", f.unit).text(); };
     return Object()
         .with("outcome", name_of(r.status.outcome))
@@ -188,9 +175,19 @@ std::string run_text(const Run& r, double making) {
         .with("rate", r.trace.tap_rate)
         .with("dofs", static_cast<double>(r.dofs))
         .with("wall", r.wall_seconds)
-        .with("making", making)
+        .with("residual", figures.energy_residual_accumulated)
+        .with("verdict", name_of(verdict_of(figures, promised, std::numeric_limits<double>::quiet_NaN())))
         .raw("taps", array(r.trace.names, [](const std::string& n) { return quote(n); }))
         .raw("facts", array(r.facts, fact))
+        .text();
+}
+
+std::string choice_text(const Choice& c) {
+    const auto place = [](std::size_t k) { return std::to_string(k); };
+    return Object()
+        .raw("best", c.best ? place(*c.best) : "null")
+        .raw("ties", array(c.ties, place))
+        .raw("perhaps", array(c.perhaps, place))
         .text();
 }
 

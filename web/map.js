@@ -1,6 +1,6 @@
 // Where a scheme fails: its outcome over the stiffness of the obstacle and the sample rate, filled column by column while you watch.
 const map = {number: 0, columns: [], stiffness: [], rates: [], running: false};
-const map_size = {columns: 28, rows: 13}, map_seconds = 0.02, energy_kept = 1e-2;  // of a run that counts as sound: what it may gain or lose unaccounted for
+const map_size = {columns: 28, rows: 13}, map_seconds = 0.02;
 
 async function fill_map() {
     const number = ++map.number, base = shown.scene?.string[0].barrier[0];
@@ -26,13 +26,13 @@ async function fill_map() {
     draw_map();
 }
 
-const kind_of = cell => cell.outcome !== "ok" ? cell.outcome : cell.residual > energy_kept ? "energy" : "ok";
-const kinds = {ok: ["sound", "sound"], energy: ["gains", "energy not kept within 1 %"], diverged: ["fails", "diverged"], not_converged: ["stuck", "not converged"], refused: ["none", "refused"]};
+// The outcomes of the program's maps (analysis/judgement.hpp), each with its colour.
+const kinds = {sound: "sound", flagged: "flagged", energy_gaining: "gains", adhesive: "force", diverged: "fails", not_converged: "stuck", unjudged: "soft", refused: "none"};
 
 function draw_map(note = "") {
     const {pen, width, height} = canvas_of("map"), left = 58, bottom = 34, across = (width - left - 8) / map_size.columns, up = (height - bottom - 6) / map_size.rows;
     map.columns.forEach((column, k) => column.forEach((cell, n) => {
-        pen.fillStyle = colour(kinds[kind_of(cell)][0]);
+        pen.fillStyle = colour(kinds[cell]);
         pen.fillRect(left + k * across, 6 + (map_size.rows - 1 - n) * up, Math.ceil(across) - 0.5, Math.ceil(up) - 0.5);
     }));
     pen.fillStyle = colour("soft");
@@ -46,8 +46,9 @@ function draw_map(note = "") {
         pen.lineWidth = 2;
         pen.beginPath(), pen.arc(left + (k + 0.5) * across, 6 + (map_size.rows - 0.5 - n) * up, 7, 0, 7), pen.stroke();
     }
-    const cells = map.columns.flat(), count = kind => cells.filter(c => kind_of(c) === kind).length, found = Object.keys(kinds).filter(count);
-    const told = note || `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs of ${1e3 * map_seconds} ms. ${found.map(kind => `${kinds[kind][1]}: ${count(kind)}`).join("; ")}.`;
+    const cells = map.columns.flat(), count = kind => cells.filter(c => c === kind).length, found = Object.keys(kinds).filter(count);
+    const told = note || `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs of ${1e3 * map_seconds} ms. ${found.map(kind => `${kind.replace("_", " ")}: ${count(kind)}`).join("; ")}.`;
+    document.getElementById("map_legend").replaceChildren(...found.flatMap(kind => [element("span", {className: "key", style: `background: var(--${kinds[kind]})`}), ` ${kind.replace("_", " ")} `]));
     document.getElementById("map_said").textContent = told;
     document.getElementById("map").setAttribute("aria-label", `map of outcomes over stiffness and sample rate. ${told}`);
 }

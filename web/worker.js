@@ -15,19 +15,8 @@ function headline_of(scene) {  // as in the tables of `jvari compare`: the first
     return {nut, force: first("bridge_force")};
 }
 
-// The energy that a run gained or lost unaccounted for, over the largest that it had: cumulated, and its stored energy as a curve.
-function balance_of(run) {
-    const ledger = run.ledger();
-    if (!ledger) return {};
-    const [stored, supplied, dissipated] = ledger;
-    let sum = stored[0], worst = 0, most = 0;
-    for (let n = 0; n < stored.length; ++n) {
-        if (n) sum += supplied[n] - dissipated[n];
-        worst = Math.max(worst, Math.abs(stored[n] - sum));
-        most = Math.max(most, Math.abs(stored[n]));
-    }
-    return {stored: Float64Array.from(stored), residual: worst / most};
-}
+// Its stored energy as a curve, and the energy that it gained or lost unaccounted for, over the largest that it had.
+const balance_of = run => { const ledger = run.ledger(); return ledger ? {stored: Float64Array.from(ledger[0]), residual: run.residual ?? NaN} : {}; };
 
 function pictured(run, scene, points) {  // what the page draws of a run
     const {nut, force} = headline_of(scene), count = scene.tap.length, shape = new Float32Array(run.rows * points);
@@ -159,7 +148,7 @@ async function show(state, post, go_on) {
 // ---- Single questions, answered in their turn: of the player, the map and the tours.
 
 const questions = {
-    // One run, and with `beside` another of the same scene: how far apart, and for how long they agree.
+    // One run, and with `beside` another of the same scene: how far apart, by third octaves within 60 dB of the loudest and in loudness above 2 kHz too, and for how long they agree.
     pair({run: first, beside}) {
         const a = jvari.run(first), scene = jvari.scene(first.scene, first.overrides), {nut, force} = headline_of(scene);
         const told = r => ({outcome: r.outcome, step: r.step, rate: r.rate, rows: r.rows, dofs: r.dofs, cost: r.wall / first.duration, facts: r.facts, nut: Float64Array.from(r.tap(nut)),
@@ -167,7 +156,8 @@ const questions = {
         const answer = {run: told(a)};
         if (beside) {
             const b = jvari.run({...first, options: [], ...beside});
-            Object.assign(answer, {beside: told(b), error: jvari.error(a, b, nut, 0, first.duration), horizon: jvari.horizon(a, b, nut)});
+            Object.assign(answer, {beside: told(b), error: jvari.error(a, b, nut, 0, first.duration), horizon: jvari.horizon(a, b, nut), octaves: jvari.third_octaves(a, b, nut, 60),
+                louder: jvari.louder(a, b, nut, 2000)});
             b.free();
         }
         a.free();
@@ -176,14 +166,15 @@ const questions = {
     outcomes({runs}) {  // of a column of the map
         return runs.map(asked => {
             try {
-                const run = jvari.run({...asked, energy: true}), {residual} = balance_of(run);
+                const run = jvari.run({...asked, energy: true});
                 run.free();
-                return {outcome: run.outcome, residual};
-            } catch (error) {
-                return {outcome: "refused", why: error.message};
+                return run.verdict;
+            } catch {
+                return "refused";
             }
         });
     },
+    cheapest: ({points, accuracy}) => jvari.cheapest(points, accuracy),
     scene: ({text, overrides}) => jvari.scene(text, overrides),
     problem: ({text, overrides, rate, modes, duration}) => jvari.problem(text, overrides, rate, modes, duration),
     memory: () => jvari.memory()

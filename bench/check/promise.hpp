@@ -2,8 +2,8 @@
 //
 // A promise is asked on every scene that the scheme represents, on every scene that it does not, or once. Claims in numbers rest on all
 // others, and are asked where these are kept: so what breaks a promise fails by its name. The last rests on the claims before it as well: a
-// scheme that moves otherwise than the scene is at no instant of it. tests/contract_plugins has a scheme for each that breaks it and keeps
-// all others.
+// scheme that moves otherwise than the scene is at no instant of it.
+// tests/contract_plugins has a scheme for each that breaks it and keeps all others.
 #pragma once
 
 #include <span>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
+#include "schemes/making.hpp"
 #include "schemes/run.hpp"
 #include "schemes/scheme.hpp"
 
@@ -81,7 +82,6 @@ Verdict writes_rows_at_their_instants(const Case&);
 Verdict converges_to_the_reference(const Case&);
 Verdict stays_sound_over_a_map(const Case&);
 
-using compare::represents;
 Settings settings_for(const Descriptor&, const Scene&);
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
 Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it

@@ -61,7 +61,7 @@ Verdict never_pulls(const Case& c) {
     Case one = c;
     one.scene.taps = {{"contact", Quantity::bridge_force, std::nullopt, 0}};
     const jvari::Run r = fresh(one, {});
-    double least = study::fact(r.facts, facts::smallest_contact_force), largest = study::fact(r.facts, facts::largest_contact_force);
+    double least = fact_of(r.facts, facts::smallest_contact_force), largest = fact_of(r.facts, facts::largest_contact_force);
     for (const double force : r.trace.column(0)) {  // what it says of single steps and of their means has to be so
         least = std::fmin(least, force);
         largest = std::fmax(largest, force);

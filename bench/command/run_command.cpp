@@ -42,7 +42,7 @@ struct RunRequest : Running {
 
 // What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
 std::string dearest(const std::vector<Fact>& facts) {
-    const double coupled = study::fact(facts, facts::coupled_contact_points);
+    const double coupled = fact_of(facts, facts::coupled_contact_points);
     if (!(coupled > 8)) return "";
     return fmt::format(
         ". Dear is its contact: {:.0f} points that push each other are solved together, each step by up to the cube of those that touch; a "

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/cheapest.hpp"
+
 namespace jvari::bench::compare {
 
 namespace {
@@ -18,11 +20,11 @@ std::string column_of(const char* what, const std::string& error_column) {  // e
 }  // namespace
 
 double Bound::most() const {
-    return error + certificate;
+    return at_most(error, certificate);
 }
 
 double Bound::least() const {
-    return std::isinf(error) ? error : std::isnan(certificate) ? 0 : std::fmax(0, error - certificate);
+    return at_least(error, certificate);
 }
 
 Bound::Says Bound::says() const {

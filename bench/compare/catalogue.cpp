@@ -107,10 +107,6 @@ std::string arguments_of(const Descriptor& d, const Settings& s) {
     return text;
 }
 
-bool represents(const Descriptor& d, const Scene& scene) {
-    return (needed_by(scene) - d.represents).empty();
-}
-
 std::optional<int> dofs_with(int modes, const Descriptor& d, const Scene& scene, Settings settings) {
     settings.modes = modes;
     try {

@@ -39,7 +39,6 @@ Settings settings_of_run(const Descriptor&, double rate, std::optional<double> t
 std::string arguments_of(const Descriptor&, const Settings&);  // the same as typed: "--scheme modal_two_point --rate 44100 --modes 40"
 bool whole_multiple(double rate, double of);                   // rate = n x of, n = 1, 2, ...
 
-bool represents(const Descriptor&, const Scene&);
 // Doubles of state with that many modes; nothing where it cannot be made. A grid has as many whatever it is told.
 std::optional<int> dofs_with(int modes, const Descriptor&, const Scene&, Settings);
 std::vector<std::string> names_in(Features);  // one by one

@@ -58,7 +58,7 @@ Made made(const Descriptor& d, const Scene& scene, const Settings& settings) {
         const auto scheme = make_scheme(d, scene, settings);
         const std::vector<Fact> facts = scheme->facts();
         const auto count = [&facts](const char* name) {
-            const double n = study::fact(facts, name);
+            const double n = fact_of(facts, name);
             return n > 0 ? static_cast<int>(n) : 0;
         };
         return {false, count("interior_nodes"), count("contact_points")};

@@ -22,7 +22,7 @@ std::vector<const Descriptor*> schemes_of(const Map& m, const compare::Catalogue
     if (!chosen.empty()) return chosen;
     const Scene scene = compare::load_scene(m.scene, {}, std::nullopt);
     for (const Descriptor* d : catalogue.schemes)
-        if (compare::represents(*d, scene)) chosen.push_back(d);
+        if (represents(*d, scene)) chosen.push_back(d);
     if (chosen.empty()) throw store::UsageError(fmt::format("map {}: no scheme represents scene {}", m.name, m.scene));
     return chosen;
 }

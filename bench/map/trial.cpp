@@ -77,7 +77,7 @@ std::vector<study::ReferenceChoice> Trials::references_of(const Trial& t) const 
     std::vector<const Descriptor*> candidates = catalogue_.references;
     if (!t.reference.empty()) candidates = {&catalogue_.find(t.reference)};
     for (const Descriptor* d : candidates) {
-        if (!compare::represents(*d, t.scene)) continue;
+        if (!represents(*d, t.scene)) continue;
         Settings s;
         s.sample_rate = d->clock == Clock::continuous ? 0 : 8 * t.settings.sample_rate;
         s.tap_rate = t.settings.tap_rate;

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "analysis/judgement.hpp"
 #include "analysis/statistics.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/sound.hpp"
 #include "bench/study/errors.hpp"
-#include "schemes/run.hpp"
 
 namespace jvari::bench::study {
 
 // What a run has to say of itself beside its trace.
-struct Summary {
+struct Summary : Figures {
     std::string scheme, scene;
     double rate;  // [Hz]; NaN for a continuous-time reference
     int modes;    // of the first string; interior nodes for a scheme on a grid
@@ -24,13 +24,6 @@ struct Summary {
     double duration;                                    // simulated [s]: up to the last valid row
     double wall_seconds, ns_per_step, times_real_time;  // NaN where there is nothing to divide
     double processor_seconds = 0;                       // of an accuracy run
-    Status status;
-    double energy_residual_per_step, energy_residual_accumulated;  // relative to the largest stored energy; NaN unless probed
-    double smallest_contact_force, largest_contact_force;          // [N]; NaN where the scheme does not say
-    double deepest_penetration;                                    // [m]
-    double energy_gain;           // the largest excess of stored energy over the ledger, of the energy that was there (analysis/energy.hpp)
-    double largest_displacement;  // of the displacement taps: |y| over sqrt(E L/(2T)), what that energy could make; NaN where there is none
-    std::vector<Fact> facts;      // the others
 };
 
 Summary summary_of(const Descriptor&, const Scene&, const Settings&, const Run&);
@@ -55,13 +48,6 @@ void each_figure(Summary_& s, Act act) {
     act("deepest_penetration", s.deepest_penetration);
     act("energy_gain", s.energy_gain);
     act("largest_displacement", s.largest_displacement);
-}
-
-// The value of a fact, NaN where the scheme does not report it. Where each of several strings has its own: the least of smallest contact
-// forces, of any other the largest.
-double fact(const std::vector<Fact>&, const std::string& name);
-inline double fact(const std::vector<Fact>& all, const FactName& known) {
-    return fact(all, known.name);
 }
 
 struct Timing {                                                     // what a clock said of a cell (cost.hpp)

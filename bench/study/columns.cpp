@@ -123,7 +123,7 @@ const std::vector<Declared>& declared() {
         {{"failed_step", "", Rule::step, "where it failed"}, [](F f) { return count(f.summary().status.step, failed(f)); }},
         {{"failed_at_s", "s", Rule::instant, ""}, [](F f) { return number(failed(f) ? f.summary().duration : store::nan); }},
         {{"fact_{f}", "", Rule::fact, "whatever else the scheme reports of itself (`jvari list facts`)"},
-         [](F f) { return number(study::fact(f.summary().facts, f.fact)); }},
+         [](F f) { return number(fact_of(f.summary().facts, f.fact)); }},
         {{"{m}_{t}", "as the error", Rule::error, "each of the errors on each tap"}, [](F f) { return number(f.in(f.cell().errors)); }},
         {{"floor_{d}_{t}", "as the error", Rule::floor, "the noise floor of each"},
          [](F f) { return number(f.in(f.record.against.floor)); }},

@@ -1,59 +1,21 @@
-// What is to be said against a run: its flags, whatever its error, and its outcome, as maps have it. The one definition of each judgement,
-// which run, compare, suite, trim, maps and check all use.
-//
-// The outcome of a run is the gravest that applies. Each threshold with its reason:
-//   refused         the scheme does not represent the scene, or not at these settings
-//   diverged        the run's own status; or a displacement that more than ten times the energy that was ever there could not make:
-//                   |y| <= sqrt(E L/(2 T)) on a string under tension T, E = stored at the start and supplied since (a scheme beyond its
-//                   limit can keep an indefinite energy constant to rounding while the string flies off)
-//   not_converged   the run's own status: the contact equation was left unsolved
-//   energy_gaining  stored energy above the ledger (in which a negative loss counts as none: obstacles add no energy) by more than
-//                   energy_allowed of E where the scheme promises a balance to rounding, 1e-2 where it promises none: there the true energy
-//                   is no invariant, and wavers by O((omega dt)^2) in stable runs
-//   adhesive        the contact pulls by more than pull_allowed of its largest push (below)
-//   inaccurate      relative L2 error of the nut force over the run above 10 %: the headline signal of compare, and the threshold of its
-//                   predictability horizon
-//   flagged         none of these, but a flag speaks against it, as in a comparison: the ledger is open, psi is stuck, modes alias
-//   unjudged        none of these, and no figure at all that could have told: no energy reported, no smallest contact force, no reference
-//   sound           none of these, and at least one figure that would have told
+// What is to be said against a run (analysis/judgement.hpp), in sentences.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/study/cell.hpp"
 
 namespace jvari::bench::study {
 
-// What the figures of a run say against it. A balance is necessary and never sufficient.
+using jvari::is_stable, jvari::pull_allowed, jvari::pull_of, jvari::Verdict, jvari::verdict_named;
+
 struct Flag {
     std::string name;      // "adhesion"
     std::string sentence;  // what happened: "the contact pulls with 0.55 N, ..."
 };
 std::vector<Flag> flags_of(const Summary&);
 std::string names_of(const std::vector<Flag>&);  // "adhesion psi_gap"; "" for none
-
-// The part of its largest push with which a contact pulls; 0 where it pulls with pull_floor at most. NaN where `least` is unknown.
-// An unknown `largest` counts as none, so any pull above the floor is then too much.
-//
-// The scale is the largest push, because stiffness, tension and amplitude may be of any size, and a rounding error grows with the forces.
-// Most schemes never pull at all. sitar_waveguide pulls with 3e-8 of its largest push, by the rounding of its impulses, and the known-bad
-// controls start at 1e-6. The floor stands for contacts that hardly touch: at 1e10 N/m, above every lumped obstacle of the library,
-// the rounding of a displacement of 1 mm (1e-19 m) is a force of 1e-9 N.
-double pull_of(double least, double largest);
-constexpr double pull_allowed = 1e-6;
-constexpr double pull_floor = 1e-9;  // [N]
-
-constexpr double psi_allowed = 1e-9;     // energy of a quadratised contact that is open, as sqrt(2V) over its largest
-constexpr double energy_allowed = 1e-6;  // what the ledger may be open by, of the largest stored energy
-
-// ---- Outcomes.
-
-enum class Verdict { sound, unjudged, flagged, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused };
-const char* name_of(Verdict);
-Verdict verdict_named(const std::string&);  // throws std::runtime_error
-bool is_stable(Verdict);                    // nothing went wrong with the run itself: sound or flagged
-
-constexpr double error_allowed = 0.1;  // relative L2
 
 struct Judgement {
     Verdict verdict = Verdict::unjudged;

@@ -155,7 +155,7 @@ std::optional<Found> CheapestSettings::of_all(const std::vector<const Descriptor
     const Scene scene = judge_.scene_of({left_out, nullptr, {}});
     std::vector<Variant> variants;
     for (const Descriptor* d : schemes)
-        if (compare::represents(*d, scene))
+        if (represents(*d, scene))
             for (const Variant& v : variants_of(*d, scene, judge_.options())) variants.push_back(v);
     return of_variants(variants, left_out, limit);
 }
@@ -163,7 +163,7 @@ std::optional<Found> CheapestSettings::of_all(const std::vector<const Descriptor
 std::optional<Found> CheapestSettings::as_published(const std::vector<const Descriptor*>& schemes, bool& within) {
     std::vector<Variant> variants;
     for (const Descriptor* d : schemes)
-        if (compare::represents(*d, judge_.scene())) variants.push_back({d, {}});
+        if (represents(*d, judge_.scene())) variants.push_back({d, {}});
     const auto found = of_variants(variants, {}, HUGE_VAL);
     within = found.has_value();
     if (found || !nearest_) return found;

@@ -169,7 +169,7 @@ const Truth& Judge::truth(int start) {
     t.certificate = uncertainty(*found.truth, tap_, place_);
     t.floor = found.floor->at(static_cast<std::size_t>(tap_))[place_];
     t.horizon = found.truth->horizon;
-    if (const double depth = study::fact(of.run.facts, facts::deepest_penetration); depth > 0) t.penetration = depth;
+    if (const double depth = fact_of(of.run.facts, facts::deepest_penetration); depth > 0) t.penetration = depth;
     return t;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bench/trim/cheapest_settings.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::trim {
 
@@ -93,7 +94,7 @@ Path search(Judge& judge, const std::vector<const Descriptor*>& schemes, const s
     Path path;
     CheapestSettings s(judge, starts, listener);
     for (const Descriptor* d : schemes)
-        if (compare::represents(*d, judge.scene())) path.tried.emplace_back(d->name);
+        if (represents(*d, judge.scene())) path.tried.emplace_back(d->name);
     if (path.tried.empty())
         throw Refusal("no scheme represents scene " + judge.scene().name + ": it needs " + names_of(needed_by(judge.scene())));
     bool within = false;

@@ -392,10 +392,10 @@ TEST(Facts, OfSeveralStringsTheLeastContactForceAndTheMostOfAnythingElseStand) {
                                   {"string.2.deepest_penetration", 2, "m"},
                                   {"contact_points", 5, ""},
                                   {"string.0.contact_points", 7, ""}};
-    EXPECT_EQ(bench::study::fact(facts, "smallest_contact_force"), -2);
-    EXPECT_EQ(bench::study::fact(facts, "deepest_penetration"), 3);
-    EXPECT_EQ(bench::study::fact(facts, "contact_points"), 5);  // said of all
-    EXPECT_TRUE(std::isnan(bench::study::fact(facts, "points")));
+    EXPECT_EQ(fact_of(facts, "smallest_contact_force"), -2);
+    EXPECT_EQ(fact_of(facts, "deepest_penetration"), 3);
+    EXPECT_EQ(fact_of(facts, "contact_points"), 5);  // said of all
+    EXPECT_TRUE(std::isnan(fact_of(facts, "points")));
 }
 
 // ---- Equal modes

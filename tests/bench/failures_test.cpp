@@ -77,7 +77,7 @@ TEST(Failures, EveryOutcomeHasOne) {
     for (const bench::study::Verdict v :
          {bench::study::Verdict::inaccurate, bench::study::Verdict::adhesive, bench::study::Verdict::energy_gaining,
           bench::study::Verdict::not_converged, bench::study::Verdict::diverged})
-        EXPECT_TRUE(seen.contains(v)) << bench::study::name_of(v);
+        EXPECT_TRUE(seen.contains(v)) << name_of(v);
     EXPECT_TRUE(gains);  // where modal_two_point is sound; its inaccurate points are everyone's
 }
 

@@ -83,7 +83,7 @@ double compliance(const std::string& scheme, double rate) {
     const Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.001);
     Settings settings;
     settings.sample_rate = rate;
-    return bench::study::fact(run(scheme_named(scheme), scene, settings).facts, "static_compliance");
+    return fact_of(run(scheme_named(scheme), scene, settings).facts, "static_compliance");
 }
 
 TEST(Compliance, ExactModesDoNotMakeAnExactForcedResponse) {  // 0.926 and 1.045: an independent prototype's, C3, 133 modes, 44.1 kHz

@@ -45,10 +45,6 @@ const std::vector<Scene>& library() {  // and what it lacks
     return scenes;
 }
 
-bool represents(const Descriptor& d, const Scene& scene) {
-    return (needed_by(scene) - d.represents).empty();
-}
-
 Settings settings_for(OptionValues options) {
     return {4 * tap_rate, tap_rate, 40, std::move(options)};
 }

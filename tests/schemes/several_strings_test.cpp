@@ -43,7 +43,7 @@ Scene scene_for(const Descriptor& d) {
     for (const char* name : {"sitar_c5_flat", "free_string"}) candidates.push_back(read_scene(name));
     candidates.push_back(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}));
     for (const Scene& s : candidates) {
-        if (!(needed_by(s) - d.represents).empty()) continue;
+        if (!represents(d, s)) continue;
         try {
             make_scheme(d, s, settings);
             return s;

@@ -89,6 +89,20 @@ const own = {"a megabyte": [{scene: c3 + "#".repeat(1 << 20)}, /found 1050273 by
 for (const [what, [asked, sentence]] of Object.entries(own))
     if (!sentence.test(refusal(asked))) console.log(`FAILED: ${what}: "${refusal(asked)}"`, ++failures);
 compare("C3 after all refusals", with_c3({}));
+
+// What the program says of a cell: sound, and how far its third octaves are from those of the reference.
+const asked = ["compare", "tanpura_c3_release", "--schemes", "modal_two_point,modal_two_point_trapezoidal,modal_explicit_penalty", "--rates", "44100,176400", "--modes", 133, "--option", "compliance=own",
+    "--option", "exact_contact:compliance=matched", "--reference-modes", 266, "--duration", 0.05, "--repeats", 1, "--json"];
+const {cells} = JSON.parse(spawnSync(resolve(program), asked.map(String), {cwd: scratch, encoding: "utf8", maxBuffer: 1 << 28}).stdout), verdicts = new Set();
+const exact = jvari.run(with_c3({scheme: "exact_contact", modes: 266, options: ["compliance=matched"], duration: 0.05}));
+for (const c of cells) {
+    const run = jvari.run(with_c3({scheme: c.scheme, rate: c.rate, modes: 133, options: ["compliance=own"], duration: 0.05, energy: true}));
+    verdicts.add(run.verdict);
+    const octaves = jvari.third_octaves(run, exact, 0, 100), sound = c.status === "ok" && c.flags === "", there = c.third_octave_db_nut;
+    if ((run.verdict === "sound") === sound && (Math.abs(octaves / there - 1) < 1e-6 || (octaves === Infinity && c.status !== "ok"))) continue;
+    console.log(`FAILED: ${c.scheme} at ${c.rate} Hz: ${run.verdict}, third octaves ${octaves} dB apart; the program: ${c.status} ${c.flags}, ${there} dB`, ++failures);
+}
+if (!verdicts.has("sound") || verdicts.size < 2) console.log(`FAILED: the verdicts are ${[...verdicts]}`, ++failures);
 rmSync(scratch, {recursive: true});
 console.log(`${ran} runs agree to ${largest.toExponential(1)}, ${refused} refusals, ${failures} failures`);
 process.exit(failures || ran < 80 || refused < 30 ? 1 : 0);

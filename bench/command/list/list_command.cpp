@@ -13,6 +13,7 @@
 #include "bench/store/json.hpp"
 #include "bench/suite/suite_file.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::command {
 
@@ -80,7 +81,7 @@ Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {
     for (const Descriptor* d : schemes) {
         std::vector<std::string> able;
         for (const auto& [name, scene] : shelf.scenes)
-            if (compare::represents(*d, scene)) able.push_back(name);
+            if (represents(*d, scene)) able.push_back(name);
         text += fmt::format("  {:<{}}  {}\n", d->name, width, fmt::join(able, ", "));
     }
     return {std::move(all), text};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/cheapest.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"
 #include "bench/store/cell_rows.hpp"
@@ -29,37 +30,29 @@ struct Goal {
     std::string measure;
     double most;
     bool met(const store::Table& cells, std::size_t i) const { return bound_of(cells, i, measure).most() <= most; }
-    bool undecided(const store::Table& cells, std::size_t i) const { return !met(cells, i) && bound_of(cells, i, measure).least() <= most; }
 };
 
-// The other schemes of those rows, each once, in the order of the rows, by the row of least cost of each.
-template <class Which>
-store::Rows other_schemes(const store::Table& cells, const store::Rows& rows, const std::string& best, Which which) {
-    store::Rows others;
-    for (const std::size_t i : rows) {
-        if (cells.at(i, "scheme") == best || !which(i)) continue;
-        const auto known =
-            std::find_if(others.begin(), others.end(), [&](std::size_t k) { return cells.at(k, "scheme") == cells.at(i, "scheme"); });
-        if (known == others.end()) others.push_back(i);
-        else if (cells.number(i, "cost_s_per_s") < cells.number(*known, "cost_s_per_s")) *known = i;
-    }
-    return others;
-}
-
-std::string named(const store::Table& cells, const store::Rows& rows) {
+std::string named(const store::Table& cells, const store::Rows& rows, const std::vector<std::size_t>& chosen) {
     std::string text;
-    for (const std::size_t i : rows) text += (text.empty() ? "" : "; ") + store::run_name(cells, i);
+    for (const std::size_t k : chosen) text += (text.empty() ? "" : "; ") + store::run_name(cells, rows[k]);
     return text;
 }
 
-std::optional<std::size_t> least(const store::Rows& rows, const auto& which, const auto& value) {
+Choice choice_of(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
+    std::vector<Offer> offers;
+    for (const std::size_t i : rows) {
+        const Bound b = bound_of(cells, i, goal.measure);
+        offers.push_back({cells.at(i, "scheme"), b.most(), b.least(), cells.number(i, "cost_s_per_s"), cells.number(i, "cost_lower"),
+                          cells.number(i, "cost_upper")});
+    }
+    return cheapest_within(goal.most, offers);
+}
+
+std::optional<std::size_t> least_cost(const store::Table& cells, const store::Rows& rows, const auto& which) {
     std::optional<std::size_t> best;
     for (const std::size_t i : rows)
-        if (which(i) && (!best || value(i) < value(*best))) best = i;
+        if (which(i) && (!best || cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s"))) best = i;
     return best;
-}
-std::optional<std::size_t> least_cost(const store::Table& cells, const store::Rows& rows, const auto& which) {
-    return least(rows, which, [&](std::size_t i) { return cells.number(i, "cost_s_per_s"); });
 }
 
 // Of the scene's other taps those by which a cell is surely within it: "; by y02: ..., 0.16 %"
@@ -105,42 +98,33 @@ std::string published_text(const store::Table& cells, std::optional<std::size_t>
 
 // From `status` on.
 std::vector<std::string> fields_of(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
-    const auto met = [&](std::size_t i) { return goal.met(cells, i); };
-    const auto undecided = [&](std::size_t i) { return goal.undecided(cells, i); };
-    const auto cheapest = least_cost(cells, rows, met);
-    const auto tied = [&](std::size_t i) { return met(i) && cells.number(i, "cost_lower") <= cells.number(*cheapest, "cost_upper"); };
-    const auto best = least(rows, tied, [&](std::size_t i) { return bound_of(cells, i, goal.measure).most(); });
-    if (!best) {
-        const bool open = std::any_of(rows.begin(), rows.end(), undecided);
+    const Choice choice = choice_of(cells, rows, goal);
+    if (!choice.best) {
+        const bool open = !choice.perhaps.empty();
         const bool waveform = goal.measure != "third_octave_db";
         std::vector<std::string> fields{open ? "not_known" : "none"};
         fields.resize(10);  // nothing to say of the cell
         const bool bounded = open && !std::isnan(bound_of(cells, rows.front(), goal.measure).certificate);
-        fields.push_back(bounded ? named(cells, other_schemes(cells, rows, "", undecided)) : "");
+        fields.push_back(bounded ? named(cells, rows, choice.perhaps) : "");
         fields.emplace_back();
         fields.push_back(open ? why_unknown(cells, rows, goal) : waveform ? why_none(cells, rows, goal.measure, goal.most) : "");
         return fields;
     }
-    const std::string& scheme = cells.at(*best, "scheme");
-    const Bound b = bound_of(cells, *best, goal.measure);
-    const store::Rows ties = other_schemes(cells, rows, scheme, tied);
-    const store::Rows perhaps = other_schemes(cells, rows, scheme, [&](std::size_t i) {
-        return undecided(i) && cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s");
-    });
+    const std::size_t best = rows[*choice.best];
+    const Bound b = bound_of(cells, best, goal.measure);
+    const auto published = [&](std::size_t i) { return goal.met(cells, i) && !is_matched(cells, i); };
     return {"found",
-            store::run_name(cells, *best),
-            scheme,
-            cells.at(*best, "options"),
-            cells.at(*best, "rate"),
-            cells.at(*best, "modes"),
+            store::run_name(cells, best),
+            cells.at(best, "scheme"),
+            cells.at(best, "options"),
+            cells.at(best, "rate"),
+            cells.at(best, "modes"),
             store::text_of(b.error),
             store::text_of(b.most()),
-            cells.at(*best, "cost_s_per_s"),
-            named(cells, ties),
-            named(cells, perhaps),
-            is_matched(cells, *best)
-                ? published_text(cells, least_cost(cells, rows, [&](std::size_t i) { return met(i) && !is_matched(cells, i); }), goal)
-                : "",
+            cells.at(best, "cost_s_per_s"),
+            named(cells, rows, choice.ties),
+            named(cells, rows, choice.perhaps),
+            is_matched(cells, best) ? published_text(cells, least_cost(cells, rows, published), goal) : "",
             is_unsure(cells, rows) ? "measured against a reference whose uncertainty is unknown" : ""};
 }
 }  // namespace

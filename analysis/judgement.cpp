@@ -1,0 +1,98 @@
+// Source: judgement.hpp.
+#include "analysis/judgement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "analysis/energy.hpp"
+
+namespace jvari {
+
+namespace {
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array verdict_names = {"sound",          "unjudged",      "flagged",  "inaccurate", "adhesive",
+                                      "energy_gaining", "not_converged", "diverged", "refused"};
+
+double largest(std::span<const double> values) {  // infinite where a value is not finite
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::isfinite(x) ? std::abs(x) : HUGE_VAL);
+    return most;
+}
+
+// Of all displacement taps, over what `energy` could make of a string under its tension: |y| <= sqrt(E L/(2 T)).
+double displacement_of(const Scene& scene, const Trace& trace, double energy) {
+    double displacement = nan;
+    for (int k = 0; k < trace.taps(); ++k) {
+        const Tap& tap = scene.taps[k];
+        if (tap.quantity != Quantity::displacement) continue;
+        const String& s = scene.strings[*tap.string];
+        const double most = largest(trace.column(k));
+        displacement = std::fmax(displacement, std::isinf(most) ? most
+                                               : energy > 0     ? most / std::sqrt(energy * s.length / (2 * s.tension))
+                                                                : nan);
+    }
+    return displacement;
+}
+}  // namespace
+
+Figures figures_of(Balance promised, const Scene& scene, const Run& run) {
+    const EnergyBalance balance = energy_balance(run.trace);
+    const EnergyGain gain = energy_gain(run.trace);
+    // A scheme that promises no balance may leave its columns empty: zeros that "close" say nothing.
+    const bool silent = promised == Balance::none && !(balance.largest_stored > 0);
+    Figures f{run.status,
+              silent ? nan : balance.step,
+              silent ? nan : balance.accumulated,
+              fact_of(run.facts, facts::smallest_contact_force),
+              fact_of(run.facts, facts::largest_contact_force),
+              fact_of(run.facts, facts::deepest_penetration),
+              gain.largest,
+              displacement_of(scene, run.trace, gain.budget),
+              run.facts};
+    std::erase_if(f.facts, [](const Fact& told) {
+        return told.name == facts::smallest_contact_force.name || told.name == facts::largest_contact_force.name ||
+               told.name == facts::deepest_penetration.name;
+    });
+    return f;
+}
+
+double pull_of(double least, double largest) {
+    if (least >= -pull_floor) return 0;
+    return -least / std::fmax(largest, std::numeric_limits<double>::min());  // of an unknown one and 0 the other
+}
+
+Flags raised_by(const Figures& f) {
+    return {pull_of(f.smallest_contact_force, f.largest_contact_force) > pull_allowed,
+            fact_of(f.facts, facts::psi_out_of_contact) > psi_allowed, f.energy_residual_accumulated > energy_allowed,
+            fact_of(f.facts, facts::modes_above_nyquist) > 0};
+}
+
+const char* name_of(Verdict v) {
+    return verdict_names[static_cast<std::size_t>(v)];
+}
+
+Verdict verdict_named(const std::string& name) {
+    const auto found = std::find(verdict_names.begin(), verdict_names.end(), name);
+    if (found == verdict_names.end()) throw std::runtime_error("unknown outcome " + name);
+    return static_cast<Verdict>(found - verdict_names.begin());
+}
+
+bool is_stable(Verdict v) {
+    return v == Verdict::sound || v == Verdict::flagged;
+}
+
+Verdict verdict_of(const Figures& f, Balance promised, double error) {
+    const double pull = pull_of(f.smallest_contact_force, f.largest_contact_force);
+    if (f.status.outcome == Outcome::diverged || f.largest_displacement > std::sqrt(energy_budget)) return Verdict::diverged;
+    if (f.status.outcome != Outcome::ok) return Verdict::not_converged;
+    if (f.energy_gain > (promised == Balance::exact ? energy_allowed : gain_allowed_unpromised)) return Verdict::energy_gaining;
+    if (pull > pull_allowed) return Verdict::adhesive;
+    if (error > error_allowed) return Verdict::inaccurate;
+    if (raised_by(f).any()) return Verdict::flagged;
+    const bool told = !std::isnan(f.largest_displacement) || !std::isnan(f.energy_gain) || !std::isnan(pull) || !std::isnan(error);
+    return told ? Verdict::sound : Verdict::unjudged;
+}
+
+}  // namespace jvari
