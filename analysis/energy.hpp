@@ -1,5 +1,5 @@
-// The energy balance of a run: stored[n] - stored[n-1] = supplied[n] - dissipated[n] (schemes/scheme.hpp; van Walstijn et al. 2016, eqs
-// 49-52).
+// The energy balance of a run: stored[n] - stored[n-1] = supplied[n] - dissipated[n] (schemes/scheme.hpp;
+// van Walstijn et al. 2016, eqs 49-52).
 //
 // All columns are in joules, one row per tap interval; supplied and dissipated are sums over the interval that ends at the row. A scheme
 // whose balance closes may still be wrong: it can conserve an energy of its own that is not the string's.

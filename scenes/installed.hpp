@@ -1,5 +1,5 @@
-// Finds installed files wherever a package put them: in the nearest share/jvari above the file with this code, which is bin/jvari or a
-// Python module.
+// Finds installed files wherever a package put them:
+// in the nearest share/jvari above the file with this code, which is bin/jvari or a Python module.
 #pragma once
 
 #include <dlfcn.h>

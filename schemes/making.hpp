@@ -14,8 +14,8 @@ int modes_for(const String&, const Settings&);   // settings.modes, or every mod
 int modes_for(const Scene&, const Settings&);    // the most that one of its strings has, unasked no more than each table of measured modes
 Modes modes_of(const String&, const Settings&);  // those; Refusal where there is none, or more than most_modes
 
-// What a descriptor says. margin_of: the least margin that the scheme's limit leaves on a string of the scene; NaN where it has nothing to
-// say.
+// What a descriptor says. margin_of: the least margin that the scheme's limit leaves on a string of the scene;
+// NaN where it has nothing to say.
 bool represents(const Descriptor&, const Scene&);
 bool declares(const Descriptor&, const std::string& option_name);
 Features approximated(const Descriptor&);

@@ -1,5 +1,5 @@
-// A table of Descriptor as a shared object, for schemes that are written as those of the tree are and linked with jvari's libraries. Its
-// source ends with
+// A table of Descriptor as a shared object, for schemes that are written as those of the tree are and linked with jvari's libraries.
+// Its source ends with
 //
 //     JVARI_PLUGIN(table)    // an array of Descriptor
 //

@@ -80,8 +80,8 @@ public:
     virtual int dofs() const = 0;                           // doubles of state carried: no more than the scene needs
     virtual std::vector<Fact> facts() const { return {}; }  // of the run so far; between blocks only
 
-    // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread; none where the scheme has no relation in
-    // closed form.
+    // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread;
+    // none where the scheme has no relation in closed form.
     virtual std::vector<FreeMode> free_modes() const { return {}; }
 };
 

@@ -9,8 +9,8 @@
 // as none, and 5e-5 against the whole string, of which 100 modes leave out 1e-5; of a thread at a point they leave out 6e-4 with the
 // missing compliance put back, and there 1e-3 is good enough. On a profile a scheme keeps the error of its nodes at any rate: 4e-3 of the
 // force with 100 of them, so 1e-2 is good enough there. The point thread is heard by its displacements alone, and on modes: no grid
-// converges to the force of a point. Leaves out scenes that need a feature which the scheme calls approximated: its limit there is not the
-// scene.
+// converges to the force of a point. Leaves out scenes that need a feature which the scheme calls approximated:
+// its limit there is not the scene.
 //
 // Instants: on mode 1 alone, and on the string between a soft bridge that it never leaves and a soft thread. A wrong frequency makes an
 // error that grows with time, and a wrong instant one that is there at the start. The fit tells them apart. Of a step the schemes of this
@@ -135,8 +135,8 @@ std::vector<std::vector<double>> errors_of(const Descriptor& d, const Scene& sce
     return all;
 }
 
-// "": every tap does. Its limit is the string of as many modes as it has; or, where it puts back what they lack or is on a grid, the whole
-// string.
+// "": every tap does. Its limit is the string of as many modes as it has;
+// or, where it puts back what they lack or is on a grid, the whole string.
 std::string convergence_to(const Descriptor& d, const Smooth& smooth, const Trace& truth, double as_none) {
     static constexpr int all[] = {1, 2, 4, 8}, once[] = {1}, near[] = {4};
     const bool steps = d.clock == Clock::stepped, falling = steps && smooth.enough == 0;

@@ -1,5 +1,5 @@
-// What is known of an error, and which error stands where one has to. Tables, text, JSON, pictures, the Pareto front and the cheapest all
-// ask here.
+// What is known of an error, and which error stands where one has to.
+// Tables, text, JSON, pictures, the Pareto front and the cheapest all ask here.
 //
 // A cell is measured against a reference (e), which is itself uncertain by c, its certificate. By the triangle inequality the cell differs
 // from the motion of the scene by e + c at most and by e - c at least, relative to the norm of the reference. Where c is unknown nothing

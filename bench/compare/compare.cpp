@@ -44,8 +44,8 @@ void describe(Comparison& c, const CompareRequest& request, const study::Referen
                                   name_of(reference.run.status.outcome), c.reference_summary.duration));
 }
 
-// Runs all cells over the headline's window and marks those that are needed: jobs of the scene cut short there, judged by the motion of the
-// whole.
+// Runs all cells over the headline's window and marks those that are needed:
+// jobs of the scene cut short there, judged by the motion of the whole.
 std::vector<study::Record> search(const Comparison& c, study::References& references, int threads, const store::Listener& listener) {
     const double end = std::min(c.scene().duration, study::headline_window(c.scene().duration));
     study::Measures covered;  // by the shorter run
@@ -82,8 +82,8 @@ std::vector<study::Record> search(const Comparison& c, study::References& refere
     return records;
 }
 
-// Of the cells that were sought those that are needed run whole, and the others stay as the search left them. What was sought and cannot be
-// made goes.
+// Of the cells that were sought those that are needed run whole, and the others stay as the search left them.
+// What was sought and cannot be made goes.
 void run(Comparison& c, study::References& references, std::vector<study::Record> tried, study::Kept& keep, int threads,
          const store::Listener& listener) {
     study::Plan whole, all;

@@ -12,8 +12,8 @@ namespace jvari::bench::compare {
 // The rows per second that cells at these rates are compared on; throws UsageError where there are none.
 double tap_rate_for(const CompareRequest&, const std::vector<double>& rates);
 
-// Adds the cells of a comparison as jobs like `like`, and what they are compared on: points like `common`, with references and reference
-// modes as asked.
+// Adds the cells of a comparison as jobs like `like`, and what they are compared on:
+// points like `common`, with references and reference modes as asked.
 //
 // One point where all rates have rows in common: 44100 a second, else as many as the lowest rate. Rates that have none, as 44100 and 48000,
 // are on several points, each with rows and references of its own. Nothing is resampled: a force is a mean over the interval between two

@@ -14,8 +14,8 @@
 //
 // An error that moved by more than that got worse or better if it moved by more than both certificates together. Otherwise neither side
 // knows the true error that well, and the error only moved. The certificate of the later side counts no more than that of the earlier one,
-// and a certificate that grew is worse itself: a result cannot be excused by knowing less. A number that was known and no longer is, is
-// worse.
+// and a certificate that grew is worse itself: a result cannot be excused by knowing less.
+// A number that was known and no longer is, is worse.
 #pragma once
 
 #include <string>

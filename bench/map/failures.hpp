@@ -29,8 +29,8 @@ std::vector<Reproducer> read_failures(const std::filesystem::path& folder, const
 //
 // Taken away one by one, in turn, until nothing more can be (scenes/reduction.hpp): strings, barriers, polarisation, pluck or initial shape
 // (one of the two stays), thread, losses, bending stiffness, contact losses, an exponent other than 1; then duration, modes or the grid's
-// intervals are shortened by halves, quarters ... down to single rows and modes. What is left is minimal step by step, not the smallest of
-// all.
+// intervals are shortened by halves, quarters ... down to single rows and modes.
+// What is left is minimal step by step, not the smallest of all.
 
 using Fails = std::function<bool(const Trial&)>;  // in the way that is to be kept; what it throws counts as no
 

@@ -1,6 +1,6 @@
 // Runs the maps of a suite: every point, then the boundaries along x by bisection. Each point is content-addressed and kept as
-// DIR/points/<id>.json, so that a suite which was stopped goes on where it was and comes to the same tables. Processes that share DIR run
-// each point once.
+// DIR/points/<id>.json, so that a suite which was stopped goes on where it was and comes to the same tables.
+// Processes that share DIR run each point once.
 #pragma once
 
 #include <string>

@@ -28,8 +28,8 @@ Trial trial_of(const std::string& scene, const Descriptor&, const std::string& r
 
 double row_rate(double sample_rate);
 
-// What maps listen to in place of the scene's own taps: the displacement of every string at two points, and its nut force. The worst string
-// decides.
+// What maps listen to in place of the scene's own taps:
+// the displacement of every string at two points, and its nut force. The worst string decides.
 Scene listened(Scene);
 
 struct MapRequest {

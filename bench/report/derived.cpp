@@ -23,8 +23,8 @@ Table rows_where(const Table& t, const std::string& column, const std::string& t
     return rows;
 }
 
-// Of a scheme with several numbers of modes at one rate the cells that none of its others beats are one line: what modes and rate come to
-// together.
+// Of a scheme with several numbers of modes at one rate the cells that none of its others beats are one line:
+// what modes and rate come to together.
 std::vector<std::string> lines_of(const Table& t) {
     const std::string headline = compare::headline_error(t, store::all_rows(t));
     const auto name = [&t](std::size_t i) { return store::variant_name(t.at(i, "scheme"), t.at(i, "options")); };

@@ -9,9 +9,8 @@
 
 namespace jvari::bench::report {
 
-// judged:   of each cell, trusted, may_win, run (its name in a sentence), line (its series beside the front; none where another of its
-// scheme's numbers
-//           of modes is better)
+// judged:   of each cell, trusted, may_win, run (its name in a sentence),
+//           line (its series beside the front; none where another of its scheme's numbers of modes is better)
 // bounds:   row, column, shown, text: errors that are no more than bounded (compare/bound.hpp)
 // scenes:   problem, headline, certificate (of its first cell), spread and busy (of its clock)
 // cheapest: problem, then what compare::cheapest_of says, and goal ("10 %")

@@ -21,8 +21,8 @@ struct Results {
     std::map<std::string, store::Table> tables;
 };
 
-// Throws UsageError where there is no manifest.json, none of cells.csv, errors.csv, maps.csv and path.csv, or one of the files cannot be
-// read.
+// Throws UsageError where there is no manifest.json, none of cells.csv, errors.csv,
+// maps.csv and path.csv, or one of the files cannot be read.
 Results read_results(const std::filesystem::path&);
 
 // A problem is a scene at one point of what is swept; runs of different problems are not compared. A series is a scheme with its options,

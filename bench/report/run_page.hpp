@@ -15,8 +15,8 @@ struct DrawnRun {
     const Scene& scene;
     const Trace& trace;
 };
-// The data of a page (page.hpp). What the run lacks is left out: no ledger without energy, no contact without a barrier's force among the
-// taps.
+// The data of a page (page.hpp). What the run lacks is left out:
+// no ledger without energy, no contact without a barrier's force among the taps.
 nlohmann::ordered_json run_data(const DrawnRun&);
 
 }  // namespace jvari::bench::report

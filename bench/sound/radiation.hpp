@@ -11,8 +11,8 @@
 namespace jvari::bench::sound {
 
 // The impulse response in a .wav of one channel, at `rate` [Hz]. A file holds h[n] = h(n T) T, so that its sum is the response to
-// a steady force at any rate. One of another rate is resampled by libsamplerate, and comes later by 64 rows of its own. Throws UsageError
-// naming `key`.
+// a steady force at any rate. One of another rate is resampled by libsamplerate, and comes later by 64 rows of its own.
+// Throws UsageError naming `key`.
 std::vector<double> impulse_response(const std::string& file, double rate, const std::string& key);
 
 // The body's response for each tap that it answers: the driving force, and the force on the nut, of all strings. Throws UsageError.

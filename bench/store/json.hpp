@@ -71,8 +71,8 @@ inline Outcome outcome_named(const std::string& name) {  // throws std::runtime_
     throw std::runtime_error("unknown status " + name);
 }
 
-// ---- What was computed, in a file beside all that it was computed from: the one format of cells, clocks, points of maps and models of
-// trim.
+// ---- What was computed, in a file beside all that it was computed from:
+// the one format of cells, clocks, points of maps and models of trim.
 
 // `identity`: JSON, all that the content depends on. `content`: an object.
 inline std::string kept_text(const std::string& identity, const nlohmann::ordered_json& content) {

@@ -1,5 +1,5 @@
-// What a cell costs. Timed runs go one at a time, interleaved between competitors, energy probe off; the median is quoted with its
-// quartiles.
+// What a cell costs. Timed runs go one at a time, interleaved between competitors, energy probe off;
+// the median is quoted with its quartiles.
 #pragma once
 
 #include <filesystem>

@@ -33,8 +33,8 @@ struct Record {
 std::string json_of(const Record&, const std::string& identity);
 // Of the cell in `planned`. Nothing where there is no such file, it is of another job, its checksum is not its own, or it cannot be read.
 std::optional<Record> read_record(const std::filesystem::path&, const std::string& identity, const Cell& planned);
-// The spectrogram in such a file, empty where the run made none. Nothing where the job did not measure what is called `name`, or the file
-// cannot be read.
+// The spectrogram in such a file, empty where the run made none.
+// Nothing where the job did not measure what is called `name`, or the file cannot be read.
 std::optional<Levels> read_levels(const std::filesystem::path&, const std::string& name);
 
 }  // namespace jvari::bench::study

@@ -79,8 +79,8 @@ public:
     // A run of more than `limit` s of processor is ended and not kept: "slow".
     Verdict verdict(const Model&, int start, double limit = HUGE_VAL);
     double worst_error(const Model&, const std::vector<int>& of_starts);  // NaN where one start fails, or what is left makes no scene
-    // The reference tells what is within the tolerance: its certificate is below that, below half of it for other starts than the
-    // scene's.
+    // The reference tells what is within the tolerance:
+    // its certificate is below that, below half of it for other starts than the scene's.
     bool certain(int start);
     // Error and certificate together. Of another start whose reference is not certain: the error alone.
     bool within(const Verdict&, int start);

@@ -3,13 +3,13 @@
 // For a reference: its largest relative L2 difference from any other reference, and from itself at another tolerance or by another
 // integrator; with matched compliance no less than with own over 10 ms. One pair alone can agree by chance where the motion is sensitive. A
 // scheme at a multiple of a rate confirms no reference, because its own error is larger. For such a scheme that stands in: its estimate of
-// its own error, by Richardson's rule. A window has the figure of the shortest certified window that holds it, and none where the
-// certificate ends before.
+// its own error, by Richardson's rule. A window has the figure of the shortest certified window that holds it,
+// and none where the certificate ends before.
 //
 // That is how far the reference solves its model: a string cut off at so many modes, a profile of so many points. How far the model is the
 // scene's is another figure: its difference from the reference with modes or points doubled, and what all further doublings would change
-// (and_further_ones), the two added. An error of the scene is certain to both figures together. Where there is no figure the uncertainty is
-// unknown, not zero.
+// (and_further_ones), the two added. An error of the scene is certain to both figures together.
+// Where there is no figure the uncertainty is unknown, not zero.
 #pragma once
 
 #include <array>

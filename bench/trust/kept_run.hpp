@@ -14,8 +14,8 @@
 
 namespace jvari::bench::trust {
 
-// $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari; may be emptied at any time. "", for nowhere, where JVARI_CACHE is
-// empty.
+// $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari;
+// may be emptied at any time. "", for nowhere, where JVARI_CACHE is empty.
 std::filesystem::path kept_runs_folder();
 
 std::string run_key(const Descriptor&, const Scene&, const Settings&);

@@ -4,8 +4,8 @@
 //
 // Steps are taken that cannot pass a crossing: over a step d, g stays above g + g'd + g''d^2/2 - A d^3/6 with A a bound of |g'''|, or the
 // slow part alone stays above the sum of the amplitudes of the pairs. So nothing is sampled and nothing is missed, except dips that stay
-// above -bound. Near a crossing the derivative has one sign and Householder's iteration finishes. Amplitudes may not grow: Re lambda_k <=
-// 0.
+// above -bound. Near a crossing the derivative has one sign and Householder's iteration finishes.
+// Amplitudes may not grow: Re lambda_k <= 0.
 #pragma once
 
 #include <complex>

@@ -162,8 +162,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
 }
 
 // The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j), and below it what points that do not touch follow. p_n = sum R_(n-m) r_m
-// goes on where r ends. Cut there it would reach as far as its growth allows; the best polynomial of as many terms reaches four times so
-// far.
+// goes on where r ends. Cut there it would reach as far as its growth allows;
+// the best polynomial of as many terms reaches four times so far.
 void TouchingSet::soften() noexcept {
     const MacroWindow& w = *window_;
     const int P = static_cast<int>(points_.size()), N = w.terms;

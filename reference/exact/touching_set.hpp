@@ -31,8 +31,8 @@ public:
     const std::complex<double>* rates() const { return rate_.data(); }
     std::complex<double> pair_force(int which, int pair) const { return -k_[which] * shape_[points_[which] * pairs_ + pair]; }  // per beta
 
-    // From r[contact][stride], derivatives: the derivatives of every contact's slow part, path[contact][stride], and the amplitudes of its
-    // pairs, amplitude[contact][pairs].
+    // From r[contact][stride], derivatives: the derivatives of every contact's slow part, path[contact][stride],
+    // and the amplitudes of its pairs, amplitude[contact][pairs].
     void solve(const double* r, double* path, std::complex<double>* amplitude) noexcept;
 
     std::complex<double> beta(int pair) const { return {beta_[2 * pair], -beta_[2 * pair + 1]}; }  // of the last solve()

@@ -1,6 +1,6 @@
 // One step of all strings of an instrument together with the body that their ends at x = 0 rest on. Derived here, after the usual mode
-// synthesis of a support that moves (Debut, Antunes, Marques & Carvalho 2014) and the contact equation of van Walstijn et al. 2016, eqs
-// 44-48.
+// synthesis of a support that moves (Debut, Antunes, Marques & Carvalho 2014)
+// and the contact equation of van Walstijn et al. 2016, eqs 44-48.
 //
 // The support moves by w = sum_k z_k, M_k z_k'' + R_k z_k' + K_k z_k = f, one oscillator per mode of the body, and a string by
 //

@@ -106,8 +106,8 @@ struct MissingMatrix {
 MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps, int kept, double dt,
                              const OwnResponse& own);
 
-// Whether compliance=matched is asked for, of a scheme that leaves out contact loss and a moving body then: Refusal where the scene has
-// one.
+// Whether compliance=matched is asked for, of a scheme that leaves out contact loss and a moving body then:
+// Refusal where the scene has one.
 bool matched_without_loss(const Descriptor&, const Scene&, const Settings&);
 
 // ---- Profiles. A scheme's nodes are no places for what stands in series: at them a grid yields more than the true string. So a profile is

@@ -95,8 +95,8 @@ struct PowerQuotient {
 // ((1+z)^p - 1)/z and its derivative, z >= -1, with the limits p and p (p-1)/2 at z = 0
 PowerQuotient power_quotient(double p, double z);
 
-// The depth eta with eta + S V'(eta) = zeta: of a contact that a compliance S [m/N] in series holds back. zeta itself where that is
-// negative.
+// The depth eta with eta + S V'(eta) = zeta: of a contact that a compliance S [m/N] in series holds back.
+// zeta itself where that is negative.
 double depth_in_series(const ContactLaw&, double zeta, double S);
 
 inline ContactSolution solve_contact(const ContactLaw& law, double eta, double b, double theta) {

@@ -8,8 +8,8 @@
 // Contacts that Theta does not couple fall apart into scalar solves (all of them where Theta is diagonal); the coupled ones take Newton
 // steps on the active set, each with a line search on the merit's slope. Hunt-Crossley losses are left out.
 // It ends where a Newton step leads through forces k Theta times as large as the solution's, whose difference has no digits left: with
-// strings from k Theta of 1e18 on, with random singular Theta of both signs, which strings have not, from 1e11 on in a few draws of a
-// hundred.
+// strings from k Theta of 1e18 on, with random singular Theta of both signs,
+// which strings have not, from 1e11 on in a few draws of a hundred.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// Contacts that lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), as obstacle.hpp has them: each pulls by D r more, D = beta
-// V'(eta)/span at the level that the step is centred on, and the
-// contacts see other compliances while one of them is closed.
+// Contacts that lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), as obstacle.hpp has them: each pulls by D r more,
+// D = beta V'(eta)/span at the level that the step is centred on, and the contacts see other compliances while one of them is closed.
 #pragma once
 
 #include <vector>

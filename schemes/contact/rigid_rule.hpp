@@ -11,8 +11,8 @@
 // The first line is a linear complementarity problem. It constrains the new position, not the mean: a point that strikes does so F gap
 // before the step ends, and the second line returns this. The invariant of obstacle_rule.hpp holds exactly with potential = V; F never
 // pulls; no energy is gained whatever the step. Several contacts: the same in turn, each with the others' forces held (Gauss-Seidel on a
-// convex problem: Theta is a Gram matrix), until no force changes. In three-point steps every other level is a chain of its own, with a V
-// of its own.
+// convex problem: Theta is a Gram matrix), until no force changes.
+// In three-point steps every other level is a chain of its own, with a V of its own.
 #pragma once
 
 #include <algorithm>

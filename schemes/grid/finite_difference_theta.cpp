@@ -4,8 +4,8 @@
 //     (theta + (1 - theta) A) (u+ - 2u + u-)/dt^2 = c^2 D2 u - kappa^2 D4 u - R (u+ - u-)/2dt + g F/(mu dx),  A = I + dx^2/2 D2
 //
 // so M = I + (1 - theta) dx^2/2 D2, and u+ costs one solve of three diagonals, or five where the loss has u_xxxxt (grid_solve.hpp).
-// Expanding omega^2 = c^2 beta^2 + kappa^2 beta^4 in dx and dt, the error c^2 beta^4 [dx^2/12 - c^2 dt^2/12 - (1 - theta) dx^2/2] vanishes
-// for
+// Expanding omega^2 = c^2 beta^2 + kappa^2 beta^4 in dx and dt,
+// the error c^2 beta^4 [dx^2/12 - c^2 dt^2/12 - (1 - theta) dx^2/2] vanishes for
 //     theta = 5/6 + c^2 dt^2/(6 dx^2),
 // the default (option `theta` overrides): what is left is of second order times kappa^2 beta^2/c^2, and of fourth order.
 // Stable where 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4; at the default theta, c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4 <= 1.

@@ -4,8 +4,8 @@
 //
 // R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4,
 // with contacts and thread over the span 2 dt (contact/obstacle.hpp). Update solves for u+: explicit where m = sigma1 dt and m4 = -sigma2
-// dt (Bilbao, Torin & Chatziioannou 2015: the backward difference in the loss), banded where m = (1 - theta) dx^2/2 (Bilbao 2009, theta
-// scheme).
+// dt (Bilbao, Torin & Chatziioannou 2015: the backward difference in the loss),
+// banded where m = (1 - theta) dx^2/2 (Bilbao 2009, theta scheme).
 //
 // At row n it holds u^{n-1}, u^n, u^{n+1}; velocity is the central difference (u^{n+1} - u^{n-1})/2dt, and the energy of the half step
 // n + 1/2 is mass/2 <d, M d>/dt^2 + mass/2 <u^{n+1}, K u^n>, d = u^{n+1} - u^n.

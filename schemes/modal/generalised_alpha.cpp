@@ -8,8 +8,8 @@
 // option `rho`: alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1); of HHT alpha_m = 0, alpha_f = (1 - rho)/(1 + rho), rho >= 1/2.
 // f_{alpha_f} is the mean of the forces at both ends (contact/end_forces_rule.hpp), so one scalar equation remains per contact. Frequencies
 // are warped, and for rho < 1 high modes are damped, as such programs do. No energy balance; the stored energy is the true one.
-// Option `compliance` = own (default) | matched: what the cut modes take, in series. Leaves out: contact loss with it; polarisation; the
-// body.
+// Option `compliance` = own (default) | matched: what the cut modes take, in series.
+// Leaves out: contact loss with it; polarisation; the body.
 #include "scenes/excitation.hpp"
 #include "schemes/contact/end_forces_rule.hpp"
 #include "schemes/driver/driver.hpp"

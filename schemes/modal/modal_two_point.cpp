@@ -113,8 +113,8 @@ private:
         return n >= 0 && n < static_cast<long>(pluck_now_.size()) ? pluck_now_[n] : 0;
     }
 
-    // Stored energy (49). While a pluck acts, what its force alone and together with others stores in C is left out, and its work counted
-    // to match.
+    // Stored energy (49). While a pluck acts, what its force alone and together with others stores in C is left out,
+    // and its work counted to match.
     double stored() const noexcept {
         const double F_e = pluck_now(), y_b = m_.y_b + m_.series.D_b + m_.series.C_be * F_e,
                      y_c = m_.y_c + m_.series.D_c + m_.series.C_ce * F_e;

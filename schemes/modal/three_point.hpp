@@ -1,8 +1,8 @@
 // The exact three-point recursion of a damped mode, y+ = C y - C~ y- + (dt^2/m) F   (Issanchou et al. 2016, eq 14).
 //
 // C = 2 e^{-sigma dt} cos(omega dt), cosh where overdamped; C~ = e^{-2 sigma dt}. With d+ = y+ - y the same reads
-// d+ = C~ d - kappa y + (dt^2/m) F, kappa = 1 + C~ - C, and the constants of the energy (eqs 17-18) are (1 + C~)/2, kappa/dt^2, (1 -
-// C~)/dt.
+// d+ = C~ d - kappa y + (dt^2/m) F, kappa = 1 + C~ - C,
+// and the constants of the energy (eqs 17-18) are (1 + C~)/2, kappa/dt^2, (1 - C~)/dt.
 #pragma once
 
 #include <vector>

@@ -46,8 +46,8 @@ struct ThreePointProblem {
     bool on_body = false;
     const String& string() const { return scene.strings.front(); }
 };
-// The modes as they are, their points by the weights of their footprints, a profile by points of its own. Refuses modes above half the
-// rate.
+// The modes as they are, their points by the weights of their footprints, a profile by points of its own.
+// Refuses modes above half the rate.
 ThreePointProblem problem_of_modes(const Descriptor&, const Scene&, const Settings&, ModalGain = nullptr);
 // p with points and update.ports for its contacts: the rest of both, and what follows from them.
 void complete(ThreePointProblem& p, const Descriptor&, const Settings&, ModalGain = nullptr);

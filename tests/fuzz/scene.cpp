@@ -1,5 +1,5 @@
-// Whatever bytes come, a scene file is read or refused with SceneFileError; what is read is valid, survives being written, and keeps its
-// hash.
+// Whatever bytes come, a scene file is read or refused with SceneFileError;
+// what is read is valid, survives being written, and keeps its hash.
 #include <vector>
 
 #include "fuzz.hpp"

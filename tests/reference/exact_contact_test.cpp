@@ -334,8 +334,8 @@ TEST(ExactContact, ABarrierNeverReachedLeavesTheClosedForm) {
     }
 }
 
-// Digits of a second program (long double, two dense eigen-bases, free and in contact, one switched to the other at events it refined
-// itself).
+// Digits of a second program (long double, two dense eigen-bases, free and in contact,
+// one switched to the other at events it refined itself).
 TEST(ExactContact, TheC3ReleaseHasTheDigitsOfATwoBasisProgramInLongDouble) {
     const jvari::Run r = run(exact_contact, c3(), settings(133));
     EXPECT_EQ(fact(r, "events"), 563);

@@ -1,5 +1,5 @@
-// Profiles under the references: the rule that makes points of them, the scheme that shares those points, and closed forms of strings
-// against long obstacles.
+// Profiles under the references: the rule that makes points of them, the scheme that shares those points,
+// and closed forms of strings against long obstacles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -136,8 +136,8 @@ TEST(ProfileReferences, AreWhatTheSpatialSchemeConvergesToOnItsOwnNodes) {
 // ---- Static wrap. An ideal string whose ends lie h below the top of the parabola g = h - c (x - L/2)^2, at rest. Where it is pressed in
 // by eta, T y'' + K eta = 0 with y = g - eta gives eta = 2c/k^2 (1 - cosh k xi/cosh k a), k^2 = K/T, |xi| <= a; elsewhere it is straight,
 // and both slopes agree at the edges: s = 2ca - (2c/k) tanh ka, s (L/2 - a) = h - c a^2. The force is 2Ts. Rigid limit: the tangent from
-// the end, a = L/2 - sqrt(L^2/4 - h/c), F = 4Tca. Since s depends on a - 1/k up to k^-2, the edge comes to it like k^-1, the force like
-// k^-2.
+// the end, a = L/2 - sqrt(L^2/4 - h/c), F = 4Tca.
+// Since s depends on a - 1/k up to k^-2, the edge comes to it like k^-1, the force like k^-2.
 
 struct Wrap {
     double length = 0.8, tension = 32, h = 4e-3, c = 0.0625;  // [m], [N], [m], [1/m]

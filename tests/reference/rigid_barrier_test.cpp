@@ -65,8 +65,8 @@ TEST(RigidBarrier, TwoPointsAreSolvedTogether) {
     EXPECT_LT(difference(motion("modal_two_point", scene, 40, "matched", 512000), truth, y03), 3e-3);
 }
 
-// Where that ends: with a corner, or with the point in the open string, 40 matched modes err by some thousandths, a law of impact by
-// hundredths.
+// Where that ends: with a corner, or with the point in the open string,
+// 40 matched modes err by some thousandths, a law of impact by hundredths.
 TEST(RigidBarrier, ACornerAndAPointInTheOpenStringAskForMoreModes) {
     for (const bool corner : {true, false}) {
         Scene scene = over("rigid");

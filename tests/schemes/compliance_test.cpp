@@ -1,5 +1,5 @@
-// What stands in series with the contacts: the static deflection it is computed from, the contact law that it makes, and schemes that carry
-// it.
+// What stands in series with the contacts: the static deflection it is computed from,
+// the contact law that it makes, and schemes that carry it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

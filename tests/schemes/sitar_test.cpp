@@ -1,5 +1,5 @@
-// The sitar string of Deshmukh & Rayavarapu: its two forms against each other and d'Alembert, its bridge rule's ledger, and the paper's
-// statements as numbers.
+// The sitar string of Deshmukh & Rayavarapu: its two forms against each other and d'Alembert,
+// its bridge rule's ledger, and the paper's statements as numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -11,8 +11,8 @@ struct Said {
     std::string text;  // what it writes to its standard output and error
 };
 
-// `words` begin with a name to be found on the PATH. Its input is empty. Ctrl-C and signals of failed writing are to it what they are to
-// any program.
+// `words` begin with a name to be found on the PATH. Its input is empty.
+// Ctrl-C and signals of failed writing are to it what they are to any program.
 Said run_program(std::vector<std::string> words);
 
 }  // namespace jvari::bench::store

@@ -42,8 +42,8 @@ private:
 void side_by_side(const std::vector<double>& sizes, int jobs, const Listener&, const std::string& label,
                   const std::function<void(std::size_t i, Done&)>& work, const std::function<std::string(std::size_t i)>& name = {});
 
-// The listener of what is itself a part of a thing: shows nothing, ends the part by Stopped where the thing is no longer wanted, and has it
-// wait for nobody.
+// The listener of what is itself a part of a thing:
+// shows nothing, ends the part by Stopped where the thing is no longer wanted, and has it wait for nobody.
 class PartOf : public Listener {
     struct Look : Progress {
         explicit Look(const Done& d) : done(d) {}

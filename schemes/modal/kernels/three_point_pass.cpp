@@ -3,8 +3,8 @@
 // Layout: modes j and N-j stand in pairs, level = [lo | hi] with lo = modes 1 .. H, hi = modes N-1 .. N-H, each padded with zeros. On a
 // node sin(i(N-j) pi/N) = -(-1)^i sin(ij pi/N), so a pair shares one weight and enters as lo + hi on odd nodes, lo - hi on even ones.
 // Weights of a run of consecutive nodes come from two loads by sin((i+2)a) = 2cos(2a) sin(ia) - sin((i-2)a) in registers; their sums stay
-// in registers. For even N the middle mode is its own partner: the place opposite holds C~ = 0, kappa = 1, so that what is pushed into it
-// reads as 0.
+// in registers. For even N the middle mode is its own partner:
+// the place opposite holds C~ = 0, kappa = 1, so that what is pushed into it reads as 0.
 //
 // Vector instructions are chosen at run time (Highway); the order of summation, so the last digits, depends on the machine.
 #undef HWY_TARGET_INCLUDE
