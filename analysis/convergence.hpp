@@ -1,8 +1,8 @@
 // The observed order of convergence, with a confidence interval.
 //
 // error = C rate^-order is a straight line in logarithms, fitted by least squares (GSL). The interval follows from the scatter of the
-// residuals and Student's t, with two degrees of freedom fewer than there are points. The fit does not know which rates are in the
-// asymptotic range.
+// residuals and Student's t, with two degrees of freedom fewer than there are points.
+// The fit does not know which rates are in the asymptotic range.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// jvari new: a scene of one's own, from one of the library that is explained for it; below it what else a scene can say. Writes no file
-// over another.
+// jvari new: a scene of one's own, from one of the library that is explained for it; below it what else a scene can say.
+// Writes no file over another.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -14,12 +14,12 @@
 namespace jvari::bench::command {
 
 // Before anything is run. Throws UsageError where the folder holds the results of something else than `what` ("comparison of tanpura_c3",
-// "suite smoke", "trim of tanpura_c3"); notes files that no such folder has, which stay where they are. A folder that is not there is
-// empty.
+// "suite smoke", "trim of tanpura_c3"); notes files that no such folder has, which stay where they are.
+// A folder that is not there is empty.
 void must_be_ours(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
 
-// Where the cells of such a folder are kept, once it is ours: made, found writable, and without the parts that a killed run left. "" of
-// nowhere.
+// Where the cells of such a folder are kept, once it is ours: made, found writable, and without the parts that a killed run left.
+// "" of nowhere.
 std::filesystem::path cells_folder(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
 
 // What is written into it, and the paths of that; nowhere ("") nothing is.

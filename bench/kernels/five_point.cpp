@@ -1,6 +1,6 @@
 // finite_difference_explicit against a plain loop with the same contact equation, in one run: 20 contacts, 155 and 436 intervals. Counter
-// `error`: from the plain loop in long double over the first 3 ms, 1.5 ms of them in contact (later, 20 contacts have amplified rounding
-// too far).
+// `error`: from the plain loop in long double over the first 3 ms, 1.5 ms of them in contact (later,
+// 20 contacts have amplified rounding too far).
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
-// How much a reader wants of a row of sounds: 0 a reference, 1 the cheapest within an accuracy, 2 a scheme at its highest rate, 3 at its
-// lowest, 4 else.
+// How much a reader wants of a row of sounds: 0 a reference, 1 the cheapest within an accuracy, 2 a scheme at its highest rate,
+// 3 at its lowest, 4 else.
 int place_of(const store::Table& t, std::size_t i, const store::Table& cheapest) {
     if (t.at(i, "scheme") == "reference") return 0;
     for (std::size_t k = 0; k < cheapest.rows.size(); ++k)

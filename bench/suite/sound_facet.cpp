@@ -1,5 +1,5 @@
-// The row facet `sound`: one row per cell, its samples and its reference's as base64 of 16 bit, which become files when all cells are
-// there.
+// The row facet `sound`: one row per cell, its samples and its reference's as base64 of 16 bit,
+// which become files when all cells are there.
 #include "bench/suite/facet.hpp"
 
 #include <deque>

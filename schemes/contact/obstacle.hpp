@@ -5,8 +5,8 @@
 //                           thread:   F_c = -k_c (older_c + r_c/2 - h_c) - r_c (damping)/span
 //
 // span is the time between the older and the newer level: dt in two-point schemes (van Walstijn et al. 2016, eqs 44-48), 2 dt in
-// three-point ones, where the thread so sees the mean of the two outer levels and stays stable at any stiffness. The thread is eliminated
-// (eliminated_thread.hpp).
+// three-point ones, where the thread so sees the mean of the two outer levels and stays stable at any stiffness.
+// The thread is eliminated (eliminated_thread.hpp).
 //
 // Where contacts lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), each pulls by D_a r_a more, D_a = beta_a V_a'(eta_a^n)/span:
 // known before the step, and never negative. Then r = (I + Theta D)^-1 (free + Theta F) is the same equation with other compliances, solved

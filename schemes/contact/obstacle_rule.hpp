@@ -2,8 +2,8 @@
 //
 // Over a step the readings of the contacts move by r = -b + Theta F: without forces by -b, and by the compliances Theta between them
 // (van Walstijn et al. 2016, eq 48; Issanchou et al. 2016, eq 16). A rule says what F is, of the penetrations eta = h - y before the step
-// and of r. What surrounds the contacts is not its affair: thread, contact loss and what stands in series are in Theta and b when it is
-// asked (obstacle.hpp).
+// and of r. What surrounds the contacts is not its affair: thread,
+// contact loss and what stands in series are in Theta and b when it is asked (obstacle.hpp).
 //
 // The invariant: where `conserves`, the work that the contacts do on the string is what their potential loses,
 //

@@ -1,7 +1,7 @@
 // What a string lacks at its points, as a step has it: C with a ladder beside it (compliance.hpp), by the rule at midpoints (obstacle.hpp).
 //
-// The ladder stands for the energy that the cut modes carry away. C alone would keep all of a blow, and alternate from step to step for
-// ever.
+// The ladder stands for the energy that the cut modes carry away.
+// C alone would keep all of a blow, and alternate from step to step for ever.
 #pragma once
 
 #include <span>

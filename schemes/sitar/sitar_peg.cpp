@@ -52,8 +52,8 @@ double worst_cents(const PegTuning& t, const std::vector<double>& omega, double 
     return worst;
 }
 
-// Stiff string: equal allpasses whose delay falls with frequency as the string's does; the number and coefficient with the least worst
-// partial.
+// Stiff string: equal allpasses whose delay falls with frequency as the string's does;
+// the number and coefficient with the least worst partial.
 PegTuning tune_stiff(double loop, const std::vector<double>& omega, double dt) {
     PegTuning best = tune(loop, omega[0] * dt, {});
     double least = std::abs(worst_cents(best, omega, dt));

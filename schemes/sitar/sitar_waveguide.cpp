@@ -1,7 +1,7 @@
 // Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar": two rails of fs/(2 f0) samples (eqs
 // 3-5), inverting ends, a bridge that sets the returning wave (eqs 10-12), two planes of vibration coupled at the bridge by a rotation (eq
-// 14). Added to the paper: a fractional length and a dispersion by allpass at the peg (Van Duyne & Smith 1994), energy columns, losses
-// along the way.
+// 14). Added to the paper: a fractional length and a dispersion by allpass at the peg (Van Duyne & Smith 1994), energy columns,
+// losses along the way.
 //
 // Where y_r + y_l would pass the profile, y_r := profile - y_l. The rule has no potential: it gives and takes energy, and the ledger says
 // how much. To eq 9 a correction d of y_r at node m is an impulse Z d now and -Z d on node m - 1 one step later: no momentum in the end,

@@ -1,5 +1,5 @@
-// Strings that stretch: one mode against the elliptic function, all modes against SUNDIALS, the balance of energy, with and without
-// contact.
+// Strings that stretch: one mode against the elliptic function, all modes against SUNDIALS, the balance of energy,
+// with and without contact.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -18,8 +18,8 @@ struct Point {
 // less or a tie, or with an error no larger at a cost that is surely less. A point without a finite cost and error is never on it.
 std::vector<bool> pareto_front(std::span<const Point>);
 
-// Which of the rows of cells.csv are on the front of an error column and a cost column: of those that are trusted and whose error is
-// known.
+// Which of the rows of cells.csv are on the front of an error column and a cost column: of those that are trusted
+// and whose error is known.
 std::vector<bool> pareto_front(const store::Table& cells, const store::Rows&, const std::string& error, const std::string& cost);
 
 // The table with the column `pareto` after what the clock said: 1 for the rows on the front of `cost_s_per_s` and the headline error of
