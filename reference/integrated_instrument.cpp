@@ -53,8 +53,8 @@ public:
     }
 
     void reset() noexcept override {
+        integrator_.reset();
         std::copy(start_.begin(), start_.end(), integrator_.state());
-        integrator_.forget_effort();
         std::fill(sums_.begin(), sums_.end(), 0.0);
         row_ = 0;
         events_ = 0;

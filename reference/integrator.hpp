@@ -53,7 +53,7 @@ public:
         double deepest = 0, smallest_force = HUGE_VAL, largest_force = 0;  // [m], [N]
     };
     Effort effort() const noexcept;
-    void forget_effort() noexcept;
+    void reset() noexcept;  // as it was made: a state of zeros, no effort
 
 private:
     struct Library;

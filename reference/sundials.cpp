@@ -32,6 +32,7 @@ struct Integrator::Library {
     };
 
     double* state() noexcept { return N_VGetArrayPointer(z); }
+    bool begin() noexcept;
     bool reinit(double t) noexcept;
     int step(double to) noexcept;  // one step of the library's own
     void look(std::vector<Depth>&) noexcept;
@@ -56,6 +57,7 @@ struct Integrator::Library {
     double time_before = 0;
     std::vector<double> before, dz;  // the state one step ago; a slope
     int contact = -1;
+    bool apart = false;  // whatever the state
     std::vector<Depth> depth, depth_before;
     std::vector<int> found, direction;
     Effort effort;
@@ -70,7 +72,7 @@ int Integrator::Library::slope(realtype t, N_Vector z, N_Vector dz, void* user) 
 
 int Integrator::Library::penetrations(realtype, N_Vector z, realtype* out, void* user) {
     auto& l = *static_cast<Library*>(user);
-    for (int a = 0; a < l.equations.contacts; ++a) out[a] = l.equations.penetration(a, N_VGetArrayPointer(z));
+    for (int a = 0; a < l.equations.contacts; ++a) out[a] = l.apart ? -1 : l.equations.penetration(a, N_VGetArrayPointer(z));
     return 0;
 }
 
@@ -119,11 +121,7 @@ Integrator::Library::Library(Equations& e, const Settings& s) : equations(e), se
     need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS && CVodeWFtolerances(memory, weights) == CV_SUCCESS);
     need(CVodeSetLinearSolver(memory, solver, nullptr) == CV_SUCCESS);
     if (e.contacts > 0) need(CVodeRootInit(memory, e.contacts, penetrations) == CV_SUCCESS);
-    floor = 1;
-    longest_step = 1e-9;
-    need(reinit(0) && step(1e-9) >= 0);  // from rest: what the library allocates late, it allocates now
-    N_VConst(0, z);
-    effort = {};
+    need(begin());
 }
 
 Integrator::Library::~Library() {
@@ -132,6 +130,20 @@ Integrator::Library::~Library() {
     if (solver) SUNLinSolFree(solver);
     if (z) N_VDestroy(z);
     if (context) SUNContext_Free(&context);
+}
+
+// A step from rest, out of contact: what the library allocates late, it allocates now. And what lay on a surface it does not look at until
+// it has left, which outlives CVodeReInit.
+bool Integrator::Library::begin() noexcept {
+    floor = 1;
+    longest_step = 1e-9;
+    apart = true;
+    N_VConst(0, z);
+    const bool stepped = reinit(0) && step(1e-9) >= 0;
+    apart = false;
+    N_VConst(0, z);
+    effort = {};
+    return stepped;
 }
 
 bool Integrator::Library::reinit(double t) noexcept {
@@ -193,8 +205,8 @@ int Integrator::crossed() const noexcept {
 Integrator::Effort Integrator::effort() const noexcept {
     return library_->effort;
 }
-void Integrator::forget_effort() noexcept {
-    library_->effort = {};
+void Integrator::reset() noexcept {
+    library_->begin();
 }
 
 void Integrator::restart(double longest_step) noexcept {

@@ -92,7 +92,7 @@ void IntegratedContact::reset() noexcept {
     std::fill(u_.begin(), u_.end(), 0.0);
     std::fill(equations_.touched.begin(), equations_.touched.end(), 0);
     flight_.reset();
-    integrator_.forget_effort();
+    integrator_.reset();
     row_ = idle_ = 0;
     leaving_ = -1;
     running_ = false;
