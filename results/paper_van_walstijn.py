@@ -208,7 +208,8 @@ claim("the contact point of a distributed bridge moves", "fig. 2",
 errors, costs = Table("work-precision", "errors"), Table("work-precision", "cost")
 two_point = {"scheme": "modal_two_point", "options": "compliance=own", "modes": 133}
 grid = {"scheme": "finite_difference_theta", "options": "compliance=own", "rate": RATE}
-three_point = {"scheme": "modal_quadratised_three_point", "rate": RATE, "modes": 133}
+three_point = {"scheme": "modal_quadratised", "options": "levels=3 compliance=own", "rate": RATE,
+               "modes": 133}
 in_model = "error_in_model_l2_50ms_bridge"
 claim("the three-point form approximates the bridge force less accurately", "section 5",
       errors.number(in_model, three_point) / errors.number(in_model, {**two_point, "rate": RATE}),
