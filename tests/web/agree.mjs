@@ -96,7 +96,7 @@ const asked = ["compare", "tanpura_c3_release", "--schemes", "modal_two_point,mo
 const {cells} = JSON.parse(spawnSync(resolve(program), asked.map(String), {cwd: scratch, encoding: "utf8", maxBuffer: 1 << 28}).stdout), verdicts = new Set();
 const exact = jvari.run(with_c3({scheme: "exact_contact", modes: 266, options: ["compliance=matched"], duration: 0.05}));
 for (const c of cells) {
-    const run = jvari.run(with_c3({scheme: c.scheme, rate: c.rate, modes: 133, options: ["compliance=own"], duration: 0.05, energy: true}));
+    const run = jvari.run(with_c3({scheme: c.scheme, rate: c.rate, modes: 133, options: c.options ? c.options.split(" ") : [], duration: 0.05, energy: true}));
     verdicts.add(run.verdict);
     const octaves = jvari.third_octaves(run, exact, 0, 100), sound = c.status === "ok" && c.flags === "", there = c.third_octave_db_nut;
     if ((run.verdict === "sound") === sound && (Math.abs(octaves / there - 1) < 1e-6 || (octaves === Infinity && c.status !== "ok"))) continue;
