@@ -143,7 +143,7 @@ int suite_command(SuiteRequest r) {
 }  // namespace
 
 Act suite_verb(CLI::App& program) {
-    Verb<SuiteRequest> v(program, "suite", "a declared set of comparisons, sweeps, stability maps and figures over scenes and schemes");
+    Verb<SuiteRequest> v(program, "suite", "a declared set of comparisons, sweeps and stability maps over scenes and schemes");
     v.option("suite", v.r.suite, {"FILE"}, "a suite file, or a name that `jvari list suites` shows")->required();
     v.option("--out", v.r.out, {"DIR"},
              "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures");
