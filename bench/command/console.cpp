@@ -66,7 +66,7 @@ std::optional<std::size_t> columns_of(int terminal) {
     return size.ws_col;
 }
 
-// On a terminal a line that renews itself, elsewhere one line a minute.
+// On a terminal a line that renews itself, elsewhere a line every ten seconds.
 class Line : public store::Progress {
 public:
     explicit Line(std::string job) : job_(std::move(job)) {}
@@ -89,7 +89,7 @@ public:
 private:
     std::string job_;
     const bool terminal_ = isatty(STDERR_FILENO) != 0;
-    const std::chrono::milliseconds pause_ = terminal_ ? 200ms : 60000ms;
+    const std::chrono::milliseconds pause_ = terminal_ ? 200ms : 10000ms;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
     std::optional<store::WhenInterrupted> shown_;  // the line is cleared at an interruption, too
 };

@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <numbers>
 #include <string_view>
 
 #include "analysis/error.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/time_limit.hpp"
 #include "bench/study/errors.hpp"
 #include "reference/agreement.hpp"
 #include "reference/certificate.hpp"
@@ -18,7 +20,11 @@
 namespace jvari::bench::study {
 
 namespace {
-constexpr int most_modes_found = 4096;  // beyond, a stiff string's highest frequency makes the work grow faster than modes^2
+constexpr int most_modes_found = 4096;
+// Windows of the exact solution are as short as the fastest mode asks. On a string whose modes lie this far apart [Hz], or less, the work of
+// `modes^2` takes the time that `budget` says; on a shorter or stiffer one, that of modes times the highest frequency over this.
+constexpr double mode_spacing = 500;
+constexpr double patience = 60;  // [s] of processor, for one run that doubles the modes
 
 struct Size {
     int modes, points;  // points of a profile; 0: none, or they were asked for
@@ -38,7 +44,12 @@ bool within_budget(const Descriptor& reference, const Scene& scene, const Size& 
     std::size_t contacts = 2;  // the closed forms take two alike
     for (const String& string : scene.strings) contacts = std::max(contacts, string.barriers.size());
     const double coupled = s.points > 0 ? s.points : static_cast<double>(contacts - 2);
-    const double work = scene.duration * scene.strings.size() * s.modes * s.modes * (1 + 2.5 * coupled);
+    double work = 0;
+    for (const String& string : scene.strings) {
+        const int modes = std::min(s.modes, modes_measured(string).value_or(s.modes));
+        const double highest = modes_of(string, modes).omega0.back() / (2 * std::numbers::pi);
+        work += scene.duration * s.modes * std::max<double>(s.modes, highest / mode_spacing) * (1 + 2.5 * coupled);
+    }
     return s.points <= most_points && s.modes <= most_modes_found && work * dearness(reference, scene) <= budget;
 }
 
@@ -112,7 +123,10 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     while (find ? unsettled >= settled && within_budget(*choice.scheme, scene, next()) : size.modes < modes) {
         Reference more;
         try {
-            more = run_reference({sized(choice, next())}, scene, jobs, listener, time_limit);
+            more = run_reference({sized(choice, next())}, scene, jobs, listener, find ? std::min(time_limit, patience) : time_limit);
+        } catch (const store::PastItsLimit&) {  // the best so far is the answer, with the bound that it has
+            if (!find || time_limit <= patience) throw;
+            break;
         } catch (const BadScene&) {  // no string has as many, or there are no more that were measured
             break;
         } catch (const Refusal&) {  // these are all that were measured: nothing is left out that could be matched

@@ -128,8 +128,8 @@ private:
             const double s = seconds_[i], taken = s < 0 ? elapsed + s : s;  // negative: when it began
             if (taken > longest) longest = taken, slowest = i;
         }
-        const double left = so_far > 0 ? elapsed * (all - so_far) / so_far : 0;
-        std::string text = fmt::format("{} of {}, about {:.0f} s left", finished_, count(), left);
+        std::string text = fmt::format("{} of {}", finished_, count());
+        if (so_far > 0) text += fmt::format(", about {:.0f} s left", elapsed * (all - so_far) / so_far);
         if (name_ && longest > 0) text += fmt::format("; longest {:.0f} s: {}", longest, name_(slowest));
         if (all_wait()) text = fmt::format("{} of {}, waiting for {}", finished_, count(), longest_awaited());
         progress.show(so_far / all, text);
