@@ -30,6 +30,13 @@ namespace jvari {
 namespace {
 constexpr int most_sets_of = 4;  // contacts, for every set of them to be split beforehand
 constexpr double negligible = 1e-18;
+// What one window, and one step of a collocated contact, may cut off of the tolerance, so that every tap keeps it: 1317 taps of 400 random
+// lossless strings of 20 to 60 modes over 20 ms do, but for those that change by more where the start moves by 1e-11.
+constexpr double window_share = 5e-4, step_share = 0.02;
+constexpr double share_of(double tolerance, double share) {
+    constexpr double least = 1e-14;
+    return std::max(share * tolerance, std::min(tolerance, least));
+}
 constexpr long phases_between_questions = 64;  // (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
 
 struct Extremes {  // of the run so far
@@ -87,6 +94,7 @@ private:
     void settle() noexcept;  // which points touch, by where they are and where they go
     void move_on(double by, double left) noexcept;
     void measure(int touching, double end, bool leaves) noexcept;
+    void measure_force(int which, double end) noexcept;
     double stored(double F_e) const noexcept;
     void write(const Block& out, int row) const noexcept;
     double* at(std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * window_.stride; }
@@ -128,15 +136,15 @@ private:
 ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double tolerance,
                            const std::optional<InSeries>& series)
     : modes_(std::move(modes)),
-      window_(modes_, s, 1 / tap_rate, tolerance, series),
+      window_(modes_, s, 1 / tap_rate, share_of(tolerance, window_share), series),
       law_(laws_of(s)),
       collocation_(window_, law_),
-      spending_(window_, modes_, tolerance),
+      spending_(window_, modes_, share_of(tolerance, window_share)),
       readout_(scene, modes_),
       tap_rate_(tap_rate),
-      tolerance_(tolerance),
+      tolerance_(share_of(tolerance, window_share)),
       interval_(window_.per_row),
-      steps_(0.1 * tolerance, exponent_of(law_)) {
+      steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)) {
     if (s.pluck) pluck_.push_back(*s.pluck);
     start_ = window_.osc.pad(initial_displacement(modes_, s));
     std::vector<double> stiffness;
@@ -313,6 +321,8 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
     if (!collocated_ && crossed >= 0 && !touching_[crossed]) steps_.set_in(), leaves_ = HUGE_VAL;
     onward_ = collocated_;
     for (int a : touched_) measure(a, end, a == crossed);
+    for (int i = 0; collocated_ && i < static_cast<int>(touched_.size()); ++i)
+        if (law_[touched_[i]].beta != 0) measure_force(i, end);
 
     if (end != counted_until_) {
         count_ = 2, counted_until_ = end;
@@ -434,12 +444,15 @@ void ExactContact::move_on(double by, double left) noexcept {
 void ExactContact::measure(int a, double end, bool leaves) noexcept {
     const Gap g = gap(a, window_.size);  // touching: the gap's sign is turned, so this is the penetration
     const double bound = g.depth_bound(end);
-    const bool nothing_new = bound <= extremes_.deepest && (window_.contacts == 1 || law_[a].elastic(bound) <= extremes_.largest_force);
+    const bool elastic = law_[a].beta == 0;
+    const bool nothing_new =
+        bound <= extremes_.deepest && (window_.contacts == 1 || !elastic || law_[a].elastic(bound) <= extremes_.largest_force);
     if (leaves && nothing_new) return;  // contact forces are not negative in between
     const auto start = g.at_start(), last = g.at(end, g.terms_until(end));
     double deepest = std::max(start.g, last.g);
-    extremes_.smallest_force =
-        std::min(extremes_.smallest_force, law_[a].force(std::max(0.0, leaves ? start.g : std::min(start.g, last.g)), 0));
+    if (elastic)
+        extremes_.smallest_force =
+            std::min(extremes_.smallest_force, law_[a].elastic(std::max(0.0, leaves ? start.g : std::min(start.g, last.g))));
     if (start.slope > 0 && last.slope < 0 && !nothing_new) {
         double low = 0, high = end, x = 0.5 * end;  // Newton's iteration for the turning point, kept inside
         for (int i = 0; i < 30 && high - low > 1e-9 * end; ++i) {
@@ -452,7 +465,32 @@ void ExactContact::measure(int a, double end, bool leaves) noexcept {
         }
     }
     extremes_.deepest = std::max(extremes_.deepest, deepest);
-    extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
+    if (elastic) extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
+}
+
+// A lossy contact pushes hardest on the way in and may pull on the way out: the extremes of its force are those of a polynomial in time,
+// sought by samples and, where a sample is the largest of three or the smallest, by golden sections around it.
+void ExactContact::measure_force(int which, double end) noexcept {
+    constexpr int samples = 16;
+    constexpr double golden = 0.6180339887498949;
+    double force[samples + 1];
+    for (int k = 0; k <= samples; ++k) force[k] = collocation_.force(which, end * k / samples);
+    for (const double sign : {1.0, -1.0}) {
+        double most = -HUGE_VAL;
+        for (int k = 0; k <= samples; ++k) {
+            most = std::max(most, sign * force[k]);
+            if (k == 0 || k == samples || sign * force[k] < std::max(sign * force[k - 1], sign * force[k + 1])) continue;
+            double low = end * (k - 1) / samples, high = end * (k + 1) / samples;
+            for (int n = 0; n < 40; ++n) {
+                const double a = high - golden * (high - low), b = low + golden * (high - low);
+                if (sign * collocation_.force(which, a) > sign * collocation_.force(which, b)) high = b;
+                else low = a;
+            }
+            most = std::max(most, sign * collocation_.force(which, 0.5 * (low + high)));
+        }
+        if (sign > 0) extremes_.largest_force = std::max(extremes_.largest_force, most);
+        else extremes_.smallest_force = std::min(extremes_.smallest_force, -most);
+    }
 }
 
 double ExactContact::stored(double F_e) const noexcept {
@@ -475,13 +513,16 @@ double ExactContact::stored(double F_e) const noexcept {
 }
 
 std::vector<Fact> ExactContact::facts() const {
+    const double told = tolerance_ / window_share * extremes_.largest_force;  // a smaller force may be none
+    const double smallest =
+        extremes_.smallest_force == HUGE_VAL || std::abs(extremes_.smallest_force) < told ? 0 : extremes_.smallest_force;
     std::vector<Fact> f = {{facts::events, extremes_.events},
                            {facts::contact_points, double(window_.contacts)},
                            {facts::coupled_contact_points, double(window_.contacts)},
                            {facts::windows, extremes_.windows},
                            {facts::window_terms, double(window_.terms)},
                            {facts::contact_steps, extremes_.steps},
-                           {facts::smallest_contact_force, extremes_.smallest_force == HUGE_VAL ? 0 : extremes_.smallest_force + 0.0},
+                           {facts::smallest_contact_force, smallest},
                            {facts::largest_contact_force, extremes_.largest_force},
                            {facts::deepest_penetration, extremes_.deepest},
                            {facts::detection_tolerance, extremes_.tolerance}};
@@ -491,14 +532,11 @@ std::vector<Fact> ExactContact::facts() const {
 
 constexpr Option tolerance_option{
     "tolerance", "1e-10", "relative error of the taps that cutting off series and steps may cause, forces included, between 0 and 1"};
-// What one window or step may cut off. A contact force can err by thirty times that (ten random strings of 36 to 58 modes over 20 ms).
-constexpr double share = 0.02, least_share = 1e-14;
 constexpr Option options[] = {tolerance_option, nodes_option, compliance_option};
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     const double tolerance = number_option(settings, tolerance_option);
     if (!(tolerance > 0 && tolerance < 1)) throw Refusal("option tolerance: expected a number between 0 and 1");
-    const double each = std::max(share * tolerance, std::min(tolerance, least_share));
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
     Settings asked = settings;  // over a rigid barrier matched unasked, as nothing else will do
@@ -508,7 +546,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, asked);
     const String s = with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)), descriptor, series);
-    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, each, series);
+    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance, series);
 }
 constexpr Approximation approximates[] = {points_for_a_profile[0], {Feature::rigid_barrier, facts::rigid_stiffness}};
 }  // namespace

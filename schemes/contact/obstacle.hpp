@@ -100,6 +100,7 @@ public:
     void follow(const Obstacle& first) {                                    // after `first` made the first half step
         rule_ = first.rule_;                                                // with its state, and other compliances
         rule_.set(loss_.undamped());
+        tally_ = first.tally_;
         if (!series_) return;
         series_->rest();
         series_->P[1] = first.series_->P[0];

@@ -72,6 +72,20 @@ void check_pull(const Descriptor& d, const RandomCase& c, const study::Summary& 
         finding(d.name, "contact pulls by " + text(pull) + " of its largest push");
 }
 
+// A row of a single contact's force is the mean of what its facts are the extremes of; a reference in continuous time tells those of its steps.
+void check_force_facts(const Descriptor& d, const RandomCase& c, const study::Summary& told, const Trace& t, const Finding& finding) {
+    if (c.scene.strings.size() > 1 || c.scene.strings[0].barriers.size() != 1 || std::isnan(told.largest_contact_force)) return;
+    if (needed_by(c.scene).any(any_profile)) return;
+    const double scale = std::max(told.largest_contact_force, -told.smallest_contact_force), room = force_facts * scale;
+    for (int k = 0; k < t.taps(); ++k) {
+        if (c.scene.taps[static_cast<std::size_t>(k)].quantity != Quantity::bridge_force) continue;
+        for (const double f : t.column(k))
+            if (f > told.largest_contact_force + room || f < std::min(0.0, told.smallest_contact_force) - room)
+                return finding(d.name, "a row's contact force of " + text(f) + " N lies outside of its facts, " +
+                                           text(told.smallest_contact_force) + " to " + text(told.largest_contact_force) + " N");
+    }
+}
+
 bool same_bits(const Trace& a, const Trace& b) {
     const long rows = std::min(a.rows, b.rows);
     for (int k = 0; k < a.taps(); ++k)
@@ -97,6 +111,7 @@ void check_trace(const Descriptor& d, const RandomCase& c, const Settings& setti
     if (ok) {
         check_ledger(d, t, finding);
         check_pull(d, c, told, t, finding);
+        check_force_facts(d, c, told, t, finding);
     }
     const bool probed = c.seed % 4 == 1;
     const Run again = run(d, c.scene, settings, {.energy = probed, .block_rows = probed ? 11 : 1000});

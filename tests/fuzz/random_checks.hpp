@@ -15,6 +15,7 @@ constexpr double ledger_toleranced = 1e-5;  // both, if the balance holds to a t
 // True/claimed, where two references certify one another: a claim is the distance to another run, which errs as well, if less.
 constexpr double claim_allowed = 1.1;
 constexpr double claim_allowed_alone = 2;  // where one does so itself, at another accuracy
+constexpr double force_facts = 1e-6;       // what a row may lie outside of the extremes that a run tells, of the largest
 constexpr double largest_value = 1e12;     // of a tap, in SI units; beyond it the run has diverged
 constexpr double sundials_seconds = 10;    // of CPU, for one run
 
