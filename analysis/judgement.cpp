@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "analysis/energy.hpp"
+#include "scenes/bounds.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 
@@ -15,29 +17,19 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array verdict_names = {"sound",          "unjudged",      "flagged",  "inaccurate", "adhesive",
                                       "energy_gaining", "not_converged", "diverged", "refused"};
 
-double largest(std::span<const double> values) {  // infinite where a value is not finite
-    double most = 0;
-    for (const double x : values) most = std::max(most, std::isfinite(x) ? std::abs(x) : HUGE_VAL);
-    return most;
-}
-
-// Of all displacement taps, over what `energy` could make of a string under its tension: |y| <= sqrt(E L/(2 T)).
-double displacement_of(const Scene& scene, const Trace& trace, double energy) {
-    double displacement = nan;
+double over_bound(const Scene& scene, const Trace& trace, int modes) {
+    double most = nan;
+    const std::vector<double> bounds = tap_bounds(scene, modes);
     for (int k = 0; k < trace.taps(); ++k) {
-        const Tap& tap = scene.taps[k];
-        if (tap.quantity != Quantity::displacement) continue;
-        const String& s = scene.strings[*tap.string];
-        const double most = largest(trace.column(k));
-        displacement = std::fmax(displacement, std::isinf(most) ? most
-                                               : energy > 0     ? most / std::sqrt(energy * s.length / (2 * s.tension))
-                                                                : nan);
+        if (std::isinf(bounds[k])) continue;
+        most = std::fmax(most, 0);
+        for (const double x : trace.column(k)) most = std::max(most, std::isfinite(x) ? std::abs(x) / bounds[k] : HUGE_VAL);
     }
-    return displacement;
+    return most;
 }
 }  // namespace
 
-Figures figures_of(Balance promised, const Scene& scene, const Run& run) {
+Figures figures_of(Balance promised, const Scene& scene, const Settings& settings, const Run& run) {
     const EnergyBalance balance = energy_balance(run.trace);
     const EnergyGain gain = energy_gain(run.trace);
     // A scheme that promises no balance may leave its columns empty: zeros that "close" say nothing.
@@ -49,7 +41,7 @@ Figures figures_of(Balance promised, const Scene& scene, const Run& run) {
               fact_of(run.facts, facts::largest_contact_force),
               fact_of(run.facts, facts::deepest_penetration),
               gain.largest,
-              displacement_of(scene, run.trace, gain.budget),
+              over_bound(scene, run.trace, modes_for(scene, settings)),
               run.facts};
     std::erase_if(f.facts, [](const Fact& told) {
         return told.name == facts::smallest_contact_force.name || told.name == facts::largest_contact_force.name ||
@@ -85,13 +77,13 @@ bool is_stable(Verdict v) {
 
 Verdict verdict_of(const Figures& f, Balance promised, double error) {
     const double pull = pull_of(f.smallest_contact_force, f.largest_contact_force);
-    if (f.status.outcome == Outcome::diverged || f.largest_displacement > std::sqrt(energy_budget)) return Verdict::diverged;
+    if (f.status.outcome == Outcome::diverged) return Verdict::diverged;
     if (f.status.outcome != Outcome::ok) return Verdict::not_converged;
     if (f.energy_gain > (promised == Balance::exact ? energy_allowed : gain_allowed_unpromised)) return Verdict::energy_gaining;
     if (pull > pull_allowed) return Verdict::adhesive;
     if (error > error_allowed) return Verdict::inaccurate;
     if (raised_by(f).any()) return Verdict::flagged;
-    const bool told = !std::isnan(f.largest_displacement) || !std::isnan(f.energy_gain) || !std::isnan(pull) || !std::isnan(error);
+    const bool told = !std::isnan(f.largest_over_bound) || !std::isnan(f.energy_gain) || !std::isnan(pull) || !std::isnan(error);
     return told ? Verdict::sound : Verdict::unjudged;
 }
 

@@ -3,9 +3,7 @@
 //
 // The outcome of a run is the gravest that applies. Each threshold with its reason:
 //   refused         the scheme does not represent the scene, or not at these settings
-//   diverged        the run's own status; or a displacement that more than ten times the energy that was ever there could not make:
-//                   |y| <= sqrt(E L/(2 T)) on a string under tension T, E = stored at the start and supplied since (a scheme beyond its
-//                   limit can keep an indefinite energy constant to rounding while the string flies off)
+//   diverged        the run's own status: an energy or a tap beyond what ten times the energy of the scene could make (schemes/run.hpp)
 //   not_converged   the run's own status: the contact equation was left unsolved
 //   energy_gaining  stored energy above the ledger (in which a negative loss counts as none: obstacles add no energy) by more than
 //                   energy_allowed of E where the scheme promises a balance to rounding, 1e-2 where it promises none: there the true energy
@@ -32,11 +30,12 @@ struct Figures {
     double energy_residual_per_step, energy_residual_accumulated;  // relative to the largest stored energy; NaN unless probed
     double smallest_contact_force, largest_contact_force;          // [N]; NaN where the scheme does not say
     double deepest_penetration;                                    // [m]
-    double energy_gain;           // the largest excess of stored energy over the ledger, of the energy that was there (energy.hpp)
-    double largest_displacement;  // of the displacement taps: |y| over sqrt(E L/(2T)), what that energy could make; NaN where there is none
-    std::vector<Fact> facts;      // the others
+    double energy_gain;  // the largest excess of stored energy over the ledger, of the energy that was there (energy.hpp)
+    double
+        largest_over_bound;   // of a tap over what the scene's energy can make of it (scenes/bounds.hpp) [1]; NaN where no tap has a bound
+    std::vector<Fact> facts;  // the others
 };
-Figures figures_of(Balance, const Scene&, const Run&);
+Figures figures_of(Balance, const Scene&, const Settings&, const Run&);
 
 // The part of its largest push with which a contact pulls; 0 where it pulls with pull_floor at most. NaN where `least` is unknown.
 // An unknown `largest` counts as none, so any pull above the floor is then too much.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "scenes/bounds.hpp"
 #include "scenes/wording.hpp"
 #include "schemes/looks.hpp"
 #include "schemes/making.hpp"
@@ -87,18 +88,21 @@ void check(const Status& status, long first, const Block& block, double steps) {
                         std::to_string(first) + " to " + std::to_string(std::lround(last)));
 }
 
-// Makes the rows of a trace, and knows which of them are sound: their taps are finite, and they store no more than `energy_budget` times
-// the energy that was there at the start and has been supplied since.
+// Makes the rows of a trace, and knows which of them are sound: their taps are within what `energy_budget` times the scene's energy could
+// make of them, and they store no more than `energy_budget` times the energy that was there at the start and has been supplied since.
 class Stepper {
 public:
-    Stepper(Scheme& scheme, Trace& trace, const Scene& scene, const RunOptions& options, Teller& teller)
+    Stepper(Scheme& scheme, Trace& trace, const Scene& scene, int modes, const RunOptions& options, Teller& teller)
         : scheme_(scheme),
           trace_(trace),
           options_(options),
           teller_(teller),
           looks_(scene, trace.tap_rate, trace.stride),
           kept_(options.energy),
-          beside_(static_cast<std::size_t>(options.block_rows) * (trace.names.size() + 3)) {}
+          bounds_(tap_bounds(scene, modes)),
+          beside_(static_cast<std::size_t>(options.block_rows) * (trace.names.size() + 3)) {
+        for (double& b : bounds_) b = std::min(std::sqrt(energy_budget) * b, std::numeric_limits<double>::max());
+    }
 
     // The next rows, as many at most: their energy is looked at, or it is that of none of them.
     Block next(int rows) {
@@ -114,7 +118,8 @@ public:
     long sound_until(const Block& block, long end, bool failed) {
         double given = given_;
         const auto stands_for = [this](long row) { return looks_.stands_for(row); };
-        const long sound = looked_ ? first_unsound(block, trace_.rows, end, given, stands_for) : first_not_finite(block, trace_.rows, end);
+        const long sound =
+            looked_ ? first_unsound(block, trace_.rows, end, given, stands_for) : first_out_of_bounds(block, trace_.rows, end);
         if (options_.timed) return sound;
         if (sound < end || failed) return look_back(end);
         if (looked_) given_ = given, unlooked_ = end;
@@ -160,16 +165,16 @@ private:
     }
 
     // In a block that begins at `row`; `end` where there is none.
-    static long first_not_finite(const Block& block, long row, long end) {
+    long first_out_of_bounds(const Block& block, long row, long end) const {
         for (long n = row; n < end; ++n)
             for (int k = 0; k < block.taps; ++k)
-                if (!std::isfinite(block.tap[k * block.stride + n - row])) return n;
+                if (!(std::abs(block.tap[k * block.stride + n - row]) <= bounds_[static_cast<std::size_t>(k)])) return n;
         return end;
     }
     // Likewise, where its energy was asked for; `given` sums the supply.
     template <class StandsFor>
-    static long first_unsound(const Block& block, long row, long end, double& given, const StandsFor& stands_for) {
-        end = first_not_finite(block, row, end);
+    long first_unsound(const Block& block, long row, long end, double& given, const StandsFor& stands_for) const {
+        end = first_out_of_bounds(block, row, end);
         for (long n = row; n < end; ++n) {
             const double rows = n == 0 ? 1 : static_cast<double>(stands_for(n)), stored = block.energy[n - row];
             if (rows == 0) continue;
@@ -201,6 +206,7 @@ private:
     bool looked_ = false;         // at the rows of the block in hand
     long unlooked_ = 0;           // the first row since the last look
     double given_ = 0;            // energy until then [J]
+    std::vector<double> bounds_;  // of the taps; finite, so that what is not finite is beyond
     std::vector<double> beside_;  // rows that are looked at where the trace keeps no energy: taps, then energy
 };
 }  // namespace
@@ -235,7 +241,7 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
     Steady::duration stepping{};
     bool told = false;
     Teller teller(options.progress, trace.stride);
-    Stepper stepper(scheme, trace, scene, options, teller);
+    Stepper stepper(scheme, trace, scene, modes_for(scene, settings), options, teller);
     const bool listened = options.progress || options.slow;
     int rows = listened ? 1 : options.block_rows;  // of the next block
     while (trace.rows < trace.stride && result.status.outcome == Outcome::ok) {

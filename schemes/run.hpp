@@ -31,8 +31,10 @@ struct Run {
     std::vector<Fact> facts;
 };
 
-// A run whose stored energy exceeds this many times what was there at the start and has been supplied since has diverged, and so has one
-// with a value that is not finite. Status and rows are the same whether the energy is kept or not (looks.hpp).
+// A run whose stored energy exceeds this many times what was there at the start and has been supplied since has diverged. So has one with a
+// value that is not finite, or a tap beyond what as many times the scene's own energy could make of it (tap_bounds, scenes/bounds.hpp): a
+// scheme may tell no energy, or beyond its limit keep an indefinite one constant to rounding while the string flies off. Status and rows are
+// the same whether the energy is kept or not (looks.hpp).
 constexpr double energy_budget = 10;
 constexpr double long_run = 2;  // [s] of computing
 

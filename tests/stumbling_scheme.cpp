@@ -19,7 +19,7 @@ public:
         for (int n = 0; n < out.rows; ++n, ++row_) {
             const double t = row_ / settings_.tap_rate,
                          y = std::cos(200 * std::numbers::pi * t) * std::exp(-3 * t) * (1 + 100 / settings_.sample_rate);
-            for (int k = 0; k < out.taps; ++k) out.tap[n + k * out.stride] = (k + 1) * y;
+            for (int k = 0; k < out.taps; ++k) out.tap[n + k * out.stride] = 1e-4 * (k + 1) * y;
             for (int k = 0; k < 3 && out.energy; ++k) out.energy[n + k * out.stride] = k == 0 ? 1 : 0;
             if (t >= fail_at_) return {Outcome::diverged, row_ * per_row_};
         }

@@ -76,6 +76,7 @@ void add_shape(Scene& scene, const char* places) {
 struct Kept {
     Run run;
     Scene scene;
+    Settings settings{};
     Balance promised = Balance::none;
 
     std::span<const double> column(int tap) const { return run.trace.column(tap); }
@@ -128,6 +129,7 @@ JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, dou
         if (static_cast<double>(rows_of(scene, settings)) * static_cast<double>(scene.taps.size() + 3) > most_values)
             throw Refusal("A run of " + number_text(scene.duration) + " s is too long for the page: use the program, `jvari run " +
                           scene.name + " --scheme " + d.name + "`.");
+        kept->settings = settings;
         kept->promised = d.balance;
         const auto made = make_scheme(d, scene, settings);
         kept->run = run(*made, scene, settings, {.energy = energy != 0});
@@ -136,7 +138,7 @@ JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, dou
 }
 
 JV const char* jv_about(const Kept* k) {
-    return (said = run_text(k->run, k->scene, k->promised)).c_str();
+    return (said = run_text(k->run, k->scene, k->settings, k->promised)).c_str();
 }
 JV const double* jv_tap(const Kept* k, int tap) {
     return k->run.trace.column(tap).data();

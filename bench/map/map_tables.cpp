@@ -14,7 +14,7 @@ namespace jvari::bench::map {
 
 store::Table maps_table(const MapRun& run) {
     store::Table t;
-    t.columns = {"map",         "scene", "scheme", "x_key", "x", "y_key", "y", "outcome", "detail", "reference", "largest_displacement",
+    t.columns = {"map",         "scene", "scheme", "x_key", "x", "y_key", "y", "outcome", "detail", "reference", "largest_over_bound",
                  "energy_gain", "pull",  "error"};
     for (const JudgedPoint& p : run.points) {
         const study::Summary& s = p.tried.record.cell.summary;
@@ -22,7 +22,7 @@ store::Table maps_table(const MapRun& run) {
         const auto number = [ran](double x) { return store::text_of(ran ? x : store::nan); };
         t.rows.push_back({p.at.map->name, p.at.map->scene, p.at.scheme->name, p.at.map->x.key, p.at.x, p.at.map->y.key, p.at.y,
                           name_of(p.tried.judgement.verdict), p.tried.judgement.detail, ran ? p.tried.record.against.reference : "",
-                          number(s.largest_displacement), number(s.energy_gain),
+                          number(s.largest_over_bound), number(s.energy_gain),
                           number(study::pull_of(s.smallest_contact_force, s.largest_contact_force)), number(p.tried.error)});
     }
     return t;

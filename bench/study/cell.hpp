@@ -47,7 +47,7 @@ void each_figure(Summary_& s, Act act) {
     act("largest_contact_force", s.largest_contact_force);
     act("deepest_penetration", s.deepest_penetration);
     act("energy_gain", s.energy_gain);
-    act("largest_displacement", s.largest_displacement);
+    act("largest_over_bound", s.largest_over_bound);
 }
 
 struct Timing {                                                     // what a clock said of a cell (cost.hpp)

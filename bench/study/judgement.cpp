@@ -40,9 +40,6 @@ Judgement judge(const Cell& cell, double error) {
     const Verdict v = verdict_of(s, cell.scheme->balance, error);
     switch (v) {
         case Verdict::diverged:
-            if (s.status.outcome != Outcome::diverged)
-                return {v, fmt::format("displacement {:.3g} times what its energy allows", s.largest_displacement), 0};
-            [[fallthrough]];
         case Verdict::not_converged: return {v, fmt::format("at step {}", s.status.step), s.status.step};
         case Verdict::energy_gaining: return {v, fmt::format("{:.3g} of its energy gained", s.energy_gain), 0};
         case Verdict::adhesive:

@@ -40,6 +40,7 @@ private:
 Scene second() {
     Scene s = c3_free();
     s.duration = 1;
+    for (Tap& t : s.taps) t.quantity = Quantity::bridge_force;  // of which the scene's energy says nothing
     return s;
 }
 
@@ -105,6 +106,40 @@ struct Odd final : Scheme {
     int dofs() const override { return 1; }
     std::vector<Fact> facts() const override { return told(); }
 };
+
+// A scheme that tells no energy: the largest displacement that 10 times the energy of a string plucked to 1 mm allows is sqrt(10) mm.
+TEST(RunLoop, ATapBeyondWhatTenfoldEnergyOfTheSceneAllowsHasDivergedWhateverTheSchemeTells) {
+    class Growing final : public Scheme {
+    public:
+        explicit Growing(double last) : last_(last) {}
+        void reset() noexcept override { n_ = 0; }
+        Status advance(const Block& out) noexcept override {
+            for (int row = 0; row < out.rows; ++row, ++n_) {
+                for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = n_ == 700 ? last_ : 0;
+                if (out.energy) out.energy[row] = out.energy[out.stride + row] = out.energy[2 * out.stride + row] = 0;
+            }
+            return {};
+        }
+        int dofs() const override { return 1; }
+
+    private:
+        double last_;
+        long n_ = 0;
+    };
+    Scene s = c3_free();
+    s.duration = 1;
+    s.strings[0].initial = ModeInitial{1, 1e-3};
+    s.strings[0].bending_stiffness = 0;
+    s.taps = {{"y", Quantity::displacement, 0, 0.5 * s.strings[0].length}};
+    const double antinode = 1e-3 * std::sqrt(10.0);  // of the one mode that it is asked to carry
+    for (const bool timed : {false, true}) {
+        Growing within(0.98 * antinode), beyond(-1.001 * antinode);
+        EXPECT_EQ(run(within, s, {1000, 1000, 1, {}}, {.timed = timed}).status.outcome, Outcome::ok);
+        const auto r = run(beyond, s, {1000, 1000, 1, {}}, {.timed = timed});
+        EXPECT_EQ(r.status.outcome, Outcome::diverged);
+        EXPECT_EQ(r.trace.rows, 700);
+    }
+}
 
 TEST(RunLoop, ARunThatFailsKeepsTheRowsUpToTheFailingStep) {
     for (const bool energy : {false, true})
