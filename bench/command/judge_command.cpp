@@ -1,6 +1,9 @@
 // jvari judge: how wrong is a trace that any program made?
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
 #include "bench/command/text_table.hpp"
@@ -62,14 +65,15 @@ int judge_command(JudgeRequest r) {
     const compare::Comparison c = judge::judge(std::move(candidate), r, r.plugins, console, keep);
     const Results results = written(c, r, console);
     const std::string verdict = judge::verdict_of(c);
+    std::vector<study::Record> own;
+    std::ranges::copy_if(c.outcome.records, std::back_inserter(own), [](const study::Record& r) { return judge::is_candidate(r.cell); });
+    const int code = code_of(own);
     console.print(headline_text(results.cells, Console::width()) + "\n" + verdict);
     if (!r.out.empty()) console.print("written: " + r.out);
-    console.print_json(with_results({{"scene", c.scene().name},
-                                     {"reference", c.reference.name()},
-                                     {"status", exit_code::status(exit_code::done)},
-                                     {"verdict", verdict}},
-                                    results));
-    return exit_code::done;
+    console.print_json(with_results(
+        {{"scene", c.scene().name}, {"reference", c.reference.name()}, {"status", exit_code::status(code)}, {"verdict", verdict}},
+        results));
+    return code;
 }
 }  // namespace
 

@@ -41,10 +41,6 @@ std::string enter(Candidate candidate) {  // as a guest; returns its path
     return path;
 }
 
-bool is_candidate(const study::Cell& cell) {
-    return cell.scheme->untimed == no_cost;
-}
-
 void report_costs(compare::Comparison& c, const std::map<double, double>& costs) {
     for (study::Record& r : c.outcome.records) {
         if (!is_candidate(r.cell) || !r.cell.ran()) continue;
@@ -104,6 +100,10 @@ std::string beside(const compare::Comparison& c, const study::Record& own) {
 }
 }  // namespace
 
+bool is_candidate(const study::Cell& cell) {
+    return cell.scheme->untimed == no_cost;
+}
+
 Rows rows_for(const compare::CompareRequest& request, const Scene& scene) {
     Settings settings;
     settings.tap_rate = compare::tap_rate_for(request, request.rates);
@@ -131,7 +131,11 @@ std::string verdict_of(const compare::Comparison& c) {
     std::string text;
     for (std::size_t i = 0; i < cells.rows.size(); ++i) {
         if (!is_candidate(c.outcome.records[i].cell)) continue;
-        text += (text.empty() ? "" : "\n") + sentence_of(cells, i) + beside(c, c.outcome.records[i]);
+        const study::Cell& cell = c.outcome.records[i].cell;
+        if (cell.status() == "diverged")
+            text += fmt::format("{}{}: {}: its taps go beyond what ten times the energy of the scene could make", text.empty() ? "" : "\n",
+                                store::run_name(cells, i), cell.reason);
+        else text += (text.empty() ? "" : "\n") + sentence_of(cells, i) + beside(c, c.outcome.records[i]);
     }
     const store::Table orders = compare::convergence_of(cells);
     for (std::size_t i = 0; i < orders.rows.size(); ++i)

@@ -28,6 +28,7 @@ Rows rows_for(const compare::CompareRequest&, const Scene&);
 compare::Comparison judge(Candidate, compare::CompareRequest, const std::vector<std::string>& plugins, const store::Listener&,
                           study::Kept&);
 
+bool is_candidate(const study::Cell&);               // a cell of the trace that is judged
 std::string verdict_of(const compare::Comparison&);  // in words: of each rate, against what ran beside it, and the observed order
 
 }  // namespace jvari::bench::judge

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -197,6 +198,22 @@ TEST(CommandLine, TheTraceAsCsvHasItsColumnsItsTimesAndReadsBackExactly) {
     }
     const double y = std::cos(200 * M_PI * (7 / 44100.0)) * std::exp(-3 * (7 / 44100.0)) * (1 + 100 / 44100.0);
     EXPECT_EQ(t.number(7, "nut"), 1e-4 * y);
+}
+
+TEST(CommandLine, AForeignTraceThatGrowsIsCalledDivergedWhateverItsError) {
+    const Scratch scratch;
+    const std::string whole = scratch / "t.csv", grown = scratch / "grown.csv";
+    ASSERT_EQ(jvari(scratch, "run free_string --scheme modal_two_point --duration 0.1 --out " + whole).code, 0);
+    bench::store::Table t = bench::store::read_csv(content(whole));
+    for (std::size_t n = 0; n < t.rows.size(); ++n)
+        for (std::size_t k = 1; k < t.columns.size(); ++k)
+            t.rows[n][k] = bench::store::text_of(std::stod(t.rows[n][k]) * std::pow(9000, static_cast<double>(n) / t.rows.size()));
+    std::ofstream(grown) << bench::store::csv(t);
+    const auto judged = [&](const std::string& file) { return jvari(scratch, "judge free_string --duration 0.1 --trace 44100=" + file); };
+    EXPECT_EQ(judged(whole).code, 0);
+    const Outcome o = judged(grown);
+    EXPECT_EQ(o.code, 4);
+    EXPECT_TRUE(says(o.out, "diverged at step")) << o.out;
 }
 
 TEST(CommandLine, AWavIsWrittenWholeAndSaysHowLoudItIs) {
