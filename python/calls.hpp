@@ -181,8 +181,8 @@ struct TrimmedRows {
     std::string toml;
 };
 inline TrimmedRows trim_rows(const py::object& scene, const std::string& within, const std::string& of, const std::string& tap,
-                             const std::string& scheme, double duration, double tap_rate, const std::string& reference, int reference_modes,
-                             const std::string& out, int jobs) {
+                             const std::string& scheme, std::optional<double> duration, double tap_rate, const std::string& reference,
+                             int reference_modes, const std::string& out, int jobs) {
     const NamedScene s = NamedScene::of(scene);
     const trim::Request r{s.name, of, within, tap, scheme, reference, out, s.set, plugins(), duration, tap_rate, reference_modes, jobs};
     const compare::Catalogue catalogue(plugins());

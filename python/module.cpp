@@ -146,7 +146,7 @@ void add_studies(py::module_& m) {
         .def_readonly("needs", &TrimmedRows::needs, "A dict per part of the scene, what it is needed for: the columns of needs.csv.")
         .def_readonly("toml", &TrimmedRows::toml, "The trimmed scene as a file; \"\" where there is none.");
     m.def("trim", &python::trim_rows, py::arg("scene"), py::arg("within"), py::arg("of") = "l2_50ms", py::arg("tap") = "",
-          py::arg("scheme") = "any", py::arg("duration") = 50e-3, py::arg("tap_rate") = 44100.0, py::arg("reference") = "",
+          py::arg("scheme") = "any", py::arg("duration") = py::none(), py::arg("tap_rate") = 44100.0, py::arg("reference") = "",
           py::arg("reference_modes") = 0, py::arg("out") = "", py::arg("jobs") = 0,
           "No more than a scene needs, as `jvari trim`: trim(\"tanpura_c3_release\", \"1%\", scheme=\"modal_two_point\"). duration [s], "
           "tap_rate [Hz]; out: the folder that keeps what was judged.");

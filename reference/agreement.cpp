@@ -12,6 +12,10 @@ constexpr double slowest = 0.70710678118654752, fastest = 0.25;  // ratios of a 
 constexpr double least_left_of_matched = 1.2;
 }  // namespace
 
+std::span<const double> rows_from(std::span<const double> x, double seconds, double rate) {
+    return x.subspan(std::min(x.size(), static_cast<std::size_t>(row_at(seconds, rate))));
+}
+
 double relative_difference(std::span<const double> a, std::span<const double> b, double rate, double until) {
     const auto within = [&](std::span<const double> x) {
         const double length = static_cast<double>(x.size()) / rate;

@@ -9,9 +9,11 @@
 
 namespace jvari {
 
-// From 0 to before this instant [s]; the last one is the whole run. The comparison's own windows are among them.
+// So long [s] from the end of the last excitation on (free_from); the last one is to the end. The comparison's own windows are among them.
 constexpr std::array<double, 7> agreement_windows = {10e-3, 20e-3, 50e-3, 100e-3, 200e-3, 500e-3, 1e300};
 constexpr std::array<double, 3> agreement_levels = {1e-3, 1e-6, 1e-9};
+
+std::span<const double> rows_from(std::span<const double>, double seconds, double rate);  // from that instant on
 
 // Over the rows of both with t < until; a window longer than they are is the whole of them.
 double relative_difference(std::span<const double> a, std::span<const double> b, double rate, double until);

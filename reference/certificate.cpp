@@ -5,6 +5,7 @@
 #include "reference/oversampled.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
 
@@ -64,6 +65,7 @@ Certificate head(const Scene& scene, const CertifySettings& settings) {
     c.scene = scene.name;
     c.tap_rate = settings.tap_rate;
     c.duration = scene.duration;
+    if (const double from = free_from(scene); from < c.duration) c.from = from;
     for (const Tap& tap : scene.taps) c.taps.push_back(tap.name);
     c.modes = modes_for(scene, {0, settings.tap_rate, settings.modes, {}});
     return c;
@@ -160,7 +162,8 @@ Certificate certify(const Scene& scene, const CertifySettings& settings) {
 
     const auto compare = [&](const Trace& a, const Trace& b) {
         std::vector<Agreement> taps;
-        for (int k = 0; k < b.taps(); ++k) taps.push_back(agreement(a.column(k), b.column(k), settings.tap_rate));
+        const auto free = [&](const Trace& t, int k) { return rows_from(t.column(k), c.from, t.tap_rate); };
+        for (int k = 0; k < b.taps(); ++k) taps.push_back(agreement(free(a, k), free(b, k), settings.tap_rate));
         return taps;
     };
     for (std::size_t a = 0; a < ran.size(); ++a)

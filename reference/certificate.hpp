@@ -41,6 +41,7 @@ struct Certificate {
     std::string scene;
     int modes = 0;
     double tap_rate = 0, duration = 0;  // [Hz], [s]
+    double from = 0;                    // where its windows begin [s], and the instants of agreements count from: free_from(scene)
     std::vector<std::string> taps;
     std::vector<Entry> entries;    // in order of authority
     std::vector<Pair> pairs;       // of the entries that ran and share a model; one that is doubled has pairs with its own reference alone

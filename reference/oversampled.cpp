@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/excitation.hpp"
 #include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 
@@ -25,12 +26,14 @@ Oversampled oversampled(const Descriptor& scheme, const Scene& scene, const Sett
         else coarser[level] = std::move(r);
         if (failed) return result;
     }
+    const double from = free_from(scene) < scene.duration ? free_from(scene) : 0;
     const Trace &a = coarser[0].trace, &b = coarser[1].trace, &c = result.run.trace;
     for (int k = 0; k < c.taps(); ++k) {
         auto& tap = result.estimates.emplace_back();
         for (std::size_t w = 0; w < agreement_windows.size(); ++w) {
-            const double first = relative_difference(a.column(k), b.column(k), c.tap_rate, agreement_windows[w]);
-            const double last = relative_difference(b.column(k), c.column(k), c.tap_rate, agreement_windows[w]);
+            const auto free = [&](const Trace& t) { return rows_from(t.column(k), from, t.tap_rate); };
+            const double first = relative_difference(free(a), free(b), c.tap_rate, agreement_windows[w]);
+            const double last = relative_difference(free(b), free(c), c.tap_rate, agreement_windows[w]);
             const bool rounding = !(last > 1e-13);
             const double order = rounding ? std::numeric_limits<double>::quiet_NaN() : std::log2(first / last);
             const double p = rounding ? trusted_order : std::clamp(order, 0.25, trusted_order);

@@ -1,6 +1,7 @@
 // Source: van Walstijn et al. 2016, eqs 14-15 (pluck). The smoothed triangle is the string's modal series times a Hann window's spectrum.
 #include "scenes/excitation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,13 @@ double force(const Pluck& e, double t) {
     const double h = 0.5 * (ratio + warped);  // h_e/tau_e  (15)
     const double sine = std::sin(pi * h);
     return e.amplitude * sine * sine;  // (14)
+}
+
+double free_from(const Scene& scene) {
+    double end = 0;
+    for (const String& s : scene.strings)
+        if (s.pluck && s.pluck->amplitude != 0 && s.pluck->start < scene.duration) end = std::max(end, s.pluck->start + s.pluck->duration);
+    return end;
 }
 
 double hann_smoothing(double beta, double s) {

@@ -13,6 +13,7 @@
 #include "analysis/spectrum.hpp"
 #include "reference/agreement.hpp"
 #include "reference/references.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/wording.hpp"
 #include "schemes/registry.hpp"
@@ -79,9 +80,9 @@ struct Kept {
     Settings settings{};
     Balance promised = Balance::none;
 
-    std::span<const double> column(int tap) const { return run.trace.column(tap); }
+    std::span<const double> free(int tap) const { return rows_from(run.trace.column(tap), free_from(scene), run.trace.tap_rate); }
     double power_above(double hertz, int tap) const {
-        const PowerSpectrum s = power_spectrum(column(tap), run.trace.tap_rate);
+        const PowerSpectrum s = power_spectrum(free(tap), run.trace.tap_rate);
         const auto first = static_cast<std::size_t>(std::ceil(hertz / s.bin_hz));
         return std::accumulate(s.power.begin() + static_cast<long>(std::min(first, s.power.size())), s.power.end(), 0.0);
     }
@@ -150,16 +151,16 @@ JV void jv_free(Kept* k) {
     delete k;
 }
 
-// How far two runs of one scene are apart on a tap: ||a - b||/||b|| from `from` up to `to` [s], for how long the two agree within 10 %,
+// How far two runs of one scene are apart on a tap after its last pluck: ||a - b||/||b||, for how long the two agree within 10 %,
 // in third octaves within `range` [dB] of the loudest [dB], and how much louder a is above a frequency [dB].
-JV double jv_error(const Kept* a, const Kept* b, int tap, double from, double to) {
-    return relative_l2(a->column(tap), b->column(tap), b->run.trace.tap_rate, {from, to});
+JV double jv_error(const Kept* a, const Kept* b, int tap) {
+    return relative_l2(a->free(tap), b->free(tap), b->run.trace.tap_rate, {0, b->scene.duration - free_from(b->scene)});
 }
 JV double jv_horizon(const Kept* a, const Kept* b, int tap) {
-    return horizon(a->column(tap), b->column(tap), b->run.trace.tap_rate);
+    return horizon(a->free(tap), b->free(tap), b->run.trace.tap_rate);
 }
 JV double jv_third_octaves(const Kept* a, const Kept* b, int tap, double range) {
-    return third_octave_difference(a->column(tap), b->column(tap), b->run.trace.tap_rate, {.range = range});
+    return third_octave_difference(a->free(tap), b->free(tap), b->run.trace.tap_rate, {.range = range});
 }
 JV double jv_louder(const Kept* a, const Kept* b, int tap, double hertz) {
     return 10 * std::log10(a->power_above(hertz, tap) / b->power_above(hertz, tap));

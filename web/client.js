@@ -56,4 +56,4 @@ function ask(question, more = {}) {
 }
 ask.count = 0;
 const run_of = more => ({scene: scene_text(), overrides: overrides_of(state.set), scheme: state.scheme, rate: state.rate, modes: state.modes,
-    options: options_of(state.scheme, state.compliance), duration: window_seconds, ...more});
+    options: options_of(state.scheme, state.compliance), duration: run_seconds(), ...more});

@@ -33,7 +33,7 @@ function jvari_core(module) {
                 ledger: () => energy ? [0, 1, 2].map(k => view(call("jv_energy", "number", handle, k), about.rows)) : null,
                 free: () => call("jv_free", null, handle)};
         },
-        error: (a, b, tap, from = 0, to = 1e300) => call("jv_error", "number", a.handle, b.handle, tap, from, to),
+        error: (a, b, tap) => call("jv_error", "number", a.handle, b.handle, tap),
         horizon: (a, b, tap) => call("jv_horizon", "number", a.handle, b.handle, tap),
         left_after: (last, before, matched) => call("jv_left_after", "number", last, before, matched),
         third_octaves: (a, b, tap, range) => call("jv_third_octaves", "number", a.handle, b.handle, tap, range),

@@ -9,6 +9,7 @@
 #include "analysis/judgement.hpp"
 #include "reference/references.hpp"
 #include "scenes/barrier.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/wording.hpp"
 #include "schemes/controls.hpp"
@@ -148,6 +149,7 @@ std::string scene_text(const Scene& scene) {
         .with("name", scene.name)
         .with("source", scene.source)
         .with("duration", scene.duration)
+        .with("free_from", free_from(scene))
         .raw("string", array(scene.strings, string_text))
         .raw("tap", array(scene.taps, tap))
         .raw("able", array(able, quote))

@@ -160,7 +160,7 @@ function show_run() {
     const name = label_of({scheme: state.scheme, compliance: options_of(state.scheme, state.compliance).length ? state.compliance : ""});
     if (!motion) return;
     if (motion.outcome !== "ok") by_id("title").textContent = `${name} at ${state.rate / 1e3} kHz: ${motion.outcome.replace("_", " ")} at step ${motion.step}`;
-    else if (v) by_id("title").textContent = `${name} at ${state.rate / 1e3} kHz is ${percent(v.error)} wrong over the first ${1e3 * window_seconds} ms` + (sound.cost ? `, and ${digits(1 / sound.cost).toPrecision(2) * 1} times faster than real time` : "");
+    else if (v) by_id("title").textContent = `${name} at ${state.rate / 1e3} kHz is ${percent(v.error)} wrong over the first ${1e3 * window_seconds} ms${shown.scene.free_from ? " after the pluck" : ""}` + (sound.cost ? `, and ${digits(1 / sound.cost).toPrecision(2) * 1} times faster than real time` : "");
     if (v) facts.push(["error of the force on the nut", percent(v.error)], ["agrees within 10 % for", v.horizon >= window_seconds * 0.999 ? `all ${1e3 * window_seconds} ms` : time_text(v.horizon)],
         ["reference", `${v.reference}, ${v.modes} modes, ${Number.isFinite(v.uncertainty) ? `known to ${percent(v.uncertainty)}` : "its uncertainty is not known"}`]);
     if (Number.isFinite(motion.residual)) facts.push(["energy not accounted for", motion.residual.toExponential(1)]);

@@ -64,13 +64,13 @@ async function judge_own() {
     said.textContent = "It runs.";
     for (const rate of chart_rates.slice(0, 2)) {
         try {
-            const problem = await ask("problem", {text: scene_text(), overrides: overrides_of(state.set), rate, modes: state.modes, duration: window_seconds});
+            const problem = await ask("problem", {text: scene_text(), overrides: overrides_of(state.set), rate, modes: state.modes, duration: run_seconds()});
             const {taps, took} = await run_own(text, problem), nut = Math.max(0, problem.tap_quantities.indexOf("nut_force")), exact = shown.reference.nut;
             const last = exact.length - 1;  // the window ends before its last row
             let apart = 0, of = 0;
-            for (let n = 0; n < last; ++n) apart += (taps[nut][n] - exact[n]) ** 2, of += exact[n] ** 2;
+            for (let n = Math.ceil(shown.scene.free_from * 44100 - 1e-6); n < last; ++n) apart += (taps[nut][n] - exact[n]) ** 2, of += exact[n] ** 2;
             const error = Math.sqrt(apart / of);
-            chart.own.push({scheme: "mine", compliance: "", rate, error, uncertainty: shown.verdict.uncertainty, outcome: Number.isFinite(error) ? "ok" : "diverged", cost: took / window_seconds});
+            chart.own.push({scheme: "mine", compliance: "", rate, error, uncertainty: shown.verdict.uncertainty, outcome: Number.isFinite(error) ? "ok" : "diverged", cost: took / run_seconds()});
             said.textContent = chart.own.map(p => `${p.rate / 1e3} kHz: ${percent(p.error)} error`).join("; ") + ". The built-in modal_two_point has " +
                 (chart.points.filter(p => p.scheme === "modal_two_point" && p.compliance === "own").slice(0, chart.own.length).map(p => percent(p.error)).join(" and ") || "no point here") + ".";
         } catch (error) {

@@ -166,7 +166,7 @@ function draw_graphs() {
         pen.strokeStyle = colour("force");
         pen.beginPath(), pen.moveTo(x, top), pen.lineTo(x, bottom), pen.stroke();
         pen.fillStyle = colour("soft");
-        pen.fillText("0", left, height - 3), pen.fillText(`${1e3 * window_seconds} ms`, right - 34, height - 3);
+        pen.fillText("0", left, height - 3), pen.fillText(`${digits(1e3 * run_seconds())} ms`, right - 34, height - 3);
     });
 }
 

@@ -1,6 +1,8 @@
 // What the page shows, as one value that also stands in the address: the scene, what was changed of it, the scheme, the tour.
 const state = {scene: "tanpura_c3_release", text: null, set: {}, scheme: "modal_two_point", rate: 44100, modes: 0, compliance: "own", tour: "", step: 0};
 const window_seconds = 0.05, heard_seconds = 1, rates = [1, 2, 4, 8, 16].map(k => 44100 * k);
+// What is run and judged: so long after the pluck.
+const run_seconds = () => (shown.scene?.free_from ?? 0) + window_seconds;
 // Where the string is drawn, as parts of its length: closer towards x = 0, where the bridges are.
 const shape_points = Array.from({length: 95}, (_, k) => ((k + 1) / 96) ** 1.5);
 

@@ -49,7 +49,7 @@ async function reference_of(state, scene, go_on) {
         return made;
     };
     try {
-        const change = (fine, coarse) => jvari.error(fine, coarse, nut, 0, state.window), base = run(0, {shape: state.shape}), modes = base.dofs / 2 | 0;
+        const change = (fine, coarse) => jvari.error(fine, coarse, nut), base = run(0, {shape: state.shape}), modes = base.dofs / 2 | 0;
         await go_on();
         const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)});
         await go_on();
@@ -71,7 +71,7 @@ async function reference_of(state, scene, go_on) {
 // How wrong a run is on the tap of the headline, and for how long it agrees within 10 %.
 function judged(run, scene, state) {
     const {nut} = headline_of(scene);
-    return {error: jvari.error(run, reference.run, nut, 0, state.window), horizon: jvari.horizon(run, reference.run, nut), uncertainty: reference.uncertainty,
+    return {error: jvari.error(run, reference.run, nut), horizon: jvari.horizon(run, reference.run, nut), uncertainty: reference.uncertainty,
         reference: scene.reference, modes: reference.modes};
 }
 
@@ -124,8 +124,9 @@ async function chart(state, scene, post, go_on) {
 
 // ---- One state of the page: the string, its motion, its sound, the reference, the chart.
 
-async function show(state, post, go_on) {
-    const scene = jvari.scene(state.text, state.overrides);
+async function show(asked, post, go_on) {
+    const scene = jvari.scene(asked.text, [...asked.overrides.filter(o => !o.startsWith("duration=")), `duration=${asked.window}`]);
+    const state = {...asked, window: scene.free_from + asked.window};  // errors are of what follows the pluck
     post({kind: "scene", scene});
     const points = state.shape.length, run = jvari.run(asked_of(state, {duration: state.window, shape: state.shape, energy: true}));
     try {
@@ -156,7 +157,7 @@ const questions = {
         const answer = {run: told(a)};
         if (beside) {
             const b = jvari.run({...first, options: [], ...beside});
-            Object.assign(answer, {beside: told(b), error: jvari.error(a, b, nut, 0, first.duration), horizon: jvari.horizon(a, b, nut), octaves: jvari.third_octaves(a, b, nut, 60),
+            Object.assign(answer, {beside: told(b), error: jvari.error(a, b, nut), horizon: jvari.horizon(a, b, nut), octaves: jvari.third_octaves(a, b, nut, 60),
                 louder: jvari.louder(a, b, nut, 2000)});
             b.free();
         }

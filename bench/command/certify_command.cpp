@@ -67,7 +67,7 @@ std::string entries_text(const Certificate& c) {
 std::vector<std::size_t> windows_of(const Certificate& c) {
     std::vector<std::size_t> windows;
     for (std::size_t w = 0; w + 1 < agreement_windows.size(); ++w)
-        if (agreement_windows[w] < c.duration * (1 - 1e-9)) windows.push_back(w);
+        if (agreement_windows[w] < (c.duration - c.from) * (1 - 1e-9)) windows.push_back(w);
     windows.push_back(agreement_windows.size() - 1);
     return windows;
 }
@@ -97,7 +97,7 @@ std::string figures_text(const Certificate& c) {
         t.rows.push_back(row);
     };
     for (const auto& p : c.pairs) {
-        const double common = std::min(c.entries[p.first].reached, c.entries[p.second].reached);
+        const double common = std::min(c.entries[p.first].reached, c.entries[p.second].reached) - c.from;
         for (std::size_t k = 0; k < c.taps.size(); ++k)
             add(fmt::format("{} against {}", p.first + 1, p.second + 1), k, p.taps[k].relative_l2, instants(p.taps[k], common, c.tap_rate));
     }
@@ -105,13 +105,14 @@ std::string figures_text(const Certificate& c) {
         for (std::size_t k = 0; k < c.entries[i].estimate.size(); ++k)
             add(fmt::format("{} itself", i + 1), k, c.entries[i].estimate[k], std::vector<std::string>(agreement_levels.size()));
     for (std::size_t k = 0; k < c.taps.size(); ++k)
-        add("noise floor", k, c.floor[k].relative_l2, instants(c.floor[k], c.duration, c.tap_rate));
+        add("noise floor", k, c.floor[k].relative_l2, instants(c.floor[k], c.duration - c.from, c.tap_rate));
     return t.text(Console::width());
 }
 
 std::string text_of(const Certificate& c) {
     const bool estimated = std::any_of(c.entries.begin(), c.entries.end(), [](const auto& e) { return !e.estimate.empty(); });
-    return fmt::format("{}: {} modes, {:.10g} rows a second, {:.6g} s\n\n{}\n{}", c.scene, c.modes, c.tap_rate, c.duration, entries_text(c),
+    return fmt::format("{}: {} modes, {:.10g} rows a second, {:.6g} s{}\n\n{}\n{}", c.scene, c.modes, c.tap_rate, c.duration,
+                       c.from > 0 ? fmt::format(", judged from {:.6g} s on, where the last pluck ends", c.from) : "", entries_text(c),
                        figures_text(c)) +
            "relative L2 difference over the first 10 ms and so on, and how long a pair stays closer than 1e-3, 1e-6, 1e-9" +
            (estimated ? "; \"itself\": its own estimate by Richardson's rule" : "") +

@@ -16,6 +16,7 @@
 #include "bench/compare/record/notes.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/store/system/interruption.hpp"
+#include "scenes/excitation.hpp"
 #include "schemes/contact/compliance.hpp"
 
 namespace jvari::bench::command {
@@ -65,8 +66,11 @@ std::string truth_text(const compare::Comparison& c) {
     std::string text =
         "reference: " +
         (c.against.doubling.empty() ? fmt::format("{} modes, those of the schemes", c.reference_summary.modes) : c.against.doubling);
+    const double from = free_from(c.scene());
     const auto until = [&](double t, const char* who) {
-        if (t < c.scene().duration - 1e-3) text += fmt::format("\n{} agree within 10 % for the first {} only", who, compare::time_text(t));
+        if (t < c.scene().duration - from - 1e-3)
+            text += fmt::format("\n{} agree within 10 % for the first {}{} only", who, compare::time_text(t),
+                                from > 0 ? " after the last pluck" : "");
     };
     until(study::horizon_of(c.against.floor, c.headline), "two runs of it whose starts differ by 1e-12");
     until(c.horizon, "it and a run with half of its modes");

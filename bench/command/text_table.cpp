@@ -176,6 +176,8 @@ std::string headline_text(const store::Table& t, std::size_t width) {
         table.rows.push_back(std::move(row));
     }
     std::string text = table.text(width);
+    if (const double from = t.rows.empty() ? 0 : t.number(0, "free_from_s"); from > 0)
+        text += fmt::format("errors are of what follows the last pluck: their windows begin at {:.6g} s\n", from);
     text += fmt::format("* on the Pareto front of {} and cost; +- is half the distance of the quartiles", headline);
     const auto says = [&t](compare::Bound::Says what) {
         for (std::size_t i = 0; i < t.rows.size(); ++i)
@@ -186,7 +188,7 @@ std::string headline_text(const store::Table& t, std::size_t width) {
     text += untimed;
     if (left_out > 0)
         text += fmt::format("\n{} more combinations of modes, rate and compliance were run over {} alone: a cheaper one does as well there",
-                            left_out, window_name(headline));
+                            left_out, window_name(headline) + compare::after_pluck(t, 0));
     if (says(compare::Bound::Says::at_most))
         text += "\n\u2264 upper bound: the error and the uncertainty of the reference, which is more than a tenth of it";
     if (says(compare::Bound::Says::unknown)) text += "\nnot known: together they reach 100 %";

@@ -145,7 +145,8 @@ Act trim_verb(CLI::App& program) {
     v.option("--scheme", v.r.scheme, {"NAME|any"}, "a scheme; any: all that represent the scene or what is left of it");
     v.set(v.r.set);
     v.options(v.r.option_lists);
-    v.option("--duration", v.r.duration, seconds, "how much of the scene is run and judged; 0.05 where absent");
+    v.option("--duration", v.r.duration, seconds,
+             "how much of the scene is run; absent: to 50 ms after the last pluck, for decay all of it");
     v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second that are compared, and the lowest rate that is tried; 44100 where absent");
     v.option("--reference-modes", v.r.reference_modes, {"N", CLI::Validator(CLI::NonNegativeNumber).description("")},
              "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach");

@@ -42,6 +42,10 @@ bool Bound::decides() const {
     return error > 0 && !(error <= floor) && !(error <= certificate);
 }
 
+std::string after_pluck(const store::Table& cells, std::size_t row) {
+    return cells.number(row, "free_from_s") > 0 ? " after the last pluck" : "";
+}
+
 Bound bound_of(const store::Table& cells, std::size_t row, const std::string& error_column) {
     Bound b;
     b.error = cells.number(row, error_column);

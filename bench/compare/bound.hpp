@@ -36,6 +36,9 @@ struct Bound {
     bool decides() const;  // larger than noise floor and certificate: how it falls with the rate is of the scheme
 };
 
+std::string after_pluck(const store::Table& cells,
+                        std::size_t row);  // " after the last pluck", where the windows of its errors begin there
+
 // Of a row of cells.csv, or of a table like it, and one of its error columns.
 Bound bound_of(const store::Table& cells, std::size_t row, const std::string& error_column);
 

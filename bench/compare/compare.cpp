@@ -10,6 +10,7 @@
 #include "bench/compare/needed_cells.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/store/system/side_by_side.hpp"
+#include "scenes/excitation.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {
@@ -47,10 +48,10 @@ void describe(Comparison& c, const CompareRequest& request, const study::Referen
 // Runs all cells over the headline's window and marks those that are needed:
 // jobs of the scene cut short there, judged by the motion of the whole.
 std::vector<study::Record> search(const Comparison& c, study::References& references, int threads, const store::Listener& listener) {
-    const double end = std::min(c.scene().duration, study::headline_window(c.scene().duration));
+    const double from = free_from(c.scene()), length = study::headline_window(c.scene()), end = std::min(c.scene().duration, from + length);
     study::Measures covered;  // by the shorter run
     for (std::size_t k = 0; k < study::measures().size() && end < c.scene().duration; ++k)
-        if (study::measures()[k].window <= end) covered.push_back(k);
+        if (study::measures()[k].window <= length) covered.push_back(k);
     study::Plan shown;
     std::map<const study::Point*, const study::Point*> part_of;
     for (const study::Point& whole : c.plan.points) {
@@ -69,7 +70,7 @@ std::vector<study::Record> search(const Comparison& c, study::References& refere
     }
     study::Kept nowhere;
     std::vector<study::Record> records = study::run(shown, references, nowhere, threads, listener).records;
-    const auto nut = static_cast<std::size_t>(c.headline.nut), window = std::size_t{end >= 50e-3 ? 1u : end >= 10e-3 ? 0u : 2u};
+    const auto nut = static_cast<std::size_t>(c.headline.nut), window = std::size_t{std::isinf(length) ? 2u : length >= 50e-3 ? 1u : 0u};
     std::vector<study::Cell> tried;
     std::vector<double> errors;
     for (study::Record& r : records) {

@@ -116,7 +116,8 @@ std::string instead(const store::Table& cells, const store::Rows& rows, const st
             return fmt::format(" By third octaves {:g} dB is reached by {}.", db, store::run_name(cells, *i));
     if (measure != "error_l2_10ms")
         if (const auto i = cheapest_within(cells, rows, "error_l2_10ms", most))
-            return fmt::format(" Over the first 10 ms {} is within {}.", store::run_name(cells, *i), percent(most));
+            return fmt::format(" Over the first 10 ms{} {} is within {}.", after_pluck(cells, *i), store::run_name(cells, *i),
+                               percent(most));
     const auto i = least(cells, rows, "third_octave_db");
     return i ? fmt::format(" By third octaves the closest is {}, {:.2g} dB.", store::run_name(cells, *i),
                            cells.number(*i, "third_octave_db"))
@@ -148,7 +149,8 @@ std::string why_none(const store::Table& cells, const store::Rows& rows, const s
         text += modes.empty() ? of_the_rate(o, cells, *best, measure, most) + (falls ? "" : of_more_modes(cells, *best, measure)) : modes;
         text += of_the_compliance(cells, rows, *best);
     }
-    const double h = cells.number(*best, "horizon_s"), end = cells.number(*best, "wall_seconds") / cells.number(*best, "cost_s_per_s");
+    const double h = cells.number(*best, "horizon_s"), from = cells.number(*best, "free_from_s"),
+                 end = cells.number(*best, "wall_seconds") / cells.number(*best, "cost_s_per_s") - (from > 0 ? from : 0);
     if (h > first_of_all && h < before_the_end * end) text += fmt::format(" Its waveform is within 10 % for {}.", time_text(h));
     return text + instead(cells, rows, measure, most);
 }

@@ -80,7 +80,7 @@ std::string sentence_of(const store::Table& cells, std::size_t row) {
     const double own = cells.number(row, "error_in_model_" + headline.substr(std::string("error_").size()));
     if (std::isfinite(own)) text += fmt::format(", {} of it against a string of as many modes", compare::percent(own));
     const double horizon = cells.number(row, "horizon_s"), octaves = cells.number(row, "third_octave_db");
-    text += fmt::format(" ({}); within 10 % for {}", headline, compare::time_text(horizon));
+    text += fmt::format(" ({}); within 10 % for {}{}", headline, compare::time_text(horizon), compare::after_pluck(cells, row));
     return std::isfinite(octaves) ? text + fmt::format("; third octaves {:.2g} dB apart", octaves) : text;
 }
 

@@ -5,6 +5,7 @@
 #include "analysis/error.hpp"
 #include "bench/compare/compare_plan.hpp"
 #include "bench/store/machine.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/open/problem.hpp"
 
@@ -35,12 +36,15 @@ Json reference_json(const Scene& scene, const study::Truth& truth) {
     const study::Reference& r = truth.reference;
     const Trace &trace = r.run.trace, &moved = r.moved.trace;
     const int nut = study::headline_of(scene).nut;
+    const double from = free_from(scene);
+    const auto free = [&](const Trace& t) { return rows_from(t.column(nut), from, t.tap_rate); };
     Json j{{"name", r.choice.name()},
            {"source", r.choice.scheme->source},
            {"modes", r.choice.settings.modes},
            {"doubling", truth.said},
            {"rows", trace.rows},
-           {"horizon_of_1e-12_s", horizon(moved.column(nut), trace.column(nut), trace.tap_rate)},
+           {"free_from_s", from},
+           {"horizon_of_1e-12_s", horizon(free(moved), free(trace), trace.tap_rate)},
            {"horizon_of_half_s", truth.horizon}};
     for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
         const std::string window = std::string(trust::Trust::columns[w]).substr(std::string("certificate_").size());

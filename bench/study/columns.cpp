@@ -1,5 +1,6 @@
 #include "bench/study/columns.hpp"
 #include "bench/study/judgement.hpp"
+#include "scenes/excitation.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -135,6 +136,8 @@ const std::vector<Declared>& declared() {
          [](F f) { return number(f.record.against.trust.of_scene(f.nut(), f.window)); }},
         {{"reference_modes", "", Rule::closed_form, "modes of the reference"},
          [](F f) { return count(f.record.against.modes, f.record.against.modes > 0); }},
+        {{"free_from_s", "s", Rule::closed_form, "where the windows of the errors begin: the end of the last pluck, 0 without one"},
+         [](F f) { return number(free_from(f.job.point->scene)); }},
         {{"reference_horizon_s", "s", Rule::instant,
           "until when the reference stays within 10 % of itself, started a relative 1e-12 apart"},
          [](F f) { return number(horizon_of(f.record.against.floor, f.headline)); }},

@@ -8,6 +8,8 @@
 #include "analysis/error.hpp"
 #include "analysis/spectrum.hpp"
 #include "bench/store/records.hpp"
+#include "reference/agreement.hpp"
+#include "scenes/excitation.hpp"
 
 namespace jvari::bench::study {
 
@@ -111,13 +113,14 @@ double error_of(std::size_t measure, std::span<const double> run, std::span<cons
     return measures()[measure].of(pair);
 }
 
-Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only) {
+Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only, double from) {
     Errors errors;
     for (int k = 0; k < reference.taps(); ++k) {
         auto& of_tap = errors.emplace_back(measures().size(), store::nan);
         const auto own = std::ranges::find(candidate.names, reference.names.at(k)) - candidate.names.begin();
         if (own == candidate.taps()) continue;
-        Pair pair(candidate.column(static_cast<int>(own)), reference.column(k), reference.tap_rate);
+        const double rate = reference.tap_rate;
+        Pair pair(rows_from(candidate.column(static_cast<int>(own)), from, rate), rows_from(reference.column(k), from, rate), rate);
         for (std::size_t m = 0; m < measures().size(); ++m)
             if (only.empty() || std::ranges::find(only, m) != only.end()) of_tap[m] = measures()[m].of(pair);
     }
@@ -138,7 +141,8 @@ Headline headline_of(const Scene& scene) {
     return h;
 }
 
-double headline_window(double duration) {
+double headline_window(const Scene& scene) {
+    const double duration = scene.duration - free_from(scene);
     return duration >= 50e-3 ? 50e-3 : duration >= 10e-3 ? 10e-3 : HUGE_VAL;
 }
 

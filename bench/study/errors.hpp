@@ -18,7 +18,7 @@ struct Measure {
     std::string title;   // "relative L2 error, 0-50 ms"
     bool bridge;         // the headline figure is of the bridge tap, else of the nut tap
     bool less_is_better;
-    double window;  // [s] of the run that it is of; infinite: the whole
+    double window;  // [s] that it is of, after the last excitation; infinite: to the end of the run
     double (*of)(Pair&);
 };
 const std::vector<Measure>& measures();
@@ -30,8 +30,9 @@ using Measures = std::vector<std::size_t>;  // places; none: all
 // One row per tap, one column per measure; NaN where the reference says nothing (a window that it does not cover), +inf for a run
 // that stopped inside the window.
 using Errors = std::vector<std::vector<double>>;
-// Of each tap of the reference, by the run's tap of its name. NaN for a tap that the run has not, and for measures that are not asked for.
-Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only = {});
+// Of each tap of the reference, by the run's tap of its name, from the instant `from` [s] on (free_from). NaN for a tap that the run has
+// not, and for measures that are not asked for.
+Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only = {}, double from = 0);
 
 // The taps of the headline columns: the first nut force and the first bridge force, else the first driving force, else the first tap.
 struct Headline {
@@ -40,6 +41,6 @@ struct Headline {
 };
 Headline headline_of(const Scene&);
 double horizon_of(const Errors&, const Headline&);  // [s]
-double headline_window(double duration);            // the end [s] of the headline figure of the nut tap, infinite for a run below 10 ms
+double headline_window(const Scene&);               // how much [s] the nut tap's headline figure is of, infinite for less than 10 ms
 
 }  // namespace jvari::bench::study

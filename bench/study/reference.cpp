@@ -9,6 +9,7 @@
 #include "bench/store/system/time_limit.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/trust/kept_run.hpp"
+#include "scenes/excitation.hpp"
 
 namespace jvari::bench::study {
 
@@ -41,7 +42,7 @@ void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progres
         Oversampled o = oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled, options);
         if (o.rate == r.choice.settings.sample_rate) {
             r.run = std::move(o.run);
-            r.trust = trust::trust_of(o, last_instant(r.run));
+            r.trust = trust::trust_of(o, last_instant(r.run) - free_from(scene));
             return;
         }
         r.trust.missing = fmt::format("at {:.6g} Hz it {}", o.rate, name_of(o.run.status.outcome));
@@ -68,6 +69,11 @@ void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene, c
 
 Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const store::Listener& listener,
                         double time_limit, bool alone) {
+    if (const double from = free_from(scene); from >= scene.duration && !alone)
+        throw Refusal(
+            fmt::format("a pluck of {} ends at {:.6g} s, and the run at {:.6g} s: errors are measured once nothing pushes the string any "
+                        "more, so there is nothing to measure; a --duration of {:.6g} covers the first 50 ms",
+                        scene.name, from, scene.duration, from + 50e-3));
     std::string refusals;
     bool ordered = false;
     std::vector<ReferenceChoice> in_turn = choices;

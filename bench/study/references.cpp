@@ -5,13 +5,14 @@
 #include <mutex>
 
 #include "bench/store/system/file_lock.hpp"
+#include "scenes/excitation.hpp"
 
 namespace jvari::bench::study {
 
 class References::Shared {
 public:
     template <class Make>
-    void make(Make run) {
+    void make(double from, Make run) {
         if (made_) return;
         const std::unique_lock lock(mutex_, std::try_to_lock);
         if (!lock) throw store::Busy{"another thread, which runs a reference"};
@@ -19,7 +20,7 @@ public:
         try {
             truth_ = std::make_unique<Truth>(run());
             const Run& moved = truth_->reference.moved;
-            if (moved.trace.rows > 0) floor_ = errors_of(moved.trace, truth_->reference.run.trace);
+            if (moved.trace.rows > 0) floor_ = errors_of(moved.trace, truth_->reference.run.trace, {}, from);
         } catch (const store::Busy& busy) {
             busy_ = busy;
             again_ = Clock::now() + std::chrono::milliseconds(500);
@@ -82,11 +83,12 @@ void References::each_of(const Point& p, void (Shared::*act)()) {
 
 References::Of References::make(const Point& p, int jobs, const store::Listener& listener) {
     const Scene& scene = p.true_scene();
+    const double from = free_from(scene);
     Shared& model = of(p.reference_key);
     if (p.in_model || !p.truth_modes)
-        model.make([&] { return Truth{run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone), {}, {}}; });
+        model.make(from, [&] { return Truth{run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone), {}, {}}; });
     Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
-    if (p.truth_modes) truth.make([&] { return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit); });
+    if (p.truth_modes) truth.make(from, [&] { return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit); });
     return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(), truth.refused()};
 }
 

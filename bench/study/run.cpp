@@ -9,6 +9,7 @@
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/store/system/time_limit.hpp"
 #include "bench/study/cost.hpp"
+#include "scenes/excitation.hpp"
 
 namespace jvari::bench::study {
 
@@ -25,7 +26,7 @@ Record run_job(const Job& job, References& references, const store::Done& done, 
     try {
         const Trace trace = run_cell(cell, point.scene, store::within(std::min(point.time_limit, job.patience), progress));
         if (truth) {
-            const auto errors_from = [&](const Trace& t) { return errors_of(trace, t, job.errors); };
+            const auto errors_from = [&](const Trace& t) { return errors_of(trace, t, job.errors, free_from(point.true_scene())); };
             const Reference* own = known.model ? of_modes(cell, *known.model, *known.truth) : nullptr;
             cell.errors = errors_from(*truth);
             if (own) cell.in_model = &own->run.trace == truth ? cell.errors : errors_from(own->run.trace);

@@ -14,6 +14,7 @@
 #include "reference/certificate.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
 
@@ -67,24 +68,26 @@ ReferenceChoice sized(ReferenceChoice choice, const Size& s) {
     return choice;
 }
 
-double change(const Run& more, const Run& fewer, int tap, double until) {
-    return relative_difference(fewer.trace.column(tap), more.trace.column(tap), more.trace.tap_rate, until);
+double change(const Run& more, const Run& fewer, int tap, double from, double window) {
+    const double rate = more.trace.tap_rate;
+    return relative_difference(rows_from(fewer.trace.column(tap), from, rate), rows_from(more.trace.column(tap), from, rate), rate, window);
 }
 
 // How far the model is solved is what its certificate says, else its noise floor: an error of rounding grows like a change of the start.
 // What the model leaves out is what is left after the doublings.
-trust::Trust trust_of(const trust::Trust& solved, const Reference& last, const std::vector<Reference>& coarser, const Size& of) {
+trust::Trust trust_of(const trust::Trust& solved, const Reference& last, const std::vector<Reference>& coarser, const Size& of,
+                      double from) {
     trust::Trust t = solved;
     const Run &more = last.run, &fewer = coarser.back().run;
     const auto taps = static_cast<std::size_t>(more.trace.taps());
     if (!t.any()) t.figure.assign(taps, {store::nan, store::nan, store::nan});
-    const double until = static_cast<double>(std::min(more.trace.rows, fewer.trace.rows) - 1) / more.trace.tap_rate;
+    const double until = static_cast<double>(std::min(more.trace.rows, fewer.trace.rows) - 1) / more.trace.tap_rate - from;
     t.left_out.assign(taps, {});
     for (std::size_t k = 0; k < taps; ++k)
         for (std::size_t w = 0; w < t.left_out[k].size(); ++w) {
             const double end = std::array{10e-3, 50e-3, HUGE_VAL}[w];
             const bool covered = w == 2 || end <= until + 1e-6;
-            const auto changed = [&](const Run& a, const Run& b) { return change(a, b, static_cast<int>(k), end); };
+            const auto changed = [&](const Run& a, const Run& b) { return change(a, b, static_cast<int>(k), from, end); };
             const double before = coarser.size() > 1 ? changed(fewer, coarser[coarser.size() - 2].run) : store::nan;
             t.left_out[k][w] = covered ? left_after(changed(more, fewer), before, is_matched(last.choice.settings.options)) : store::nan;
             if (std::isnan(t.figure[k][w]) && covered) t.figure[k][w] = changed(last.moved, more);  // beyond the certificate, too
@@ -116,7 +119,8 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     certified.modes = first_size(scene, choice.settings.options).modes;
     const trust::Trust solved = trust::trust_of(scene, choice.scheme->name, certified, scene.duration);
     const int tap = headline_of(scene).nut;
-    const std::size_t window = std::isinf(headline_window(scene.duration)) ? 2 : scene.duration >= 50e-3 ? 1 : 0;
+    const double from = free_from(scene), end = headline_window(scene);
+    const std::size_t window = std::isinf(end) ? 2 : end >= 50e-3 ? 1 : 0;
     Size size{choice.settings.modes, find ? first_size(scene, choice.settings.options).points : 0};
     double unsettled = HUGE_VAL;  // by what is left out of the headline figure
     const auto next = [&] { return find ? size.twice() : Size{size.modes < modes / 2 ? modes / 2 : modes, 0}; };
@@ -135,17 +139,17 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         size = next();
         truth.coarser.push_back(std::move(truth.reference));
         truth.reference = std::move(more);
-        truth.reference.trust = trust_of(solved, truth.reference, truth.coarser, size);
+        truth.reference.trust = trust_of(solved, truth.reference, truth.coarser, size, from);
         unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
         const Trace &finer = truth.reference.run.trace, &fewer = truth.coarser.back().run.trace;
-        truth.horizon = horizon(fewer.column(tap), finer.column(tap), finer.tap_rate);
+        const auto free = [&](const Trace& t) { return rows_from(t.column(tap), from, t.tap_rate); };
+        truth.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
     }
     truth.said = size.text() + (is_matched(choice.settings.options) ? ", compliance matched" : "");
     if (!truth.coarser.empty()) {
-        const double end = headline_window(scene.duration);
         truth.said += fmt::format("; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
                                   std::isinf(end) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end),
-                                  change(truth.reference.run, truth.coarser.back().run, tap, end));
+                                  change(truth.reference.run, truth.coarser.back().run, tap, from, end));
     }
     if (find && unsettled >= settled)
         truth.said += truth.coarser.empty() ? "; twice as many would take too long, so what they leave out is unknown"

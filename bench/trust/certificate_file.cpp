@@ -47,7 +47,7 @@ Json taps_json(const Certificate& c, const std::vector<Agreement>& taps) {
     for (std::size_t k = 0; k < taps.size(); ++k) {
         Json until = Json::object();
         for (std::size_t l = 0; l < agreement_levels.size(); ++l) until[level_name(l)] = taps[k].until[l];
-        all[c.taps.at(k)] = {{"relative_l2", windows_json(taps[k].relative_l2, c.duration)}, {"until_s", until}};
+        all[c.taps.at(k)] = {{"relative_l2", windows_json(taps[k].relative_l2, c.duration - c.from)}, {"until_s", until}};
     }
     return all;
 }
@@ -81,7 +81,7 @@ Json entry_json(const Certificate& c, const Certificate::Entry& e) {
     j["reached_s"] = e.reached;
     if (!e.estimate.empty()) {
         j["estimate"] = Json::object();
-        for (std::size_t k = 0; k < e.estimate.size(); ++k) j["estimate"][c.taps.at(k)] = windows_json(e.estimate[k], c.duration);
+        for (std::size_t k = 0; k < e.estimate.size(); ++k) j["estimate"][c.taps.at(k)] = windows_json(e.estimate[k], c.duration - c.from);
     }
     return j;
 }
@@ -144,6 +144,7 @@ std::string json_of(const KeptCertificate& kept) {
                  {"modes", c.modes},
                  {"tap_rate_hz", c.tap_rate},
                  {"duration_s", c.duration},
+                 {"from_s", c.from},
                  {"taps", c.taps},
                  {"entries", entries},
                  {"pairs", pairs},
@@ -179,6 +180,7 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
         c.modes = store::whole<int>(j.at("modes"));
         c.tap_rate = j.at("tap_rate_hz");
         c.duration = j.at("duration_s");
+        c.from = j.value("from_s", 0.0);
         c.taps = j.at("taps").get<std::vector<std::string>>();
         for (const Json& e : j.at("entries")) c.entries.push_back(entry_of(c, e));
         for (const Json& p : j.at("pairs")) {

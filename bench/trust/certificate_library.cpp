@@ -10,6 +10,7 @@
 
 #include "bench/store/records.hpp"
 #include "reference/references.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/installed.hpp"
 #include "schemes/making.hpp"
 
@@ -82,7 +83,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
             if (p.first != index && p.second != index) continue;
             const Certificate::Entry& other = c.entries[p.first == index ? p.second : p.first];
             if (other.sample_rate > 0 || !other.doubled.empty()) continue;
-            const double x = covering(p.taps[tap].relative_l2, end, std::min(mine->reached, other.reached));
+            const double x = covering(p.taps[tap].relative_l2, end, std::min(mine->reached, other.reached) - c.from);
             if (!std::isnan(x) && !(x <= most.difference)) most = {x, &other};
         }
         return most;
@@ -96,7 +97,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
         for (std::size_t k = 0; k < unmatched.figure.size(); ++k) at_least[k] = unmatched.figure[k][0];
         t.against = unmatched.against;
     }
-    const auto ends = window_ends(until);
+    const auto ends = window_ends(until - c.from);
     std::vector<std::string> names;
     for (std::size_t k = 0; k < c.taps.size(); ++k)
         for (std::size_t w = 0; w < ends.size(); ++w) {
@@ -121,7 +122,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
         for (std::size_t k = 0; k < c.taps.size(); ++k)
             for (std::size_t w = 0; w < ends.size(); ++w) {
                 const auto changed = [&](const Certificate::Pair& p) {
-                    return covering(p.taps[k].relative_l2, ends[w], std::min(mine->reached, e.reached));
+                    return covering(p.taps[k].relative_l2, ends[w], std::min(mine->reached, e.reached) - c.from);
                 };
                 t.left_out[k][w] += changed(*from) + further * changed(*step);
             }
@@ -162,7 +163,8 @@ Trust trust_of(const Scene& scene, const std::string& reference, const Settings&
         for (const fs::path& file : files) {
             std::string why;
             const auto kept = read_certificate(file, why);
-            if (!kept || kept->scene_hash != hash || kept->certificate.modes != modes || kept->certificate.tap_rate != settings.tap_rate)
+            if (!kept || kept->scene_hash != hash || kept->certificate.modes != modes || kept->certificate.tap_rate != settings.tap_rate ||
+                kept->certificate.from != free_from(scene))
                 continue;
             Trust t = trust_of(*kept, reference, settings.options, until);
             t.file = file.string();

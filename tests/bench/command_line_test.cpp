@@ -465,6 +465,23 @@ TEST(CommandLine, AReferenceThatFailsOnItsWayIsARowOfEveryVerb) {
     EXPECT_TRUE(compared.code == 0 || compared.code == 4) << compared.code << compared.err;
 }
 
+TEST(CommandLine, APluckedStringIsJudgedOnceItIsLetGo) {
+    const Scratch scratch;
+    const std::string compare = "compare tanpura_c3 --schemes modal_two_point --rates 44100 --modes 20 --reference-modes 20 --repeats 1";
+    const Outcome pushed = jvari(scratch, compare + " --duration 0.03");
+    EXPECT_EQ(pushed.code, 3) << pushed.err;
+    EXPECT_TRUE(says(pushed.err, "a pluck of tanpura_c3 ends at 0.05 s, and the run at 0.03 s"));
+    EXPECT_TRUE(says(pushed.err, "a --duration of 0.1 covers the first 50 ms"));
+    const std::string out = (scratch.path / "plucked").string();
+    const Outcome free = jvari(scratch, compare + " --duration 0.07 --out " + out);
+    ASSERT_EQ(free.code, 0) << free.err;
+    EXPECT_TRUE(says(free.out, "their windows begin at 0.05 s"));
+    const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
+    EXPECT_EQ(cells.number(0, "free_from_s"), 0.05);
+    EXPECT_GT(cells.number(0, "error_l2_10ms"), 0);
+    EXPECT_EQ(cells.at(0, "error_l2_50ms"), "");  // not covered
+}
+
 TEST(CommandLine, AStringWithoutAModeIsRefusedByWhatCarriesModes) {
     const Scratch scratch;
     const std::string taut = " --set string.0.tension=1e9 --duration 0.001";  // the first mode at 720 kHz

@@ -16,7 +16,9 @@
 #include "bench/study/judgement.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/scene_file.hpp"
 #include "schemes/making.hpp"
 #include "schemes/run.hpp"
 #include "tests/says.hpp"
@@ -270,6 +272,28 @@ TEST(Errors, AWindowEndsWhereItsNameSays) {
         EXPECT_EQ(wrong_at(end - 1.0 / 44100)[0][place_of(column)], 0) << column;  // another tap
     }
     EXPECT_GT(wrong_at(0.0999)[1][place_of("error_l2_whole")], 0);
+}
+
+// What is wrong before `from` is in no error, and a window is as long as its name says from there on.
+TEST(Errors, BeginWhereTheLastExcitationEnds) {
+    const std::vector<double> truth = tone(1000, 8820);
+    const auto wrong_at = [&](double seconds) {
+        std::vector<double> x = truth;
+        x[std::lround(seconds * 44100)] += 1;
+        return bench::study::errors_of(trace_of({x}), trace_of({truth}), {}, 0.05)[0];
+    };
+    for (const char* column : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole", "third_octave_db", "decay_db"})
+        EXPECT_EQ(wrong_at(0.0499)[place_of(column)], 0) << column;
+    EXPECT_GT(wrong_at(0.0501)[place_of("error_l2_10ms")], 0);
+    EXPECT_EQ(wrong_at(0.0601)[place_of("error_l2_10ms")], 0);
+    EXPECT_GT(wrong_at(0.0999)[place_of("error_l2_50ms")], 0);
+    Scene plucked = read_scene("tanpura_drone");  // at 0, 1.2, 1.8 and 2.4 s, each for 50 ms
+    EXPECT_DOUBLE_EQ(free_from(plucked), 2.45);
+    plucked.duration = 1.0;
+    EXPECT_DOUBLE_EQ(free_from(plucked), 0.05);  // what begins later is not in the run
+    plucked.duration = 0.07;
+    EXPECT_DOUBLE_EQ(bench::study::headline_window(plucked), 10e-3);
+    EXPECT_EQ(free_from(read_scene("tanpura_c3_release")), 0);
 }
 
 TEST(Errors, OfATonePitchedAndLoudAsTheyAre) {

@@ -15,6 +15,7 @@
 #include "reference/oversampled.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
+#include "scenes/excitation.hpp"
 #include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
 #include "schemes/registry.hpp"
@@ -174,13 +175,17 @@ struct Claim {  // of one tap, over the whole run
     double ratio() const { return is / claimed; }
 };
 
+double apart(const Trace& a, const Trace& b, int k, double from) {
+    return relative_difference(rows_from(a.column(k), from, a.tap_rate), rows_from(b.column(k), from, b.tap_rate));
+}
+
 // What is known of an error against what is claimed of it: the distance from the truth less what the truth itself may be off. Figures
 // within the noise floor are left out: no two programs can agree better.
-std::vector<Claim> claims(const bench::trust::Trust& trust, const Trace& trace, const Trace& truth, const std::vector<double>& off,
-                          const std::vector<double>& floor, bool about_scene = false) {
+std::vector<Claim> claims(const bench::trust::Trust& trust, const Trace& trace, const Trace& truth, double from,
+                          const std::vector<double>& off, const std::vector<double>& floor, bool about_scene = false) {
     std::vector<Claim> all;
     for (std::size_t k = 0; k < trust.figure.size(); ++k) {
-        const double is = relative_difference(trace.column(static_cast<int>(k)), truth.column(static_cast<int>(k))) - off[k];
+        const double is = apart(trace, truth, static_cast<int>(k), from) - off[k];
         if (const double claimed = about_scene ? trust.of_scene(k, 2) : trust.in_model(k, 2); !std::isnan(claimed) && is > floor[k])
             all.push_back({trace.names[k], is, claimed});
     }
@@ -205,13 +210,13 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     const Run coarser = run(sundials, c.scene, with("1e-13"));
     if (r.status.outcome != Outcome::ok || truth.status.outcome != Outcome::ok || coarser.status.outcome != Outcome::ok) return;
     std::vector<double> off, none(r.trace.names.size(), 0.0);
-    for (int k = 0; k < r.trace.taps(); ++k) off.push_back(relative_difference(coarser.trace.column(k), truth.trace.column(k)));
+    for (int k = 0; k < r.trace.taps(); ++k) off.push_back(apart(coarser.trace, truth.trace, k, certificate.from));
     std::vector<double> floor;
     for (const Agreement& a : certificate.floor) floor.push_back(above_floor * std::max(floor_displacement, a.relative_l2.back()));
     const bool alone =
         best->name == std::string("sundials");  // certified by another of its own settings, whose error adds to the difference
     for (const Claim& x : claims(bench::trust::trust_of(bench::trust::KeptCertificate{"", "", certificate}, best->name, {}, until), r.trace,
-                                 truth.trace, off, floor)) {
+                                 truth.trace, certificate.from, off, floor)) {
         ++tally.claims;
         tally.worst_claim = std::max(tally.worst_claim, x.ratio());
         if (!(x.ratio() < (alone ? claim_allowed_alone : claim_allowed)))
@@ -226,7 +231,8 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     const Oversampled o =
         oversampled(*scheme, c.scene, {c.settings.tap_rate, c.settings.tap_rate, certificate.modes, {}}, stand_in_multiple);
     if (o.run.status.outcome != Outcome::ok) return;
-    for (const Claim& x : claims(bench::trust::trust_of(o, until), o.run.trace, r.trace, none, floor)) {
+    for (const Claim& x :
+         claims(bench::trust::trust_of(o, until - certificate.from), o.run.trace, r.trace, certificate.from, none, floor)) {
         ++tally.estimates;
         tally.low_estimates += x.ratio() >= 1;
         tally.worst_estimate = std::max(tally.worst_estimate, x.ratio());
@@ -272,14 +278,16 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
     for (const Run* each : {&r, &half, &truth})
         if (each->status.outcome != Outcome::ok) return;
     std::vector<double> off, floor;
-    const auto norm = [](std::span<const double> x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); };
+    const auto norm = [&](const Trace& t, int k) {
+        const std::span<const double> x = rows_from(t.column(k), certificate.from, t.tap_rate);
+        return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0));
+    };
     for (int k = 0; k < r.trace.taps(); ++k)  // relative to the reference, as its certificate is
-        off.push_back(relative_difference(half.trace.column(k), truth.trace.column(k)) * norm(truth.trace.column(k)) /
-                      norm(r.trace.column(k)));
+        off.push_back(apart(half.trace, truth.trace, k, certificate.from) * norm(truth.trace, k) / norm(r.trace, k));
     for (const Agreement& a : certificate.floor) floor.push_back(above_floor * std::max(floor_displacement, a.relative_l2.back()));
     ++tally.judged;
     const auto hold = [&](const bench::trust::Trust& claimed, const Trace& trace) {
-        for (const Claim& x : claims(claimed, truth.trace, trace, off, floor, true)) {
+        for (const Claim& x : claims(claimed, truth.trace, trace, certificate.from, off, floor, true)) {
             if (!(x.claimed < 1)) continue;  // as large as the motion itself: nothing is claimed
             ++tally.claims;
             tally.worst_claim = std::max(tally.worst_claim, x.ratio());
@@ -329,7 +337,8 @@ void check_matching(const RandomCase& c, Tally& tally, const Finding& finding, c
     if (!known.truth || std::ranges::any_of(cells, [](const study::Record& r) { return !r.cell.ran(); })) throw Refusal(known.refused);
     const Trace& truth = known.truth->reference.run.trace;
     const study::Errors off =
-        study::errors_of(study::run_reference(reference(modes * multiple / 2), c.scene, 1, {}, matching_seconds, true).run.trace, truth);
+        study::errors_of(study::run_reference(reference(modes * multiple / 2), c.scene, 1, {}, matching_seconds, true).run.trace, truth, {},
+                         free_from(c.scene));
     for (std::size_t pair = 0; pair < cells.size(); pair += 2) {
         const std::size_t whole = study::measure("error_l2_whole");
         double worst = 0;

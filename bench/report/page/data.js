@@ -65,12 +65,13 @@ const of_scene = (rows, scene) => rows.filter(row => row.problem === scene);
 const has_finite = (rows, column) => rows.some(row => Number.isFinite(number(row[column])));
 
 const most_cells_with_taps = 600;  // beyond, the headline errors alone can be chosen
+const after_pluck = rows => number(rows[0]?.free_from_s) > 0 ? " after the last pluck" : "";  // where the windows of these rows' errors begin
 // The errors of a scene that a reader can choose, its headline first: {column, title, measure, tap}.
 function errors_in(rows) {
   const stem = "error_l2_whole_", columns = table("cells").columns;
   const taps = ["", ...(cells().length > most_cells_with_taps ? [] : columns.filter(c => c.startsWith(stem)).map(c => c.slice(stem.length)))];
   const all = taps.flatMap(tap => page.measures.map(([measure, title]) =>
-    ({column: measure + (tap && "_" + tap), title: title + (tap && `, tap ${tap}`), measure, tap}))).filter(e => has_finite(rows, e.column));
+    ({column: measure + (tap && "_" + tap), title: title + after_pluck(rows) + (tap && `, tap ${tap}`), measure, tap}))).filter(e => has_finite(rows, e.column));
   const headline = records("scenes").find(s => s.problem === rows[0]?.problem)?.headline;
   return all.sort((a, b) => (b.column === headline) - (a.column === headline));
 }

@@ -1,8 +1,8 @@
 // What the folder says of each of its scenes: the cheapest scheme for each accuracy and how certain that is, what the reference is, how the machine was.
 // The program has found the cheapest and judged every cell; here it is put in words.
-function wanted(c) {
-  if (c.measure === "third_octave_db") return `third octaves within ${c.goal}`;
-  return `waveform within ${c.goal}, ${({error_l2_50ms: "first 50 ms", error_l2_10ms: "first 10 ms"})[c.measure] ?? "whole run"}`;
+function wanted(c, rows) {
+  if (c.measure === "third_octave_db") return `third octaves within ${c.goal}${after_pluck(rows)}`;
+  return `waveform within ${c.goal}, ${({error_l2_50ms: "first 50 ms", error_l2_10ms: "first 10 ms"})[c.measure] ?? "whole run"}${after_pluck(rows)}`;
 }
 // A row of the cheapest: its error as it is quoted, with the uncertainty of the reference where that is more than a tenth of it.
 function quoted(c) {
@@ -18,25 +18,25 @@ function nearest_text(rows, measure) {  // the trusted cell that comes nearest, 
 function answer_of(c, rows) {
   if (c.status !== "found") {
     const open = c.status === "not_known";
-    return {within: wanted(c), scheme: open ? "cannot be decided" : "none", modes: "", rate: "", error: "", cost: "",
+    return {within: wanted(c, rows), scheme: open ? "cannot be decided" : "none", modes: "", rate: "", error: "", cost: "",
             certain: open ? c.why + (c.perhaps && `; candidates: ${c.perhaps}`) : nearest_text(rows, c.measure)};
   }
   const found = quoted(c), scheme = variant(c), more = [[c.ties, "a tie with "], [c.perhaps, "perhaps for less "], [c.as_published, "without matched compliance: "]];
-  return {within: wanted(c), scheme, modes: c.modes, rate: kilohertz(number(c.rate)), error: (found.bounded ? "\u2264 " : "") + found.text, cost: time_text(number(c.cost_s_per_s)), colour: looks_of([scheme]).get(scheme).colour,
+  return {within: wanted(c, rows), scheme, modes: c.modes, rate: kilohertz(number(c.rate)), error: (found.bounded ? "\u2264 " : "") + found.text, cost: time_text(number(c.cost_s_per_s)), colour: looks_of([scheme]).get(scheme).colour,
           certain: (c.why || (found.bounded ? "upper bound: includes the uncertainty of the reference" : "measured")) + more.map(([text, before]) => text ? `; ${before}${text}` : "").join("")};
 }
 // The cheapest within 1 % of the waveform, else the first that is found: what it does, and how fast.
-function finding_of(scene, cheapest) {
+function finding_of(scene, cheapest, rows) {
   const found = cheapest.filter(c => c.status === "found"), best = found.find(c => number(c.target) === 0.01) ?? found[0];
   if (!best) return `No scheme is known to be near enough on ${scene}`;
   const {bounded, text} = quoted(best), rate = kilohertz(number(best.rate)), cost = number(best.cost_s_per_s), matched = best.options.includes("compliance=matched");
-  return `${best.scheme}${matched ? " with matched compliance" : ""} errs by ${bounded ? "at most " : ""}${text}${rate && ` at ${rate}`}, ${digits(cost < 1 ? 1 / cost : cost, 2)} times ${cost < 1 ? "faster" : "slower"} than real time`;
+  return `${best.scheme}${matched ? " with matched compliance" : ""} errs by ${bounded ? "at most " : ""}${text}${after_pluck(rows)}${rate && ` at ${rate}`}, ${digits(cost < 1 ? 1 / cost : cost, 2)} times ${cost < 1 ? "faster" : "slower"} than real time`;
 }
 function reference_text(s, rows) {
   const name = page.manifest?.reference?.name ?? rows[0]?.reference ?? "", modes = number(rows[0]?.reference_modes), horizon = number(rows[0]?.reference_horizon_s), certificate = number(s.certificate);
   if (!name) return "";
   return `Reference: ${name}${Number.isNaN(modes) ? "" : ` with ${modes} modes`}. Its uncertainty is ${Number.isNaN(certificate) ? "unknown" : `${error_text(certificate, s.headline)} in the first error of the table`}.` +
-    (Number.isNaN(horizon) ? "" : ` Two reference runs whose starting points differ by 1e-12 agree within 10 % for ${digits(horizon, 3)} s.`);
+    (Number.isNaN(horizon) ? "" : ` Two reference runs whose starting points differ by 1e-12 agree within 10 % for ${digits(horizon, 3)} s${after_pluck(rows)}.`);
 }
 function modes_text(rows) {  // schemes that carry another number of modes than the reference: their error is of the cut as well
   const of_reference = number(rows[0]?.reference_modes);
@@ -58,7 +58,7 @@ function verdicts() {
   return records("scenes").map(s => {
     const rows = of_scene(cells(), s.problem), cheapest = of_scene(records("cheapest"), s.problem), answers = cheapest.map(c => answer_of(c, rows));
     const none = answers.length ? "" : "No scheme can be called the cheapest here: none has a cost, an error and no flag.";
-    return {scene: s.problem, finding: finding_of(s.problem, cheapest), answers,
+    return {scene: s.problem, finding: finding_of(s.problem, cheapest, rows), answers,
             sentences: [none, reference_text(s, rows), modes_text(rows), runs_text(rows), machine_text(s), s.busy && `Costs: ${s.busy}.`].filter(Boolean)};
   });
 }
