@@ -17,6 +17,7 @@
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "reference/references.hpp"
+#include "scenes/excitation.hpp"
 
 namespace jvari::bench::trim {
 
@@ -35,7 +36,7 @@ int column_of(const Scene& scene, const std::string& tap) {
 
 // What is unknown of a reference by this measure: its certificate for waveforms; of the others no bound is known, and what the doublings
 // tell stands for it.
-double uncertainty(const study::Truth& t, int tap, std::size_t measure) {
+double uncertainty(const study::Truth& t, int tap, std::size_t measure, double from) {
     const study::Reference& of = t.reference;
     const std::string& column = study::measures()[measure].column;
     for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w)
@@ -43,7 +44,9 @@ double uncertainty(const study::Truth& t, int tap, std::size_t measure) {
             return of.trust.any() ? of.trust.of_scene(static_cast<std::size_t>(tap), w) : store::nan;
     const auto changed = [&](std::size_t last) {
         const study::Reference& more = last < t.coarser.size() ? t.coarser[last] : of;
-        return study::error_of(measure, t.coarser[last - 1].run.trace.column(tap), more.run.trace.column(tap), of.run.trace.tap_rate);
+        const double rate = of.run.trace.tap_rate;
+        const auto free = [&](const study::Reference& r) { return rows_from(r.run.trace.column(tap), from, rate); };
+        return study::error_of(measure, free(t.coarser[last - 1]), free(more), rate);
     };
     const std::size_t n = t.coarser.size();
     return n == 0 ? store::nan : left_after(changed(n), n > 1 ? changed(n - 1) : store::nan, is_matched(of.choice.settings.options));
@@ -89,11 +92,12 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const 
       own_duration_(scene_.duration),
       program_(store::program_identity(request.plugins)),
       stamp_(store::stamp_now()) {
-    scene_.duration = std::min(scene_.duration, request.duration);
+    const double absent = judges_decay() ? own_duration_ : free_from(scene_) + 50e-3;
+    scene_.duration = std::min(own_duration_, request.duration.value_or(absent));
     tap_ = compare::tap_named(scene_, request.tap);
     if (request.tap.empty()) tap_ = study::headline_of(scene_).nut;
-    place_ = std::isfinite(target_.measure->window) && scene_.duration < target_.measure->window ? study::measure("error_l2_whole")
-                                                                                                 : target_.measure->place;
+    const double window = target_.measure->window, judged = scene_.duration - free_from(scene_);
+    place_ = std::isfinite(window) && judged < window * (1 - 1e-9) ? study::measure("error_l2_whole") : target_.measure->place;
     if (!request_.out.empty()) {
         keep_.folder = fs::path(request_.out) / "cells";
         keep_.resume = true;
@@ -108,6 +112,8 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const 
 bool Judge::may_go(int k) const {
     const Reduction& r = reductions_[k];
     if (r.part == Part::initial_shape || r.part == Part::pluck) return false;  // that is the question, not the model
+    const bool loss = r.part == Part::damping || r.part == Part::damping_term || r.part == Part::contact_loss;
+    if (loss && !judges_decay()) return false;  // 50 ms hardly hear it, and without it the sound never ends
     Scene left = scene_;
     r.apply(left);
     remove_idle_taps(left, tap().name);
@@ -166,7 +172,7 @@ const Truth& Judge::truth(int start) {
     t.reference = of.choice.name();
     t.said = found.truth->said;
     t.modes = of.choice.settings.modes;
-    t.certificate = uncertainty(*found.truth, tap_, place_);
+    t.certificate = uncertainty(*found.truth, tap_, place_, free_from(whole.scene));
     t.floor = found.floor->at(static_cast<std::size_t>(tap_))[place_];
     t.horizon = found.truth->horizon;
     if (const double depth = fact_of(of.run.facts, facts::deepest_penetration); depth > 0) t.penetration = depth;

@@ -25,7 +25,7 @@ namespace jvari::bench::trim {
 struct Request {
     std::string scene, measure = "l2_50ms", within, tap, scheme = "any", reference, out;
     std::vector<std::string> set, plugins;  // plugins: their files, which verdicts depend on
-    double duration = 50e-3;                // [s] that are run and judged
+    std::optional<double> duration{};       // [s] that are run; absent: as far as the measure needs (Judge)
     double tap_rate = 44100;                // [Hz]
     int reference_modes = 0;                // 0: doubled until nothing moves
     int jobs = 0;
@@ -61,6 +61,7 @@ double processor_time(const Model&, const Scene&);                      // least
 
 class Judge {
 public:
+    // It is judged from the end of its last pluck on: for 50 ms unless another duration is asked for, by the decay to the end of the scene.
     // Throws UsageError, SceneFileError, BadScene, Refusal.
     Judge(const Request&, const compare::Catalogue&, const store::Listener&, CostOf = processor_time);
 
@@ -71,7 +72,7 @@ public:
     const Tap& tap() const { return scene_.taps[tap_]; }
     const std::vector<Reduction>& reductions() const { return reductions_; }
     const std::vector<compare::SchemeOption>& options() const { return request_.options; }
-    bool may_go(int reduction) const;  // not what is listened to
+    bool may_go(int reduction) const;  // not what is listened to, nor a loss where the decay is not judged
 
     Scene scene_of(const Model&, int start = 0) const;  // throws BadScene where what is left makes no sense
     const Truth& truth(int start);
@@ -91,6 +92,7 @@ public:
     int read_back() const { return keep_.kept - keep_.ran; }
 
 private:
+    bool judges_decay() const { return target_.measure->name == "decay"; }
     const study::Point& point(int start);          // the whole scene
     study::Plan plan_of(const Model&, int start);  // of one job
 

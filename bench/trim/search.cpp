@@ -60,34 +60,6 @@ void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener&
         }
     }
 }
-
-// Step 4. No clock is asked: what step 2 found too little to tell goes here whatever the clock said.
-void leave_out_what_costs_nothing(CheapestSettings& s, Found& now, Path& path) {
-    for (bool more = true; more;) {
-        more = false;
-        std::optional<Found> best;
-        int part = 0;
-        for (int k = 0; k < static_cast<int>(s.judge().reductions().size()); ++k) {
-            const Part p = s.judge().reductions()[k].part;
-            if (!s.judge().may_go(k) || p == Part::contact_stiffness) continue;  // another value is no plainer
-            if (std::ranges::binary_search(now.model.left_out, k)) continue;
-            const Model m = toggled(now.model, k);
-            try {
-                if (s.judge().scene_of(m) == s.judge().scene_of(now.model)) continue;  // it went with another
-                const auto e = s.error_within(m, HUGE_VAL);
-                if (!e || (best && *e >= best->error)) continue;
-                best = Found{m, *e, 0}, part = k;
-            } catch (const std::exception&) {
-                continue;
-            }
-        }
-        if (!best) break;
-        best->cost = s.judge().cost(best->model);
-        now = *best;
-        path.steps.push_back({s.judge().reductions()[part].said(), now.model, now.error, now.cost, true});
-        more = true;
-    }
-}
 }  // namespace
 
 Path search(Judge& judge, const std::vector<const Descriptor*>& schemes, const std::vector<int>& starts, const store::Listener& listener) {
@@ -116,7 +88,6 @@ Path search(Judge& judge, const std::vector<const Descriptor*>& schemes, const s
         now = *again;
         path.steps.push_back({"scheme, rate and modes once more", now.model, now.error, now.cost, true});
     }
-    leave_out_what_costs_nothing(s, now, path);
     path.found = true;
     return path;
 }

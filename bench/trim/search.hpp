@@ -7,9 +7,7 @@
 //   2. In turn the part that saves most for the error it costs is left out, the fewest modes at half, the same and twice the rate are
 //      sought anew, and what is cheaper stays. Parts that went before are put back in the same way: what one part costs depends on others.
 //   3. Step 1 for what is left: a plainer scene is open to more schemes. What is cheaper stays, and step 2 begins again.
-//   4. Parts that save too little for a clock to see go last, the least error first, while the tolerance holds. That asks no clock: a part
-//      whose saving is near a twentieth goes on every machine.
-// Cheaper is by a twentieth or more. Of costs that are closer the more accurate model is taken, so that a clock's noise decides nothing.
+// Cheaper is by a twentieth or more: a part that saves less stays, and so do losses unless the decay is judged. Of costs that are closer the more accurate model is taken, so that a clock's noise decides nothing.
 // Costs are processor time, so that what else the machine does hardly counts.
 #pragma once
 

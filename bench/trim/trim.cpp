@@ -37,6 +37,8 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
         left.push_back(fmt::format("beyond a first look, whose errors do not fall fast enough: {}", fmt::join(path.passed_over, ", ")));
     if (judge.scene().strings.front().pluck || judge.scene().strings.front().initial)
         left.emplace_back("plainer excitations: they are the question");
+    if (judge.target().measure->name != "decay")
+        left.emplace_back("losses of string and contact left out: --of decay judges how the sound dies away, over the whole scene");
     if (judge.scene().body) left.emplace_back("the body: no tap is heard through it, and what moves is all left in");
     left.push_back(
         fmt::format("schemes that do not represent the scene or what is left of it; those that do: {}", fmt::join(path.tried, ", ")));
