@@ -15,7 +15,7 @@ namespace jvari {
 namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array verdict_names = {"sound",          "unjudged",      "flagged",  "inaccurate", "adhesive",
-                                      "energy_gaining", "not_converged", "diverged", "refused"};
+                                      "energy_gaining", "not_converged", "diverged", "refused",    "error"};
 
 double over_bound(const Scene& scene, const Trace& trace, int modes) {
     double most = nan;

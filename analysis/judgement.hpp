@@ -2,6 +2,7 @@
 // which run, compare, suite, trim, maps, check and the page all use.
 //
 // The outcome of a run is the gravest that applies. Each threshold with its reason:
+//   error           the scheme failed: it threw, its program ended with an error, or it took too long
 //   refused         the scheme does not represent the scene, or not at these settings
 //   diverged        the run's own status: an energy or a tap beyond what ten times the energy of the scene could make (schemes/run.hpp)
 //   not_converged   the run's own status: the contact equation was left unsolved
@@ -58,7 +59,7 @@ struct Flags {  // what speaks against it, whatever its error
 };
 Flags raised_by(const Figures&);
 
-enum class Verdict { sound, unjudged, flagged, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused };
+enum class Verdict { sound, unjudged, flagged, inaccurate, adhesive, energy_gaining, not_converged, diverged, refused, error };
 const char* name_of(Verdict);
 Verdict verdict_named(const std::string&);  // throws std::runtime_error
 bool is_stable(Verdict);                    // nothing went wrong with the run itself: sound or flagged

@@ -1,12 +1,15 @@
 #include "bench/judge/external.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
+#include <wordexp.h>
 
+#include <cstring>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <sstream>
+#include <vector>
 
 #include "bench/judge/foreign_trace.hpp"
 #include "bench/judge/problem_file.hpp"
@@ -35,19 +38,21 @@ std::string last_line(const std::string& text) {
     return last;
 }
 
-std::shared_ptr<const Trace> computed(const External& e, const Exported& of, const std::string& problem) {
+using Unwanted = std::function<bool()>;
+
+std::shared_ptr<const Trace> computed(const External& e, const Exported& of, const std::string& problem, const Unwanted& unwanted) {
     const store::Scratch folder;
     if (folder.path.empty()) throw store::Unwritable("cannot make a folder in " + store::Scratch::place().string());
     const fs::path asked = folder.path / "problem.json", given = folder.path / "trace.csv";
     store::write_fresh(asked, problem);
-    const store::Said said = store::run_program({"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()});
+    const store::Said said = store::run_program({"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()}, unwanted);
     if (said.code != 0) throw BadScheme(fmt::format("{}: exit code {}: {}", e.command, said.code, last_line(said.text)));
     if (!fs::exists(given)) throw BadScheme(e.command + ": wrote no trace, its last argument; it said: " + last_line(said.text));
     return std::make_shared<const Trace>(read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));
 }
 
 // Each problem is computed once: a cell is run by the search, for its errors, and once more where it is looked at again.
-std::shared_ptr<const Trace> known(const External& e, const Exported& of) {
+std::shared_ptr<const Trace> known(const External& e, const Exported& of, const Unwanted& unwanted) {
     struct Each {
         std::once_flag once;
         std::shared_ptr<const Trace> trace;
@@ -58,7 +63,7 @@ std::shared_ptr<const Trace> known(const External& e, const Exported& of) {
     std::unique_lock lock(mutex);
     Each& each = all[store::hash_of(e.command + problem)];
     lock.unlock();
-    std::call_once(each.once, [&] { each.trace = computed(e, of, problem); });  // whoever asks for it meanwhile waits
+    std::call_once(each.once, [&] { each.trace = computed(e, of, problem, unwanted); });  // whoever asks for it meanwhile waits
     return each.trace;
 }
 
@@ -73,7 +78,7 @@ public:
     }
     Status advance(const Block& out) noexcept override {
         try {
-            if (!rows_) rows_ = played(known(external_, of_));
+            if (!rows_) rows_ = played(known(external_, of_, [&out] { return out.stopped(); }));
             return rows_->advance(out);
         } catch (const std::exception& e) {
             failure_ = e.what();
@@ -99,24 +104,43 @@ std::unique_ptr<Scheme> called(const Descriptor& d, const Scene& scene, const Se
     return std::make_unique<Called>(*static_cast<const External*>(d.own), scene, settings);
 }
 
-std::vector<fs::path> files_in(const std::string& command) {
-    std::vector<fs::path> files;
-    std::istringstream words(command);
-    for (std::string word; words >> word;) {
-        std::error_code error;
-        if (fs::is_regular_file(word, error)) files.emplace_back(word);
+// As the shell reads them, its operators aside; none where the command has what only the shell can know.
+std::vector<std::string> words_in(std::string command) {
+    char quote = 0;
+    for (std::size_t k = 0; k < command.size(); ++k) {
+        char& c = command[k];
+        if (c == '\\' && quote != '\'') ++k;
+        else if (quote != 0 ? c == quote : c == '"' || c == '\'') quote = quote != 0 ? '\0' : c;
+        else if (quote == 0 && std::strchr("|&;<>()`\n", c)) c = ' ';
     }
-    return files;
+    wordexp_t all{};
+    std::vector<std::string> words;
+    if (wordexp(command.c_str(), &all, WRDE_NOCMD) == 0) words.assign(all.we_wordv, all.we_wordv + all.we_wordc);
+    wordfree(&all);
+    return words;
+}
+
+// The file that a word names, or the program that is found by it; "" where there is neither.
+fs::path file_of(const std::string& word) {
+    std::error_code error;
+    if (fs::is_regular_file(word, error)) return word;
+    const char* folders = std::getenv("PATH");
+    std::istringstream path(folders && word.find('/') == std::string::npos ? folders : "");
+    for (std::string folder; std::getline(path, folder, ':');)
+        if (const fs::path file = fs::path(folder) / word; fs::is_regular_file(file, error)) return file;
+    return {};
 }
 }  // namespace
 
 std::string enter_external(const std::string& command) {
     const std::string path = "external " + command;
-    const std::vector<fs::path> files = files_in(command);
-    auto* kept =
-        new External{command, files.empty() ? "external" : files.back().stem().string()};  // NOLINT(cppcoreguidelines-owning-memory)
-    std::string contents = command;
-    for (const fs::path& file : files) contents += "\n" + store::read_whole(file);
+    std::string name = "external", contents = command;
+    for (const std::string& word : words_in(command)) {
+        const fs::path file = file_of(word);
+        contents += fmt::format("\n{}: {}", word, file.empty() ? "no file" : store::hash_of_file(file));
+        if (!file.empty() && file == fs::path(word)) name = file.stem().string();
+    }
+    auto* kept = new External{command, name};  // NOLINT(cppcoreguidelines-owning-memory)
     Descriptor d{kept->name.c_str(), "an external command", every_feature - (Features(Feature::moving_body) | Feature::polarisation),
                  Balance::none,      Clock::stepped,        called};
     d.own = kept;

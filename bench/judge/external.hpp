@@ -7,7 +7,7 @@
 namespace jvari::bench::judge {
 
 // Makes it a scheme, whose name is that of its file ("octave-cli mine.m": mine), and returns the path of its guest. What it computes is
-// known again by the command and the files that it names.
+// known again by the command and the files that it names, as the shell reads it: scripts, data, and programs on the PATH.
 std::string enter_external(const std::string& command);
 
 }  // namespace jvari::bench::judge

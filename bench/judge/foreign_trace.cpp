@@ -126,7 +126,22 @@ void must_be_whole(const Trace& trace, const std::string& what, long rows) {
                                                     static_cast<double>(row) / trace.tap_rate, ends(row)));
 }
 
+namespace {
+// Before it is read whole: 64 characters a number and a few columns more than are asked for are taken.
+void check_size(const std::filesystem::path& path, std::size_t taps, double tap_rate, long rows) {
+    constexpr double number = 64, header = 1e6;
+    std::error_code error;  // said by whoever reads it
+    const double size = static_cast<double>(std::filesystem::file_size(path, error));
+    const double most = header + number * static_cast<double>(taps + 8) * static_cast<double>(rows);
+    if (!error && size > most)
+        throw store::UsageError(
+            fmt::format("{}: has {:.0f} MB, and {} rows of {} taps, {:.9g} s at {:.12g} rows a second, take {:.0f} MB at most",
+                        path.string(), 1e-6 * size, rows, taps, static_cast<double>(rows - 1) / tap_rate, tap_rate, 1e-6 * most));
+}
+}  // namespace
+
 Trace read_trace(const std::filesystem::path& path, const Scene& scene, double tap_rate, long rows) {
+    check_size(path, scene.taps.size(), tap_rate, rows);
     const std::string extension = path.extension().string();
     if (extension == ".wav") return from_wav(path, scene, tap_rate, rows);
     if (extension == ".csv") return from_csv(path, scene, tap_rate, rows);

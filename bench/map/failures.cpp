@@ -51,7 +51,7 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalog
     std::map<std::pair<std::string, study::Verdict>, const JudgedPoint*> cheapest;
     for (const JudgedPoint& p : run.points) {
         const study::Verdict v = p.tried.judgement.verdict;
-        if (study::is_stable(v) || v == study::Verdict::unjudged || v == study::Verdict::refused || !p.at.map->reproduce) continue;
+        if (study::is_stable(v) || v == study::Verdict::unjudged || !p.tried.record.cell.ran() || !p.at.map->reproduce) continue;
         const JudgedPoint*& kept = cheapest[{p.at.scheme->name, v}];
         if (!kept || steps_of(p) < steps_of(*kept)) kept = &p;
     }

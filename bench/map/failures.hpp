@@ -18,7 +18,8 @@ struct Reproducer {
     study::Judgement expected;
 };
 
-// Of each scheme and outcome that is neither sound nor refused, the failure that took the fewest steps, among maps that reproduce theirs.
+// Of each scheme and outcome that is neither sound nor without a run (refused, error), the failure that took the fewest steps, among maps
+// that reproduce theirs.
 // What was minimised is kept beside the points, so that processes that share a folder minimise each once.
 std::vector<Reproducer> reproducers_of(const MapRun&, const compare::Catalogue&, const MapRequest&, const store::Listener&);
 

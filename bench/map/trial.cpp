@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "bench/compare/compare.hpp"
 #include "bench/store/records.hpp"
@@ -109,7 +108,6 @@ Tried Trials::operator()(const Trial& t, const store::Done& done) {
     const study::Job& job = plan.jobs.front();
     if (job.judged) references_.hold(*job.point);
     const study::Record r = study::record_of(job, references_, keep_, done, [&done](long, long) { done.look(); });
-    if (r.cell.failure == "error") throw std::runtime_error(study::what_of(job) + ": " + r.cell.reason);
     const double error = worst_nut(r.cell.errors, job.point->scene);
     return {r, error, study::judge(r.cell, error)};
 }

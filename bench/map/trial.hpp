@@ -50,7 +50,7 @@ class Trials {
 public:
     explicit Trials(const compare::Catalogue&, const MapRequest& = {"{}", {}, false, 0});
 
-    // Throws Busy where another process or thread has it, and what no row of a map tells: an error that is no refusal.
+    // Throws Busy where another process or thread has it.
     Tried operator()(const Trial&, const store::Done& = {});
     study::Plan plan_of(const Trial&) const;  // of one job
     int ran() const { return keep_.ran; }

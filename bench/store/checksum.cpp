@@ -5,6 +5,7 @@
 #define XXH_INLINE_ALL  // the header alone: nothing to link
 #include <xxhash.h>
 
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -18,6 +19,20 @@ constexpr std::string_view before = ",\n \"checksum\": \"", after = "\"\n}\n";
 std::string hash_of(const std::string& text) {
     const XXH128_hash_t h = XXH3_128bits(text.data(), text.size());
     return fmt::format("{:016x}{:016x}", h.high64, h.low64);
+}
+
+std::string hash_of_file(const std::filesystem::path& path) {
+    constexpr int most_parts = 256;
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) return "cannot be read";
+    std::string hash, part(1 << 20, '\0');
+    for (int k = 0; k < most_parts && stream.read(part.data(), static_cast<std::streamsize>(part.size())).gcount() > 0; ++k)
+        hash = hash_of(hash + part.substr(0, static_cast<std::size_t>(stream.gcount())));
+    std::error_code error;
+    if (stream.peek() != std::ifstream::traits_type::eof())
+        hash += fmt::format(" {} {}", std::filesystem::file_size(path, error),
+                            std::filesystem::last_write_time(path, error).time_since_epoch().count());
+    return hash;
 }
 
 std::string sealed(const std::string& object) {

@@ -3,11 +3,15 @@
 // It finds what broke, was cut off or was edited. It is no defence against a forger.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace jvari::bench::store {
 
 std::string hash_of(const std::string&);  // 32 hexadecimal digits
+
+// Of the first 256 MB of a file; of a longer one its size and time count as well. "cannot be read" where it cannot.
+std::string hash_of_file(const std::filesystem::path&);
 
 // The text of a JSON object with the checksum of all that stands before it as its last member.
 std::string sealed(const std::string& object);

@@ -35,7 +35,7 @@ std::string names_of(const std::vector<Flag>& flags) {
 }
 
 Judgement judge(const Cell& cell, double error) {
-    if (!cell.ran()) return {Verdict::refused, cell.reason, 0};
+    if (!cell.ran()) return {cell.failure == "refused" ? Verdict::refused : Verdict::error, cell.reason, 0};
     const Summary& s = cell.summary;
     const Verdict v = verdict_of(s, cell.scheme->balance, error);
     switch (v) {

@@ -19,9 +19,9 @@ std::string names_of(const std::vector<Flag>&);  // "adhesion psi_gap"; "" for n
 
 struct Judgement {
     Verdict verdict = Verdict::unjudged;
-    std::string detail;  // the figure that decided, or the reason of a refusal
+    std::string detail;  // the figure that decided, or the reason why it was not run
     long step = 0;       // where a run failed by itself; else 0
 };
-Judgement judge(const Cell&, double error);  // of a cell that was run with its energy probed, or refused; NaN: there is no error
+Judgement judge(const Cell&, double error);  // of a cell that was run with its energy probed, or failed; NaN: there is no error
 
 }  // namespace jvari::bench::study

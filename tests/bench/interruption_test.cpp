@@ -203,6 +203,24 @@ TEST(Interruption, ASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
     EXPECT_EQ(files_of(references, ".lock") + files_of(scratch / "all/cells", ".lock"), 0);
 }
 
+TEST(Interruption, AProgramThatIsRunEndsAndWhatItStartedAsWell) {
+    const Scratch scratch;
+    std::ofstream(scratch / "mine") << "sleep 30 & echo $$ $! > " + (scratch / "pids") + "; wait\n";
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+        fs::remove(scratch / "pids");
+        Started run(scratch, {"run", "free_string", "--scheme", "mine", "--duration", "0.01", "--external", "sh " + (scratch / "mine")});
+        run.once([&] { return content(scratch / "pids").ends_with('\n'); });
+        run.send(signal);
+        EXPECT_EQ(run.end(), signal);
+        std::ifstream pids(scratch / "pids");
+        for (pid_t pid; pids >> pid;) {
+            for (int k = 0; k < 50 && kill(pid, 0) == 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            EXPECT_NE(kill(pid, SIGKILL), 0) << "after signal " << signal;
+        }
+    }
+    EXPECT_EQ(scratch.files(), 2);  // that program and its numbers
+}
+
 TEST(Interruption, ARunLeavesNoFile) {
     const Scratch scratch;
     Started run(scratch,

@@ -1,7 +1,7 @@
 // What becomes of each scheme over a plane of two keys (maps.csv): a tile per run, from half-way to its neighbour on the left to half-way to that on the
 // right; with the refined boundaries and theory's (boundaries.csv). And what a trimmed scene needs (path.csv, needs.csv).
 const outcomes = {sound: ["#009e73", "circle"], unjudged: ["#882255", "wedge"], flagged: ["#999933", "triangle-left"], inaccurate: ["#e69f00", "square"], adhesive: ["#cc79a7", "diamond"], energy_gaining: ["#0072b2", "triangle-up"],
-                  not_converged: ["#56b4e9", "triangle-down"], diverged: ["#d55e00", "cross"], refused: ["#8c8c8c", "triangle-right"]};
+                  not_converged: ["#56b4e9", "triangle-down"], diverged: ["#d55e00", "cross"], refused: ["#8c8c8c", "triangle-right"], error: ["#000000", "stroke"]};
 
 // An axis of a map: of numbers where all are some, and logarithmic where all are positive and span more than five to one.
 function map_axis(rows, which) {
@@ -65,11 +65,11 @@ function map_section() {
   return {id: "maps", heading: "Where methods fail", notes, charts, table: without(table("boundaries"), ["problem", "series"])};
 }
 
-// Of each scheme on each map the sound runs among those that were not refused: [{series, map, sound, runs}].
+// Of each scheme on each map the sound runs among those that were run: [{series, map, sound, runs}].
 function shares() {
   const count = new Map();
   for (const r of records("maps")) {
-    if (r.outcome === "refused") continue;
+    if (["refused", "error"].includes(r.outcome)) continue;
     const key = r.series + "\n" + r.map, share = count.get(key) ?? {series: r.series, map: r.map, sound: 0, runs: 0};
     ++share.runs;
     share.sound += r.outcome === "sound";

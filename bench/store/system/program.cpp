@@ -1,81 +1,132 @@
 #include "bench/store/system/program.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <optional>
+#include <utility>
 
-extern char** environ;
+#include "bench/store/system/interruption.hpp"
+#include "bench/store/system/time_limit.hpp"
 
 namespace jvari::bench::store {
 
 namespace {
-struct Actions {
-    explicit Actions(int out) {
-        posix_spawn_file_actions_init(&it);
-        posix_spawn_file_actions_addopen(&it, 0, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_adddup2(&it, out, 1);
-        posix_spawn_file_actions_adddup2(&it, 1, 2);
-    }
-    ~Actions() { posix_spawn_file_actions_destroy(&it); }
-    Actions(const Actions&) = delete;
-    Actions& operator=(const Actions&) = delete;
-    posix_spawn_file_actions_t it;
-};
+constexpr int look_ms = 20;                 // between two looks at a program that says nothing
+constexpr std::size_t most_text = 1 << 16;  // of what it says, and as much as a pipe holds
 
-// This program blocks Ctrl-C (interruption.hpp) and ignores the signals of failed writing, which are errors to it: not so the other.
-struct Signals {
-    Signals() {
-        posix_spawnattr_init(&it);
-        sigset_t none, held;
-        sigemptyset(&none);
-        sigemptyset(&held);
-        sigaddset(&held, SIGPIPE);
-        sigaddset(&held, SIGXFSZ);
-        posix_spawnattr_setsigmask(&it, &none);
-        posix_spawnattr_setsigdefault(&it, &held);
-        posix_spawnattr_setflags(&it, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    }
-    ~Signals() { posix_spawnattr_destroy(&it); }
-    Signals(const Signals&) = delete;
-    Signals& operator=(const Signals&) = delete;
-    posix_spawnattr_t it;
-};
-
-std::string all_of(int file) {
-    std::string text;
-    char part[65536];
-    for (ssize_t n; (n = read(file, part, sizeof part)) != 0;)
-        if (n > 0) text.append(part, static_cast<std::size_t>(n));
-        else if (errno != EINTR) break;
-    return text;
+// In the child of a program with threads: calls alone that are safe in a signal handler.
+[[noreturn]] void become(char* const* argv, int out, pid_t parent) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(127);
+    // This program blocks Ctrl-C (interruption.hpp) and ignores the signals of failed writing, which are errors to it: not so the other.
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    signal(SIGPIPE, SIG_DFL);
+    signal(SIGXFSZ, SIG_DFL);
+    dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), 0);
+    dup2(out, 1);
+    dup2(out, 2);
+    execvp(argv[0], argv);
+    _exit(127);
 }
+
+class Group {  // of a program and what that starts
+public:
+    Group(char* const* argv, int out) {
+        const pid_t parent = getpid();
+        const Undisturbed starting;
+        leader_ = fork();
+        if (leader_ == 0) become(argv, out, parent);
+        if (leader_ < 0) return;
+        setpgid(leader_, leader_);  // whichever of the two comes first
+        killed_too_.emplace([leader = leader_] { kill(-leader, SIGKILL); });
+    }
+    ~Group() {
+        if (leader_ > 0) end();
+    }
+    Group(const Group&) = delete;
+    Group& operator=(const Group&) = delete;
+    bool runs() const { return leader_ > 0; }
+
+    bool has_ended() const {  // its leader, which is not waited for yet: until then nobody else gets the number of the group
+        siginfo_t info{};
+        return waitid(P_PID, static_cast<id_t>(leader_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == leader_;
+    }
+    int end() {  // the exit code of its leader
+        kill(-leader_, SIGKILL);
+        killed_too_.reset();
+        const pid_t leader = std::exchange(leader_, -1);
+        int status = 0;
+        while (waitpid(leader, &status, 0) < 0)
+            if (errno != EINTR) return -errno;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+private:
+    pid_t leader_;
+    std::optional<WhenInterrupted> killed_too_;
+};
+
+class Pipe {
+public:
+    Pipe() : made_(pipe2(ends_, O_CLOEXEC) == 0) {
+        if (made_) fcntl(ends_[0], F_SETFL, O_NONBLOCK);
+    }
+    ~Pipe() {
+        for (const int end : ends_)
+            if (end >= 0) close(end);
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    explicit operator bool() const { return made_; }
+    int in() const { return ends_[1]; }
+    void close_in() { close(std::exchange(ends_[1], -1)); }
+
+    void wait() const {
+        pollfd there{ends_[0], POLLIN, 0};
+        poll(&there, open_ ? 1 : 0, open_ ? look_ms : 1);  // closed: most likely it ends
+    }
+    void take(std::string& text) {  // what it holds
+        char part[most_text];
+        const ssize_t n = open_ ? read(ends_[0], part, sizeof part) : 0;
+        open_ = n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
+        if (n <= 0) return;
+        text.append(part, static_cast<std::size_t>(n));
+        if (text.size() > most_text) text.erase(0, text.size() - most_text);
+    }
+
+private:
+    int ends_[2] = {-1, -1};
+    bool made_, open_ = true;
+};
 }  // namespace
 
-Said run_program(std::vector<std::string> words) {
+Said run_program(std::vector<std::string> words, const std::function<bool()>& unwanted) {
     std::vector<char*> argv;
     for (std::string& w : words) argv.push_back(w.data());
     argv.push_back(nullptr);
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) return {-errno, ""};
-    pid_t child = 0;
-    int failed;
-    {
-        const Actions actions(ends[1]);
-        const Signals signals;
-        failed = posix_spawnp(&child, argv[0], &actions.it, &signals.it, argv.data(), environ);
+    Pipe pipe;
+    if (!pipe) return {-errno, ""};
+    Group group(argv.data(), pipe.in());
+    if (!group.runs()) return {-errno, ""};
+    pipe.close_in();
+    Said said{};
+    const WaitsForAnother counted;
+    while (!group.has_ended() && !(unwanted && unwanted())) {
+        pipe.wait();
+        pipe.take(said.text);
     }
-    close(ends[1]);
-    Said said{-failed, failed == 0 ? all_of(ends[0]) : ""};
-    close(ends[0]);
-    if (failed != 0) return said;
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0)
-        if (errno != EINTR) return {-errno, ""};
-    said.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    said.code = group.end();
+    pipe.take(said.text);
     return said;
 }
 
