@@ -7,8 +7,7 @@
 #include <stdexcept>
 
 #include "analysis/energy.hpp"
-#include "scenes/bounds.hpp"
-#include "schemes/making.hpp"
+#include "scenes/excitation.hpp"
 
 namespace jvari {
 
@@ -29,7 +28,7 @@ double over_bound(const Scene& scene, const Trace& trace, int modes) {
 }
 }  // namespace
 
-Figures figures_of(Balance promised, const Scene& scene, const Settings& settings, const Run& run) {
+Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& run) {
     const EnergyBalance balance = energy_balance(run.trace);
     const EnergyGain gain = energy_gain(run.trace);
     // A scheme that promises no balance may leave its columns empty: zeros that "close" say nothing.
@@ -41,7 +40,7 @@ Figures figures_of(Balance promised, const Scene& scene, const Settings& setting
               fact_of(run.facts, facts::largest_contact_force),
               fact_of(run.facts, facts::deepest_penetration),
               gain.largest,
-              over_bound(scene, run.trace, modes_for(scene, settings)),
+              over_bound(scene, run.trace, modes),
               run.facts};
     std::erase_if(f.facts, [](const Fact& told) {
         return told.name == facts::smallest_contact_force.name || told.name == facts::largest_contact_force.name ||

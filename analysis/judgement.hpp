@@ -33,10 +33,10 @@ struct Figures {
     double deepest_penetration;                                    // [m]
     double energy_gain;  // the largest excess of stored energy over the ledger, of the energy that was there (energy.hpp)
     double
-        largest_over_bound;   // of a tap over what the scene's energy can make of it (scenes/bounds.hpp) [1]; NaN where no tap has a bound
+        largest_over_bound;  // of a tap over what the scene's energy can make of it (scenes/excitation.hpp) [1]; NaN where no tap has a bound
     std::vector<Fact> facts;  // the others
 };
-Figures figures_of(Balance, const Scene&, const Settings&, const Run&);
+Figures figures_of(Balance, const Scene&, int modes, const Run&);
 
 // The part of its largest push with which a contact pulls; 0 where it pulls with pull_floor at most. NaN where `least` is unknown.
 // An unknown `largest` counts as none, so any pull above the floor is then too much.

@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
+
+#include "scenes/barrier.hpp"
+#include "scenes/modes.hpp"
 
 namespace jvari {
 
@@ -39,6 +44,84 @@ double coefficient(const TriangleInitial& t, double length, int mode) {
     const double beta = mode * pi / length, x0 = t.position, number = mode;  // its square passes what an int holds
     return 2 * t.amplitude * length * length / (number * number * pi * pi * x0 * (length - x0)) * std::sin(beta * x0) *
            hann_smoothing(beta, t.smoothing);
+}
+
+namespace {
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+Modes carried(const String& s, int modes) {
+    return modes_of(s, std::clamp(modes, 1, modes_measured(s).value_or(most_modes)));
+}
+
+double at_start(const std::vector<double>& weights, const std::vector<double>& y) {
+    return std::inner_product(weights.begin(), weights.end(), y.begin(), 0.0);
+}
+
+double pressed(double eta, double k, double exponent) {
+    return eta > 0 ? k * std::pow(eta, exponent + 1) / (exponent + 1) : 0;
+}
+
+double stored(const Modes& modes, const std::vector<double>& y, const LumpedBarrier& b) {
+    return pressed(b.height - at_start(footprint_weights(modes, b.position, b.width), y), b.stiffness.k, b.exponent);
+}
+
+double stored(const Modes& modes, const std::vector<double>& y, const ProfileBarrier& b) {
+    constexpr int parts = 256;
+    double energy = 0;
+    for (const LumpedBarrier& part : lumped(b, middles(b, parts), (b.to - b.from) / parts))
+        energy += pressed(part.height - at_start(displacement_weights(modes, part.position), y), part.stiffness.k, part.exponent);
+    return energy;
+}
+
+double available_energy(const String& s, const Modes& modes) {
+    const std::vector<double> y = initial_displacement(modes, s);
+    double energy = 0, stretch = 0;  // stretch: integral of y'^2 [m]
+    for (int i = 0; i < modes.count(); ++i) {
+        energy += 0.5 * modes.mass * modes.omega0[i] * modes.omega0[i] * y[i] * y[i];
+        stretch += 0.5 * s.length * modes.beta[i] * modes.beta[i] * y[i] * y[i];
+    }
+    energy += s.axial_stiffness * stretch * stretch / (8 * s.length);
+    for (const Barrier& barrier : s.barriers) energy += std::visit([&](const auto& b) { return stored(modes, y, b); }, barrier);
+    if (const auto& t = s.thread) {
+        const double lag = t->height - at_start(footprint_weights(modes, t->position, t->width), y);
+        energy += 0.5 * t->stiffness * lag * lag;
+    }
+    if (const auto& p = s.pluck)
+        energy += 2 * p->amplitude * p->amplitude * static_compliance(modes, footprint_weights(modes, p->position, p->width));
+    return energy;
+}
+
+double bound_squared(const Tap& tap, const String& s, const Modes& modes, double energy) {
+    switch (tap.quantity) {
+        case Quantity::displacement: return 2 * energy * static_compliance(modes, displacement_weights(modes, tap.position));
+        case Quantity::nut_force: return 2 * energy * static_compliance(modes, nut_force_weights(modes, s));
+        case Quantity::velocity: {
+            const std::vector<double> w = displacement_weights(modes, tap.position);
+            return 2 * energy * at_start(w, w) / modes.mass;
+        }
+        default: return unknown;
+    }
+}
+}  // namespace
+
+double available_energy(const Scene& scene, int modes) {
+    if (scene.body && !scene.body->modes.empty()) return unknown;
+    double energy = 0;
+    for (const String& s : scene.strings) energy += available_energy(s, carried(s, modes));
+    return energy;
+}
+
+std::vector<double> tap_bounds(const Scene& scene, int modes) {
+    std::vector<double> squared(scene.taps.size(), 0.0);
+    const double energy = available_energy(scene, modes);
+    for (int a = 0; a < static_cast<int>(scene.strings.size()); ++a) {
+        const String& s = scene.strings[a];
+        const Modes m = carried(s, modes);
+        for (std::size_t k = 0; k < squared.size(); ++k)
+            if (hears(scene.taps[k], scene, a)) squared[k] += bound_squared(scene.taps[k], s, m, energy);
+    }
+    for (double& b : squared) b = std::isfinite(b) && b > 0 ? std::sqrt(b) : unknown;
+    return squared;
 }
 
 }  // namespace jvari

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "scenes/bounds.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/wording.hpp"
 #include "schemes/looks.hpp"
 #include "schemes/making.hpp"

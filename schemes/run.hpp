@@ -32,7 +32,7 @@ struct Run {
 };
 
 // A run whose stored energy exceeds this many times what was there at the start and has been supplied since has diverged. So has one with a
-// value that is not finite, or a tap beyond what as many times the scene's own energy could make of it (tap_bounds, scenes/bounds.hpp): a
+// value that is not finite, or a tap beyond what as many times the scene's own energy could make of it (tap_bounds, scenes/excitation.hpp): a
 // scheme may tell no energy, or beyond its limit keep an indefinite one constant to rounding while the string flies off. Status and rows are
 // the same whether the energy is kept or not (looks.hpp).
 constexpr double energy_budget = 10;

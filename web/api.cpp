@@ -16,6 +16,7 @@
 #include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/wording.hpp"
+#include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 #include "web/json.hpp"
@@ -139,7 +140,7 @@ JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, dou
 }
 
 JV const char* jv_about(const Kept* k) {
-    return (said = run_text(k->run, k->scene, k->settings, k->promised)).c_str();
+    return (said = run_text(k->run, k->scene, modes_for(k->scene, k->settings), k->promised)).c_str();
 }
 JV const double* jv_tap(const Kept* k, int tap) {
     return k->run.trace.column(tap).data();

@@ -166,8 +166,8 @@ std::string problem_text(const Scene& scene, const Settings& settings) {
     return o.text();
 }
 
-std::string run_text(const Run& r, const Scene& scene, const Settings& settings, Balance promised) {
-    const Figures figures = figures_of(promised, scene, settings, r);
+std::string run_text(const Run& r, const Scene& scene, int modes, Balance promised) {
+    const Figures figures = figures_of(promised, scene, modes, r);
     const auto fact = [](const Fact& f) { return Object().with("name", f.name).with("value", f.value).with("unit", f.unit).text(); };
     return Object()
         .with("outcome", name_of(r.status.outcome))

@@ -9,10 +9,10 @@
 
 namespace jvari::web {
 
-std::string list_text();                                                            // schemes and references with their options
-std::string scene_text(const Scene&);                                               // what is drawn and moved of it
-std::string problem_text(const Scene&, const Settings&);                            // its modes, contacts, thread, pluck and taps as arrays
-std::string run_text(const Run&, const Scene&, const Settings&, Balance promised);  // how it ended and is judged, its cost here, its facts
-std::string choice_text(const Choice&);                                             // by places
+std::string list_text();                                                      // schemes and references with their options
+std::string scene_text(const Scene&);                                         // what is drawn and moved of it
+std::string problem_text(const Scene&, const Settings&);                      // its modes, contacts, thread, pluck and taps as arrays
+std::string run_text(const Run&, const Scene&, int modes, Balance promised);  // how it ended and is judged, its cost here, its facts
+std::string choice_text(const Choice&);                                       // by places
 
 }  // namespace jvari::web

@@ -20,7 +20,7 @@ int modes_used(const Scene& scene, const Settings& settings, const std::vector<F
 
 Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& settings, const Run& run) {
     Summary s{};
-    static_cast<Figures&>(s) = figures_of(d.balance, scene, settings, run);
+    static_cast<Figures&>(s) = figures_of(d.balance, scene, modes_for(scene, settings), run);
     const bool continuous = d.clock == Clock::continuous;
     s.scheme = d.name;
     s.scene = scene.name;

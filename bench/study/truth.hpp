@@ -4,7 +4,8 @@
 // reference does not take its modes from the cells, nor their compliance: unless one was asked for it is matched where the reference can
 // carry that, which is nearer with the same modes. From those below 20 kHz, and from the points that stand for a profile unasked, both are
 // doubled until what is still left out moves the headline figure by less than `settled`, or until the next doubling would cost more than
-// `budget`. compare and suite do this alike, and alike at every point of a sweep.
+// `budget`. Where that was too hopeful and a doubling computes for a minute, what was known before it stands. compare and suite do this
+// alike, and alike at every point of a sweep.
 //
 // What the reference leaves out follows from its own doublings, on every tap and window (left_after). Without a doubling and without a
 // certificate its uncertainty is unknown. An error of less than ten times the uncertainty is shown as a bound (bound.hpp).
@@ -17,7 +18,7 @@ namespace jvari::bench::study {
 
 constexpr double settled = 1e-4;  // a tenth of the finest accuracy that the table of the cheapest asks for
 constexpr double budget = 1.5e6;  // [s], of motion times modes^2 times 1 + 2.5 points (or barriers beyond the second) times how dear the
-                                  // reference is: ten to twenty seconds
+                                  // reference is: ten to twenty seconds; of a short or stiff string more than modes^2 (truth.cpp)
 
 // The reference with the modes of the scene. `modes` 0: found by doubling. Else N: with N/4 and N/2 before it, to tell what N leaves out. A
 // stand-in is left as it is. `said` tells how far it went. Throws as run_reference.
