@@ -22,8 +22,6 @@ inline constexpr std::array multiples{1, 2, 4, 8, 16, 32};  // of the tap rate
 inline constexpr double longest = 10;                       // of one judged run [s]
 inline constexpr double judged_over_timed = 4;              // a judged run is probed: it takes at most so much longer
 
-inline constexpr double worth = 0.95;  // what is cheaper costs less than this of the other
-
 struct Found {
     Model model;
     double error, cost;  // worst of the starts; [s of processor per s]

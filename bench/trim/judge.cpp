@@ -246,6 +246,16 @@ double Judge::cost(const Model& m) {
     return cost;
 }
 
+bool Judge::saves(const Model& less, const Model& now) {
+    std::vector<double> of_less, of_now;
+    for (int round = 0; round < 7; ++round) {
+        of_less.push_back(cost_of_(less, scene_of(less)));
+        of_now.push_back(cost_of_(now, scene_of(now)));
+    }
+    const Spread a = spread_of(of_less), b = spread_of(of_now);
+    return a.median <= worth * b.median && a.upper <= b.lower;
+}
+
 std::vector<Spread> Judge::costs(const std::vector<Model>& models, int rounds) {
     std::vector<Scene> scenes;
     std::vector<study::Cell> cells;

@@ -22,6 +22,8 @@
 
 namespace jvari::bench::trim {
 
+inline constexpr double worth = 0.95;  // what is cheaper costs less than this of the other
+
 struct Request {
     std::string scene, measure = "l2_50ms", within, tap, scheme = "any", reference, out;
     std::vector<std::string> set, plugins;  // plugins: their files, which verdicts depend on
@@ -85,7 +87,9 @@ public:
     bool certain(int start);
     // Error and certificate together. Of another start whose reference is not certain: the error alone.
     bool within(const Verdict&, int start);
-    double cost(const Model&);                                         // [s of processor per s], least of several; kept
+    double cost(const Model&);  // [s of processor per s], least of several; kept
+    // Cheaper than `now` by a twentieth and by more than the clock scatters, both timed anew in turn.
+    bool saves(const Model& less, const Model& now);
     std::vector<Spread> costs(const std::vector<Model>&, int rounds);  // processor time, models in turn: what is quoted
 
     int judged() const { return keep_.ran; }

@@ -51,6 +51,7 @@ void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener&
             const auto found = s.of_variant({now.model.scheme, now.model.settings.options}, left_out, rate / 2, rate * 2, worth * now.cost);
             if (!found || found->cost > worth * now.cost) continue;
             const bool gone = left_out.size() > now.model.left_out.size();
+            if (gone && !s.judge().saves(found->model, now.model)) continue;
             const std::string said = s.judge().reductions()[c.part].said();
             now = *found;
             path.steps.push_back({gone ? said : "put back: " + said, now.model, now.error, now.cost, true});
