@@ -6,6 +6,8 @@
 namespace jvari {
 
 namespace {
+constexpr double a_tie = 1.2;  // of the least cost: what is dearer is no tie, however the clock scatters
+
 std::optional<std::size_t> least(std::span<const Offer> offers, const auto& which, double Offer::*value) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < offers.size(); ++i)
@@ -36,10 +38,14 @@ double at_least(double error, double uncertainty) {
 Choice cheapest_within(double accuracy, std::span<const Offer> offers) {
     const auto met = [=](const Offer& o) { return o.most <= accuracy; };
     const auto cheapest = least(offers, met, &Offer::cost);
-    const auto tied = [&](const Offer& o) { return met(o) && o.lower <= offers[*cheapest].upper; };
+    const auto tied = [&](const Offer& o) {
+        return met(o) && o.lower <= offers[*cheapest].upper && o.cost < a_tie * offers[*cheapest].cost;
+    };
     const auto best = least(offers, tied, &Offer::most);
     const auto perhaps = [&](const Offer& o) { return !met(o) && o.least <= accuracy && (!best || o.cost < offers[*best].cost); };
-    return {best, best ? other_schemes(offers, best, tied) : std::vector<std::size_t>(), other_schemes(offers, best, perhaps)};
+    std::vector<std::size_t> ties = best ? other_schemes(offers, best, tied) : std::vector<std::size_t>();
+    if (best && best != cheapest && offers[*best].scheme == offers[*cheapest].scheme) ties.insert(ties.begin(), *cheapest);
+    return {best, std::move(ties), other_schemes(offers, best, perhaps)};
 }
 
 }  // namespace jvari

@@ -32,8 +32,9 @@ bool is_grid(const store::Table& cells, std::size_t row) {
 
 std::optional<std::size_t> least(const store::Table& cells, const store::Rows& rows, const std::string& column) {
     std::optional<std::size_t> best;
+    const auto shown = [&](std::size_t i) { return bound_of(cells, i, column).shown(); };
     for (const std::size_t i : rows)
-        if (const double x = cells.number(i, column); std::isfinite(x) && (!best || x < cells.number(*best, column))) best = i;
+        if (std::isfinite(shown(i)) && (!best || shown(i) < shown(*best))) best = i;
     return best;
 }
 
@@ -106,7 +107,9 @@ std::string of_the_compliance(const store::Table& cells, const store::Rows& rows
     const auto matched = [&](std::size_t i) { return cells.at(i, "options").find("compliance=matched") != std::string::npos; };
     const auto has_both = [&](const Descriptor& d) { return d.name == cells.at(row, "scheme") && declares(d, compliance_option.name); };
     const bool touched = cells.number(row, facts::deepest_penetration.name) > 0;
-    if (!touched || std::ranges::any_of(rows, matched) || std::ranges::none_of(schemes(), has_both)) return "";
+    const bool measured =
+        cells.column("reference_doubling") >= 0 && cells.at(row, "reference_doubling").find("not in your table") != std::string::npos;
+    if (!touched || measured || std::ranges::any_of(rows, matched) || std::ranges::none_of(schemes(), has_both)) return "";
     return " compliance=matched was not run.";
 }
 
@@ -129,6 +132,12 @@ std::string percent(double share) {
     return share >= 0.0995 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
 }
 
+std::string quoted(const Bound& b, const std::string& measure) {
+    const bool bounded = b.says() == Bound::Says::at_most || b.says() == Bound::Says::unknown;
+    const std::string text = measure.starts_with("third_octave_db") ? fmt::format("{:.2g} dB", b.shown()) : percent(b.shown());
+    return (bounded ? "\u2264 " : "") + text;
+}
+
 std::string time_text(double seconds) {
     return seconds >= 0.995 ? fmt::format("{:.2g} s", seconds) : fmt::format("{:.3g} ms", 1e3 * seconds);
 }
@@ -137,7 +146,7 @@ std::string why_none(const store::Table& cells, const store::Rows& rows, const s
     const auto best = least(cells, rows, measure);
     if (!best) return "No run covers the window.";
     const Bound b = bound_of(cells, *best, measure);
-    std::string text = fmt::format("Closest: {}, {} error.", store::run_name(cells, *best), percent(b.error));
+    std::string text = fmt::format("Closest: {}, {} error.", store::run_name(cells, *best), quoted(b, measure));
     if (b.floor > most) {
         text += fmt::format(" A change of the start by 1e-12 alone makes {}.", percent(b.floor));
     } else if (b.certificate > most) {

@@ -107,7 +107,8 @@ std::vector<Form> forms_of(const CompareRequest& r, const Descriptor& d, const S
     std::vector<Form> forms;
     for (const OptionValues& values : asked_of(r.options, d, used)) forms.push_back({values, rates});
     const bool compliance = sets(forms.front().options, compliance_option);
-    const bool has_both = d.clock != Clock::continuous && declares(d, compliance_option.name) && touched(scene);
+    const bool measured = std::ranges::any_of(scene.strings, [](const String& s) { return modes_measured(s).has_value(); });
+    const bool has_both = d.clock != Clock::continuous && declares(d, compliance_option.name) && touched(scene) && !measured;
     if (!r.search || !r.reference_modes || compliance || !has_both) return forms;
     std::vector<Form> all;
     for (const Form& form : forms)

@@ -29,7 +29,8 @@ constexpr double patience = 60;  // [s] of processor, for one run that doubles t
 
 struct Size {
     int modes, points;  // points of a profile; 0: none, or they were asked for
-    Size twice() const { return {2 * modes, 2 * points}; }
+    Size twice(int most) const { return {std::min(2 * modes, most), 2 * points}; }
+    bool operator==(const Size&) const = default;
     std::string text() const { return fmt::format("{} modes", modes) + (points > 0 ? fmt::format(" and {} points", points) : ""); }
 };
 
@@ -54,11 +55,22 @@ bool within_budget(const Descriptor& reference, const Scene& scene, const Size& 
     return s.points <= most_points && s.modes <= most_modes_found && work * dearness(reference, scene) <= budget;
 }
 
-// Modes below 20 kHz, and the points that a reference takes unasked.
+// Of a scene whose strings are tables of measured modes: those tables are the strings, and no further mode is left out of them.
+std::optional<int> measured(const Scene& scene) {
+    std::optional<int> all;
+    for (const String& s : scene.strings) {
+        const auto modes = modes_measured(s);
+        if (!modes) return {};
+        all = std::min(all.value_or(*modes), *modes);
+    }
+    return all;
+}
+
+// Modes below 20 kHz, or all that were measured, and the points that a reference takes unasked.
 Size first_size(const Scene& scene, const OptionValues& options) {
     const bool asked = std::any_of(options.begin(), options.end(), [](const auto& o) { return o.first == std::string(nodes_option.name); });
     const bool profile = needed_by(scene).any(any_profile);
-    return {modes_for(scene, {}), profile && !asked ? std::stoi(nodes_option.fallback) : 0};
+    return {measured(scene).value_or(modes_for(scene, {})), profile && !asked ? std::stoi(nodes_option.fallback) : 0};
 }
 
 ReferenceChoice sized(ReferenceChoice choice, const Size& s) {
@@ -92,8 +104,33 @@ trust::Trust trust_of(const trust::Trust& solved, const Reference& last, const s
             t.left_out[k][w] = covered ? left_after(changed(more, fewer), before, is_matched(last.choice.settings.options)) : store::nan;
             if (std::isnan(t.figure[k][w]) && covered) t.figure[k][w] = changed(last.moved, more);  // beyond the certificate, too
         }
-    t.doubled = of.points > 0 ? "modes and points" : "modes";
+    t.doubled = of.points == 0                                                       ? "modes"
+                : last.choice.settings.modes == coarser.back().choice.settings.modes ? "points"
+                                                                                     : "modes and points";
     return t;
+}
+// What another solver makes of the same modes: how far a table of modes is solved. Over 50 ms where the whole would take it too long.
+void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store::Listener& listener, double time_limit) {
+    if (r.trust.any() || r.choice.scheme->name == std::string_view(sundials.name) || !represents(sundials, scene)) return;
+    const double from = free_from(scene);
+    if (!within_budget(sundials, scene, size)) scene.duration = std::min(scene.duration, from + 50e-3);
+    if (!within_budget(sundials, scene, size)) return;
+    ReferenceChoice other = sized(r.choice, size);
+    other.scheme = &sundials;
+    std::erase_if(other.settings.options, [](const auto& o) { return o.first != std::string(nodes_option.name); });
+    const Run run = run_reference({other}, scene, jobs, listener, time_limit, true).run;
+    const double until = static_cast<double>(run.trace.rows - 1) / run.trace.tap_rate - from;
+    const bool whole = run.trace.rows == r.run.trace.rows;
+    for (int k = 0; k < run.trace.taps(); ++k) {
+        auto& figure = r.trust.figure.emplace_back();
+        for (std::size_t w = 0; w < figure.size(); ++w) {
+            const double end = std::array{10e-3, 50e-3, HUGE_VAL}[w];
+            const bool covered = w == 2 ? whole : end <= until + 1e-6;
+            figure[w] = covered ? change(r.run, run, k, from, end) : store::nan;
+        }
+    }
+    r.trust.against = sundials.name;
+    r.trust.missing.clear();
 }
 }  // namespace
 
@@ -123,8 +160,11 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     const std::size_t window = std::isinf(end) ? 2 : end >= 50e-3 ? 1 : 0;
     Size size{choice.settings.modes, find ? first_size(scene, choice.settings.options).points : 0};
     double unsettled = HUGE_VAL;  // by what is left out of the headline figure
-    const auto next = [&] { return find ? size.twice() : Size{size.modes < modes / 2 ? modes / 2 : modes, 0}; };
-    while (find ? unsettled >= settled && within_budget(*choice.scheme, scene, next()) : size.modes < modes) {
+    const auto all = find ? measured(scene) : std::nullopt;
+    const auto next = [&] {
+        return find ? size.twice(all.value_or(2 * most_modes_found)) : Size{size.modes < modes / 2 ? modes / 2 : modes, 0};
+    };
+    while (find ? unsettled >= settled && next() != size && within_budget(*choice.scheme, scene, next()) : size.modes < modes) {
         Reference more;
         try {
             more = run_reference({sized(choice, next())}, scene, jobs, listener, find ? std::min(time_limit, patience) : time_limit);
@@ -146,14 +186,27 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         truth.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
     }
     truth.said = size.text() + (is_matched(choice.settings.options) ? ", compliance matched" : "");
+    if (all) {
+        double highest = HUGE_VAL;
+        for (const String& s : scene.strings) highest = std::min(highest, std::get<TableDamping>(s.damping).frequency_hz[*all - 1]);
+        truth.said += fmt::format(", all that were measured: what lies above {:.2g} kHz is not in your table", highest / 1000);
+    }
     if (!truth.coarser.empty()) {
         truth.said += fmt::format("; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
                                   std::isinf(end) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end),
                                   change(truth.reference.run, truth.coarser.back().run, tap, from, end));
     }
-    if (find && unsettled >= settled)
-        truth.said += truth.coarser.empty() ? "; twice as many would take too long, so what they leave out is unknown"
-                                            : "; twice as many would take too long";
+    const bool profile = needed_by(scene).any(any_profile);
+    if (all && !profile) {
+        confirm(truth.reference, scene, size, jobs, listener, time_limit);
+    } else if (find && unsettled >= settled) {
+        truth.said += "; twice as many would take too long";
+        if (truth.coarser.empty()) truth.said += ", so what they leave out is unknown";
+        else if (size.points > 0)
+            truth.said += fmt::format(". With {} points of the profile it is known to {:.2g} %: --option {}:nodes={} takes more",
+                                      size.points, 100 * unsettled, choice.scheme->name, 2 * size.points);
+        if (profile) truth.said += "; a shorter --duration lets more points be tried";
+    }
     return truth;
 }
 

@@ -139,6 +139,16 @@ TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
     EXPECT_TRUE(says(bench::compare::cheapest_text(t), "within 0.1 %   none. Closest: a, 10 modes"));
 }
 
+TEST(Cheapest, NamesWhatTheClockCannotTellFromItAndNoneThatCosts1_2TimesTheLeast) {
+    bench::store::Table cells = cells_of(
+        {{"a", "44100", "", "0.009", "0", "", 1}, {"a", "88200", "", "0.004", "0", "", 1.09}, {"a", "176400", "", "0.001", "0", "", 1.3}});
+    for (auto& row : cells.rows) row[static_cast<std::size_t>(cells.column("cost_lower"))] = "0.5";  // a busy clock
+    const bench::store::Table t = bench::compare::cheapest_of(cells);
+    EXPECT_EQ(t.at(1, "rate"), "88200");
+    EXPECT_EQ(t.at(1, "ties"), "a, 10 modes at 44.1 kHz");  // of the same scheme
+    EXPECT_TRUE(says(bench::compare::cheapest_text(t), "a tie with a, 10 modes at 44.1 kHz"));
+}
+
 TEST(Cheapest, NamesEachTieWithItsOwnRateWhereOneHasNone) {
     const bench::store::Table t = bench::compare::cheapest_of(cells_of(
         {{"a", "44100", "", "0.05", "0", "", 1}, {"exact", "", "", "0.05", "0", "", 1.01}, {"b", "88200", "", "0.05", "0", "", 1.02}}));
@@ -181,7 +191,8 @@ TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
     EXPECT_EQ(t.at(1, "error"), "0.0088");
     EXPECT_NEAR(t.number(1, "bound"), 0.0098, 1e-15);
     EXPECT_EQ(t.at(1, "perhaps"), "a, 10 modes at 0.1 kHz");
-    EXPECT_EQ(t.at(2, "status"), "not_known");  // 0.1 %: d is within 0.15 %
+    EXPECT_TRUE(says(bench::compare::cheapest_text(t), "b, 10 modes at 0.1 kHz, \u2264 0.98 %, 2 s per s"));  // as the page has it
+    EXPECT_EQ(t.at(2, "status"), "not_known");                                                                // 0.1 %: d is within 0.15 %
     EXPECT_EQ(t.at(2, "scheme"), "");
     EXPECT_EQ(t.at(2, "perhaps"), "d, 10 modes at 0.1 kHz");
     EXPECT_EQ(t.at(2, "why"), "the reference is known to 0.1 % only");
@@ -719,7 +730,8 @@ TEST(Search, ACellIsLeftOutWhereOneThatSurelyCostsLessDoesAsWell) {
     EXPECT_FALSE(failed[2].needed);
 }
 
-TEST(Truth, SaysTheModesThatItHasWhereNoMoreWereMeasured) {
+// A table of measured modes is the string: nothing is left out of it, and another solver tells how far it is solved.
+TEST(Truth, OfMeasuredModesHasAllOfThemAndIsConfirmedByAnotherSolver) {
     Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.005);
     String& s = scene.strings.front();
     const Modes modes = modes_of(s, 200);
@@ -732,8 +744,13 @@ TEST(Truth, SaysTheModesThatItHasWhereNoMoreWereMeasured) {
     std::vector<bench::study::ReferenceChoice> references = plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
     for (auto& c : references) c.kept = false;
     const auto truth = bench::study::run_truth(references, scene, 0, 1, bench::store::Listener());
-    EXPECT_EQ(truth.reference.choice.settings.modes, 133);
-    EXPECT_EQ(truth.said.rfind("133 modes", 0), 0u) << truth.said;
+    EXPECT_EQ(truth.reference.choice.settings.modes, 200);
+    EXPECT_EQ(truth.reference.choice.settings.options, OptionValues());
+    EXPECT_TRUE(says(truth.said, "200 modes, all that were measured: what lies above")) << truth.said;
+    EXPECT_FALSE(says(truth.said, "too long")) << truth.said;
+    EXPECT_EQ(truth.reference.trust.against, "sundials");
+    EXPECT_GT(truth.reference.trust.of_scene(0, 2), 0);
+    EXPECT_LT(truth.reference.trust.of_scene(0, 2), 1e-6);
 }
 
 }  // namespace

@@ -181,6 +181,12 @@ test("the legend has what is drawn and nothing else", () => {
 });
 
 // ---- The verdict
+test("errors of a plucked string are said to be of what follows the pluck: title, card and axis", () => {
+    for (const [from, said] of [["0", false], ["0.05", true]]) {
+        const of = of_cells(`scene,${sample_head},certificate_l2_50ms,free_from_s\n` + sample_rows.map(row => `s,${row},1e-9,${from}\n`).join("")), [v] = of("verdicts()");
+        for (const text of [v.finding, v.answers[0].within, of("errors_in(cells())")[0].title]) assert.equal(text.includes(" after the last pluck"), said, text);
+    }
+});
 test("the verdict names scheme, rate, error, cost and certainty of each scene", () => {
     const verdicts = whole()("verdicts()");
     assert.deepEqual(verdicts.map(v => v.scene), problems);

@@ -63,7 +63,7 @@ std::string by_other_taps(const store::Table& cells, const store::Rows& rows, co
         const Goal same{column, goal.most};
         if (const auto i = least_cost(cells, rows, [&](std::size_t k) { return same.met(cells, k); }))
             text += fmt::format("{} by {}: {}, {}", text.empty() ? ";" : ",", column.substr(goal.measure.size() + 1),
-                                store::run_name(cells, *i), percent(bound_of(cells, *i, column).most()));
+                                store::run_name(cells, *i), quoted(bound_of(cells, *i, column), column));
     }
     return text;
 }
@@ -90,9 +90,7 @@ bool is_unsure(const store::Table& cells, const store::Rows& rows) {  // whateve
 
 std::string published_text(const store::Table& cells, std::optional<std::size_t> row, const Goal& goal) {
     if (!row) return "none";
-    const double error = cells.number(*row, goal.measure);
-    return fmt::format("{}, {}, {:.3g} s per s", store::run_name(cells, *row),
-                       goal.measure == "third_octave_db" ? fmt::format("{:.2g} dB", error) : percent(error),
+    return fmt::format("{}, {}, {:.3g} s per s", store::run_name(cells, *row), quoted(bound_of(cells, *row, goal.measure), goal.measure),
                        cells.number(*row, "cost_s_per_s"));
 }
 
@@ -186,11 +184,9 @@ std::string cheapest_text(const store::Table& t) {
         } else if (status == "none") {
             text += why.empty() ? "none\n" : fmt::format("none. {}\n", why);
         } else {
-            const double error = t.number(i, "error");
-            text += fmt::format("{}, {}, {:.3g} s per s{}{}\n", t.at(i, "run"),
-                                t.at(i, "measure") == "third_octave_db" ? fmt::format("{:.2g} dB", error) : percent(error),
-                                t.number(i, "cost_s_per_s"), ties.empty() ? "" : "; a tie with " + ties,
-                                perhaps.empty() ? "" : "; perhaps for less " + perhaps);
+            const Bound b{t.number(i, "error"), t.number(i, "bound") - t.number(i, "error")};
+            text += fmt::format("{}, {}, {:.3g} s per s{}{}\n", t.at(i, "run"), quoted(b, t.at(i, "measure")), t.number(i, "cost_s_per_s"),
+                                ties.empty() ? "" : "; a tie with " + ties, perhaps.empty() ? "" : "; perhaps for less " + perhaps);
             if (!why.empty()) text += fmt::format("    {}\n", why);
             if (const std::string& published = t.at(i, "as_published"); !published.empty())
                 text += fmt::format("    without matched compliance: {}\n", published);

@@ -34,8 +34,9 @@ function finding_of(scene, cheapest, rows) {
 }
 function reference_text(s, rows) {
   const name = page.manifest?.reference?.name ?? rows[0]?.reference ?? "", modes = number(rows[0]?.reference_modes), horizon = number(rows[0]?.reference_horizon_s), certificate = number(s.certificate);
+  const beyond = /what lies above .*? is not in your table/.exec(rows[0]?.reference_doubling ?? "")?.[0];  // its modes were measured
   if (!name) return "";
-  return `Reference: ${name}${Number.isNaN(modes) ? "" : ` with ${modes} modes`}. Its uncertainty is ${Number.isNaN(certificate) ? "unknown" : `${error_text(certificate, s.headline)} in the first error of the table`}.` +
+  return `Reference: ${name}${Number.isNaN(modes) ? "" : ` with ${modes} modes`}. Its uncertainty is ${Number.isNaN(certificate) ? "unknown" : `${error_text(certificate, s.headline)} in the first error of the table`}.` + (beyond ? ` W${beyond.slice(1)}.` : "") +
     (Number.isNaN(horizon) ? "" : ` Two reference runs whose starting points differ by 1e-12 agree within 10 % for ${digits(horizon, 3)} s${after_pluck(rows)}.`);
 }
 function modes_text(rows) {  // schemes that carry another number of modes than the reference: their error is of the cut as well
