@@ -83,14 +83,16 @@ std::string text_for(const RunRequest& r, const Descriptor& d, const study::Summ
     if (!std::isnan(s.deepest_penetration)) line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
     text += facts_text(d, s, scene, r.facts);
     for (const study::Flag& f : study::flags_of(s)) text += "\n! " + f.sentence;
+    if (const std::string untouched = compare::untouched_text(scene, s); !untouched.empty()) text += "\n! " + untouched;
     return text;
 }
 
 Json json_of(const study::Summary& s) {
     Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", name_of(s.status.outcome)}};
     if (s.status.outcome != Outcome::ok) j["step"] = s.status.step;
-    each_figure(s, [&j](const std::string& name, auto figure) {  // NaN becomes null
-        if (name != "processor_seconds") j[name] = figure;       // nobody took them
+    each_figure(s, [&j](const std::string& name, auto figure) {                               // NaN becomes null
+        if (name != "processor_seconds")                                                      // nobody took them
+            j[name == "largest_displacement" ? "displacement_over_allowed" : name] = figure;  // a ratio (`list facts`)
     });
     j["flags"] = Json::object();
     for (const study::Flag& f : study::flags_of(s)) j["flags"][f.name] = f.sentence;

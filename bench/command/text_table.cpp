@@ -149,7 +149,9 @@ std::string headline_text(const store::Table& t, std::size_t width) {
             continue;
         }
         if (status == "refused") {
-            missing += fmt::format("  {} refused: {}\n", store::run_name(t, i), t.at(i, "reason"));
+            const std::string who = store::run_name(t, i), why = " refused: " + t.at(i, "reason") + "\n";
+            if (const auto same = missing.find(why); same != std::string::npos) missing.insert(same, "; " + who);
+            else missing += "  " + who + why;
             continue;
         }
         if (status != "ok") missing += fmt::format("  {} {}\n", store::run_name(t, i), t.at(i, "reason"));

@@ -33,6 +33,8 @@ void describe(Comparison& c, const CompareRequest& request, const study::Referen
     c.against = known.against();
     c.reference_sound = store::sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
     if (!c.reference.note.empty()) listener.note(c.reference.note);
+    if (const std::string untouched = untouched_text(c.scene(), c.reference_summary); !untouched.empty())
+        listener.note("warning: " + untouched);
     if (!c.against.trust.any())
         listener.note(
             c.reference.oversampled

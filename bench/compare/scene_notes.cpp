@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "scenes/barrier.hpp"
 #include "scenes/pitch.hpp"
 
 namespace jvari::bench::compare {
@@ -18,9 +19,21 @@ constexpr double most_start = 0.1;                      // of the length: beyond
 bool plucked(const String& s) {
     return s.pluck && s.pluck->amplitude != 0;
 }
+bool pressed(const String& s) {  // at rest something above or below it pushes or pulls
+    const auto above = [](const LumpedBarrier& b) { return b.height > 0; };
+    const auto somewhere = [](const ProfileBarrier& b) {
+        const auto* table = std::get_if<TableCurve>(&b.curve);
+        const auto is_above = [&](double x) { return height(b.curve, x) > 0; };
+        return is_above(b.from) || is_above(b.to) || (table && std::ranges::any_of(table->height, [](double h) { return h > 0; }));
+    };
+    return (s.thread && s.thread->height != 0) || std::ranges::any_of(s.barriers, [&](const Barrier& b) {
+               const auto* lumped = std::get_if<LumpedBarrier>(&b);
+               return lumped ? above(*lumped) : somewhere(std::get<ProfileBarrier>(b));
+           });
+}
 bool set_in_motion(const String& s, double before) {
     const bool shaped = s.initial && std::visit([](const auto& shape) { return shape.amplitude != 0; }, *s.initial);
-    return shaped || (plucked(s) && s.pluck->start < before);
+    return shaped || pressed(s) || (plucked(s) && s.pluck->start < before);
 }
 }  // namespace
 
@@ -29,6 +42,15 @@ std::string tuning_text(const String& s) {
     const std::string note = note_of(f1);
     return fmt::format("f1 = {:.4g} Hz{}, tension {:.3g} N, inharmonicity {:.2g}", f1, note.empty() ? "" : " (" + note + ")", s.tension,
                        inharmonicity(s));
+}
+
+std::string untouched_text(const Scene& scene, const Figures& run) {
+    const bool any = std::ranges::any_of(scene.strings, [](const String& s) { return !s.barriers.empty(); });
+    if (!any || run.largest_contact_force != 0 || run.deepest_penetration > 0) return "";
+    return fmt::format(
+        "no string of {} touches a barrier in {:g} s, so no contact is in this run. Are height [m], position and the side of "
+        "the start as meant?",
+        scene.name, scene.duration);
 }
 
 void note_scene(const Scene& scene, const store::Listener& listener) {

@@ -150,7 +150,7 @@ TEST(CommandLine, RunReportsEveryKeyOfTheContract) {
     const auto json = nlohmann::json::parse(o.out);
     for (const char* key : {"scheme", "scene", "rate", "modes", "dofs", "steps", "rows", "wall_seconds", "ns_per_step", "times_real_time",
                             "status", "energy_residual_per_step", "energy_residual_accumulated", "smallest_contact_force",
-                            "largest_contact_force", "deepest_penetration", "flags", "facts"})
+                            "largest_contact_force", "deepest_penetration", "displacement_over_allowed", "flags", "facts"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(json.at("rows"), 442);
     EXPECT_EQ(json.at("modes"), 133);
@@ -584,6 +584,18 @@ TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
     EXPECT_EQ(jvari(scratch, sympathetic).err, "") << "its bridge shakes the strings that nobody plucks";
     const Outcome still = jvari(scratch, sympathetic + " --set string.0.initial.amplitude=0");
     EXPECT_TRUE(says(still.err, "string 2 of sitar_sympathetic stays silent"));
+    const std::string rest = "run tanpura_c3 --scheme modal_two_point --duration 0.01 --set string.0.pluck.amplitude=0 --set ";
+    EXPECT_TRUE(says(jvari(scratch, rest + "string.0.barrier.0.height=0").err, "stays silent"));
+    EXPECT_EQ(jvari(scratch, rest + "string.0.barrier.0.height=1e-4").err, "") << "the barrier throws it";
+}
+
+TEST(Untouched, ARunInWhichNoStringTouchesItsBarrierSaysSo) {
+    const Scratch scratch;
+    const std::string settings = " guitar_over_fret --set string.0.barrier.0.height=-0.1 --modes 20 --duration 0.01 ",
+                      said = "touches a barrier in 0.01 s";
+    EXPECT_TRUE(says(jvari(scratch, "run" + settings + "--scheme modal_two_point").out, said));
+    EXPECT_TRUE(
+        says(jvari(scratch, "compare" + settings + "--schemes modal_two_point --rates 44100 --reference-modes 20 --repeats 1").err, said));
 }
 
 TEST(Quiet, SaysNothingButErrors) {
