@@ -31,18 +31,19 @@
 
 namespace jvari::bench::check {
 
+bool is_as_the_scene_says(const Descriptor& d, const Scene& scene) {
+    const Features needed = needed_by(scene);
+    return represents(d, scene) && needed - approximated(d) == needed;
+}
+
 namespace {
-constexpr double as_good_as_none = 1e-6, what_modes_leave_out = 5e-5, what_nodes_leave_out = 1e-2, at_a_point = 1e-3, owed_fall = 1.0 / 3;
+constexpr double as_good_as_none = 1e-6, at_a_point = 1e-3, owed_fall = 1.0 / 3;
 constexpr double error_of_a_reference = 1e-5;
 constexpr int scenes_wanted = 3, claim_modes = 100, truth_modes = 400;
 constexpr double soft = 300;             // [N/m]: the string itself is 160 N/m under a steady force there
 constexpr double instant_allowed = 0.1;  // of a step
 constexpr double exact_allowed = 1e-9;   // error of a mode whose frequency is right to the last digits
 
-bool is_as_the_scene_says(const Descriptor& d, const Scene& scene) {  // nothing of it approximated
-    const Features needed = needed_by(scene);
-    return represents(d, scene) && needed - approximated(d) == needed;
-}
 bool has(const Descriptor& d, Feature feature) {
     return (d.represents - approximated(d)).has(feature);
 }

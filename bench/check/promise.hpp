@@ -1,8 +1,8 @@
 // What every scheme owes the program: the one list of promises. `jvari check` asks them of a scheme, the tests ask them of all.
 //
 // A promise is asked on every scene that the scheme represents, on every scene that it does not, or once. Claims in numbers rest on all
-// others, and are asked where these are kept: so what breaks a promise fails by its name. The last rests on the claims before it as well: a
-// scheme that moves otherwise than the scene is at no instant of it.
+// others, and are asked where these are kept: so what breaks a promise fails by its name. The last two rest on the claims before them as
+// well: a scheme that moves otherwise than the scene is at no instant of it, and answers no number of it.
 // tests/contract_plugins has a scheme for each that breaks it and keeps all others.
 #pragma once
 
@@ -80,9 +80,11 @@ Verdict never_pulls(const Case&);
 Verdict partials_are_its_own_relations(const Case&);
 Verdict writes_rows_at_their_instants(const Case&);
 Verdict converges_to_the_reference(const Case&);
+Verdict feels_every_number(const Case&);
 Verdict stays_sound_over_a_map(const Case&);
 
 Settings settings_for(const Descriptor&, const Scene&);
+bool is_as_the_scene_says(const Descriptor&, const Scene&);    // it represents it, and approximates nothing of it
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
 Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it
 

@@ -36,6 +36,7 @@ constexpr Promise all[] = {
     {"StaysSoundOverAMap", "neither diverges nor gains energy at 20 points of a map", once_all_others_are_kept, stays_sound_over_a_map},
     {"WritesEachRowAtItsInstant", "writes each row at its instant, to a tenth of a step", once_all_before_are_kept,
      writes_rows_at_their_instants},
+    {"FeelsEveryNumber", "answers a change of each number of a scene as the reference does", once_all_before_are_kept, feels_every_number},
 };
 
 // The one list of what is known to be broken.

@@ -1,0 +1,246 @@
+// A scheme answers a change of each number of a scene as the reference does.
+//
+// Every scene of scenes_of_numbers() is cut down to what the scheme represents. It is run as it is, and then with each number changed by a
+// tenth; the change of each tap is compared with the change of the reference's tap. A wrong number that the motion hardly shows stands out
+// there, because everything else cancels.
+//
+// What may differ follows from the scheme's own convergence. It runs at 3, 5 and 8 times 44.1 kHz, with modes or nodes in proportion. An
+// error that falls as slowly as ConvergesToTheReference allows, to a third at 8 times the rate, is at most |a(r) - a(8)|/((8/r)^p - 1) at 8
+// times 44.1 kHz, with 8^p = 3. Three rates that are no multiples of each other, because a delay line rounds to the same length at
+// multiples. With contacts the error of the motion itself counts as well: a contact that begins within a step errs by an amount that
+// jumps with the instant, so errors of two runs need not cancel. So does the gap that a scheme reports of its contacts' state. A grid nears the whole string, and the
+// reference has some modes. Nodes of a profile add what they leave out (scenes.hpp).
+#include <fmt/core.h>
+
+#include <cmath>
+#include <complex>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <set>
+
+#include "bench/check/numbers.hpp"
+#include "bench/check/promise.hpp"
+#include "bench/check/scenes.hpp"
+#include "reference/references.hpp"
+#include "scenes/modes.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
+
+namespace jvari::bench::check {
+
+namespace {
+constexpr int rates[] = {3, 5, 8}, coarse = 3, fine = 8;  // times 44.1 kHz
+constexpr int modes_each = 6;                             // times as many
+constexpr double as_good_as_the_same = 1e-6;              // of a tap: so much is as good as no error
+constexpr Features with_events = Feature::lumped_barrier | Feature::profile_barrier | Features(Feature::rigid_profile);
+
+Settings at(const Descriptor& d, int times) {
+    Settings s{times * contract_tap_rate, contract_tap_rate, times * modes_each, {}};
+    if (declares(d, "cells")) s.options = {{"cells", std::to_string(256 * times)}};
+    return s;
+}
+
+// What of a scene a scheme represents as it is.
+Scene as_far_as(const Descriptor& d, Scene scene) {
+    const Features f = d.represents - approximated(d);
+    for (String& s : scene.strings) {
+        if (!f.has(Feature::bending_stiffness)) s.bending_stiffness = 0;
+        if (!f.has(Feature::tension_modulation)) s.axial_stiffness = 0;
+        if (!f.has(Feature::damping)) s.damping = NoDamping{};
+        if (auto* p = std::get_if<PolynomialDamping>(&s.damping); p && !f.has(Feature::frequency_dependent_damping))
+            p->sigma1 = p->sigma3 = 0;
+        if (!f.has(Feature::thread)) s.thread.reset();
+        if (!f.has(Feature::initial_shape)) s.initial.reset();
+        if (!f.has(Feature::pluck)) s.pluck.reset();
+        if (!f.has(Feature::polarisation)) s.polarisation.reset();
+        std::erase_if(s.barriers, [f](const Barrier& b) {
+            return !f.has(std::holds_alternative<LumpedBarrier>(b) ? Feature::lumped_barrier
+                          : is_rigid(b)                            ? Feature::rigid_profile
+                                                                   : Feature::profile_barrier) ||
+                   (is_rigid(b) && std::holds_alternative<LumpedBarrier>(b) && !f.has(Feature::rigid_barrier));
+        });
+        if (!f.has(Feature::several_barriers) && s.barriers.size() > 1) s.barriers.resize(1);
+        for (Barrier& b : s.barriers)
+            std::visit(
+                [f](auto& one) {
+                    if (!f.has(Feature::power_law_contact)) one.exponent = 1;
+                    if (!f.has(Feature::contact_loss)) one.contact_loss = 0;
+                },
+                b);
+    }
+    if (!f.has(Feature::moving_body)) scene.body.reset();
+    std::erase_if(scene.taps, [&scene](const Tap& t) { return lacks(scene.strings[*t.string], t.quantity) != nullptr; });
+    return scene;
+}
+
+// A limp string without losses whose two planes its end at x = 0 turns at each reflection: both waves of d'Alembert.
+Trace turning(const Scene& scene, long rows) {
+    Trace t;
+    t.tap_rate = contract_tap_rate;
+    t.rows = t.stride = rows;
+    const String& s = scene.strings.front();
+    const double speed = std::sqrt(s.tension / s.linear_density);
+    const Modes modes = modes_of(s, 400);
+    const auto shape = initial_displacement(modes, s);
+    const auto wave = [&](double x) {  // of the vertical plane, where the shape is in a plane of angle 0
+        std::complex<double> turned = std::polar(0.5, s.polarisation->pluck_angle);
+        for (; x < 0 || x > s.length; turned = -turned)
+            if (x < 0) x = -x, turned *= std::polar(1.0, s.polarisation->rotation);
+            else x = 2 * s.length - x;
+        double y = 0;
+        for (int i = 0; i < modes.count(); ++i) y += shape[i] * std::sin(modes.beta[i] * x);
+        return y * turned.real();
+    };
+    for (const Tap& tap : scene.taps) {
+        t.names.push_back(tap.name);
+        for (long n = 0; n < rows; ++n) {
+            const double way = speed * static_cast<double>(n) / contract_tap_rate;
+            t.tap.push_back(wave(tap.position - way) + wave(tap.position + way));
+        }
+    }
+    return t;
+}
+
+const Trace* truth_for(const Descriptor& d, const Scene& scene, int times = fine) {  // nullptr: none
+    static std::mutex mutex;
+    static std::map<std::string, Trace> known;
+    const std::scoped_lock lock(mutex);
+    if (needed_by(scene).has(Feature::polarisation)) {
+        const auto [at, is_new] = known.try_emplace(scene_hash(scene));
+        if (is_new) at->second = turning(scene, rows_of(scene, {0, contract_tap_rate, 0, {}}));
+        return &at->second;
+    }
+    for (const Descriptor& reference : references()) {
+        const Settings settings = at(reference, times);
+        if (std::string(reference.name) == d.name || (needed_by(scene) - Feature::profile_barrier).any(approximated(reference)) ||
+            !takes(reference, scene, settings))
+            continue;
+        const auto [at, is_new] = known.try_emplace(scene_hash(scene) + reference.name + std::to_string(times));
+        if (is_new) at->second = run(reference, scene, settings).trace;
+        return &at->second;
+    }
+    return nullptr;
+}
+
+using Levels = std::vector<jvari::Run>;  // of each of `rates`
+
+double norm(std::span<const double> a) {
+    double sum = 0;
+    for (const double x : a) sum += x * x;
+    return std::sqrt(sum);
+}
+std::vector<double> less(std::span<const double> a, std::span<const double> b) {
+    std::vector<double> c;
+    for (std::size_t n = 0; n < std::min(a.size(), b.size()); ++n) c.push_back(a[n] - b[n]);
+    return c;
+}
+// The error at the last rate, at most.
+template <class At>
+double own_error(At at) {
+    const double order = std::log(3.0) / std::log(8.0);
+    double most = 0;
+    for (const int i : {0, 1}) most = std::max(most, norm(less(at(i), at(2))) / (std::pow(double(fine) / rates[i], order) - 1));
+    return most;
+}
+
+class Felt {  // of one scene by one scheme
+public:
+    Felt(const Descriptor& d, Scene scene) : d_(d), scene_(std::move(scene)) {
+        if (!usable(scene_) || !truth_for(d_, scene_)) return;
+        truth_ = levels_of_truth(scene_);
+        before_ = levels(scene_);
+    }
+    int asked() const { return asked_; }
+
+    std::string wrong() {  // "": nothing
+        if (before_.empty()) return "";
+        if (std::string found = compared(scene_, "as it is", truth_, before_, true); !found.empty()) return found;
+        for (int which = 0;; ++which) {
+            auto other = changed(scene_, which);
+            if (!other) return "";
+            if (!usable(other->scene)) other = changed(scene_, which, true);
+            if (other->key == "duration" || !usable(other->scene) || !truth_for(d_, other->scene)) continue;
+            ++asked_;
+            if (std::string found = compared(other->scene, other->key, levels_of_truth(other->scene), levels(other->scene), false);
+                !found.empty())
+                return found;
+        }
+    }
+
+private:
+    bool usable(const Scene& s) const {
+        try {
+            validate(s);
+        } catch (const BadScene&) {  // a number that another one bounds
+            return false;
+        }
+        return is_as_the_scene_says(d_, s) && std::ranges::all_of(rates, [&](int times) { return takes(d_, s, at(d_, times)); });
+    }
+    Levels levels(const Scene& s) const {
+        Levels all;
+        for (const int times : rates) all.push_back(times == fine || d_.clock == Clock::stepped ? run(d_, s, at(d_, times)) : jvari::Run{});
+        return all;
+    }
+    // Of a reference with cells, which errs by about one of them, each; of any other the last.
+    std::vector<const Trace*> levels_of_truth(const Scene& s) const {
+        std::vector<const Trace*> all;
+        for (const int times : rates) all.push_back(truth_for(d_, s, needed_by(s).has(Feature::rigid_profile) ? times : fine));
+        return all;
+    }
+    std::string compared(const Scene& other, const std::string& key, const std::vector<const Trace*>& truth, const Levels& is,
+                         bool itself) const {
+        for (int k = 0; k < truth[2]->taps(); ++k) {
+            const auto change = [&](int i) {
+                const int level = d_.clock == Clock::stepped ? i : 2;
+                return itself ? less(is[level].trace.column(k), std::vector<double>(is[level].trace.rows))
+                              : less(is[level].trace.column(k), before_[level].trace.column(k));
+            };
+            const auto true_change = [&](int i) {
+                return itself ? less(truth[i]->column(k), std::vector<double>(truth[i]->rows))
+                              : less(truth[i]->column(k), truth_[i]->column(k));
+            };
+            const auto is_here = change(2), is_there = true_change(2);
+            const double all = std::max(norm(truth[2]->column(k)), norm(truth_[2]->column(k)));
+            double allowed = own_error(change) + own_error(true_change) +
+                             (d_.represents.has(Feature::measured_modes) ? as_good_as_the_same : what_modes_leave_out) * all;
+            if (!itself && d_.clock == Clock::stepped && needed_by(other).any(with_events))
+                for (const Levels* l : {&is, &before_}) allowed += own_error([&](int i) { return (*l)[i].trace.column(k); });
+            if (needed_by(other).any(any_profile)) allowed += what_nodes_leave_out * all;
+            for (const Levels* l : {&is, itself ? nullptr : &before_})  // its contacts err by so much, it says
+                if (const double gap = l ? fact_of((*l)[2].facts, facts::psi_gap) : 0; gap > 0) allowed += gap * all;
+            const double error = norm(less(is_here, is_there));
+            if (!(error <= allowed) || is_here.size() != is_there.size())
+                return fmt::format(
+                    "{}: {}{}: tap {} {} by {:.4g} {} (root of the sum of squares) where the reference's does by {:.4g}; they differ by "
+                    "{:.2g}, at most {:.2g} is its own error",
+                    scene_.name, key, itself ? "" : " changed by a tenth", truth[2]->names[k], itself ? "moves" : "changes", norm(is_here),
+                    unit_of(scene_.taps[k].quantity), norm(is_there), error, allowed);
+        }
+        return "";
+    }
+
+    const Descriptor& d_;
+    Scene scene_;
+    std::vector<const Trace*> truth_;
+    Levels before_;
+    int asked_ = 0;
+};
+}  // namespace
+
+Verdict feels_every_number(const Case& c) {
+    int asked = 0;
+    std::set<std::string> seen;
+    for (const Scene& whole : scenes_of_numbers()) {
+        Scene scene = as_far_as(c.scheme, whole);
+        scene.name = "";
+        if (!seen.insert(scene_hash(scene)).second) continue;  // what made it another is not represented
+        scene.name = whole.name;
+        Felt felt(c.scheme, scene);
+        if (const std::string found = felt.wrong(); !found.empty()) return broken(found);
+        asked += felt.asked();
+    }
+    return asked > 0 ? kept(fmt::format("{} numbers", asked)) : not_asked("no reference represents what it does");
+}
+
+}  // namespace jvari::bench::check
