@@ -75,6 +75,7 @@ Verdict starts_from_the_scenes_shape(const Case&);
 Verdict starts_without_contact_forces(const Case&);
 Verdict carries_no_more_state(const Case&);
 Verdict never_pulls(const Case&);
+Verdict facts_agree_with_its_rows(const Case&);
 
 // Numerical claims of a scheme as a whole: claims.cpp, against_references.cpp.
 Verdict partials_are_its_own_relations(const Case&);

@@ -29,6 +29,7 @@ constexpr Promise all[] = {
     {"AllocatesNothingWhileStepping", "allocates nothing while stepping", on_represented_scenes, allocates_nothing},
     {"CarriesNoMoreStateThanTheSceneNeeds", "carries no more state than the scene needs", on_represented_scenes, carries_no_more_state},
     {"NeverPulls", "never pulls the string towards an obstacle", on_represented_scenes, never_pulls},
+    {"FactsAgreeWithItsRows", "says of its contact forces what its rows say", on_represented_scenes, facts_agree_with_its_rows},
     {"PartialsAreWhereItsOwnRelationSays", "sounds the partials that its own relation gives", once_all_others_are_kept,
      partials_are_its_own_relations},
     {"ConvergesToTheReference", "comes nearer to the reference with the rate, in every tap on three scenes", once_all_others_are_kept,

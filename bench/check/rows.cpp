@@ -71,6 +71,27 @@ Verdict never_pulls(const Case& c) {
                                        : broken(fmt::format("pulls with {:.2g} N, and pushes with {:.2g} N at most", -least, largest));
 }
 
+// ---- What a scheme says of its contact forces is so in its rows. A row's force is a mean, which lies between the least and the greatest.
+
+Verdict facts_agree_with_its_rows(const Case& c) {
+    Case one = c;
+    one.scene.taps.clear();
+    for (int k = 0; k < static_cast<int>(c.scene.strings.size()); ++k)
+        if (c.scene.strings[k].barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(c.scene.strings[k].barriers[0]))
+            one.scene.taps.push_back({"contact" + std::to_string(k), Quantity::bridge_force, k, 0});  // of several contacts rows are sums
+    if (one.scene.taps.empty()) return not_asked("no string has one contact");
+    const jvari::Run r = fresh(one, {});
+    const double least = fact_of(r.facts, facts::smallest_contact_force), largest = fact_of(r.facts, facts::largest_contact_force);
+    for (int k = 0; k < r.trace.taps(); ++k) {
+        const double most = std::fmax(std::abs(least), std::abs(largest));  // a force that pulls is the promise above
+        for (const double force : r.trace.column(k))
+            if (std::abs(force) > most * (1 + 1e-9))
+                return broken(fmt::format("says that contact forces lie between {:.4g} and {:.4g} N, and writes a row of {:.4g} N", least,
+                                          largest, force));
+    }
+    return std::isnan(largest) && std::isnan(least) ? not_asked("it says nothing of its contact forces") : kept();
+}
+
 // ---- The energy ledger: stored[n] - stored[n-1] = supplied[n] - dissipated[n], in every row and in sum.
 
 namespace {
@@ -83,6 +104,11 @@ Ledger ledger_of(const Case& c) {
     if (t.rows < 1) throw std::runtime_error("no row to keep a ledger of");
     Ledger l;
     const auto stored = t.energy_column(0), supplied = t.energy_column(1), dissipated = t.energy_column(2);
+    const auto zero = [](double x) { return x == 0; };
+    const auto moves = [&](int k) { return !std::ranges::all_of(t.column(k), zero); };
+    bool moved = false;
+    for (int k = 0; k < t.taps(); ++k) moved = moved || moves(k);
+    if (moved && std::ranges::all_of(t.energy, zero)) throw std::runtime_error("it promises a balance and writes no energies");
     for (long n = 0; n < t.rows; ++n) {
         l.scale = std::max(l.scale, stored[n]);
         l.residual.push_back(n == 0 ? supplied[0] + dissipated[0] : stored[n] - stored[n - 1] - supplied[n] + dissipated[n]);
