@@ -28,23 +28,30 @@
 #include "bench/trim/trim_record.hpp"
 #include "python/listening.hpp"
 #include "python/values.hpp"
+#include "schemes/registry.hpp"
 
 namespace jvari::python {
 
 using namespace bench;
 
-inline std::vector<std::string>& plugins() {  // files; read and written by who has the interpreter's lock
+inline std::vector<std::string>& all_plugins() {  // files; read and written by who has the interpreter's lock
     static std::vector<std::string> paths;
     return paths;
 }
 
+inline std::vector<std::string> plugins() {  // those whose schemes can run here
+    std::vector<std::string> here = all_plugins();
+    if (in_a_scheme()) std::erase_if(here, [](const std::string& p) { return p.starts_with("scheme "); });
+    return here;
+}
+
 inline void add_plugin(const std::string& path) {
     const std::string file = std::filesystem::absolute(path);
-    std::vector<std::string> all = plugins();
+    std::vector<std::string> all = all_plugins();
     if (std::ranges::find(all, file) != all.end()) return;
     all.push_back(file);
     const compare::Catalogue loaded(all);
-    plugins() = all;
+    all_plugins() = all;
     compare::note_slow_plugins(Ear());
 }
 
@@ -61,6 +68,8 @@ struct Job {  // what a run is asked for, its scene aside
     Settings settings;
 };
 inline Job job_of(const std::string& scheme, double rate, std::optional<double> tap_rate, int modes, const py::dict& options) {
+    if (in_a_scheme() && find_guest("scheme " + scheme))
+        throw store::UsageError("scheme " + scheme + ": a scheme in Python cannot run one in Python");
     const Descriptor& d = compare::Catalogue(plugins()).find(scheme);
     return {&d, compare::settings_of_run(d, rate, tap_rate, modes, options_of(options))};
 }
@@ -87,9 +96,11 @@ inline Column run_many(const std::vector<py::object>& scenes, const std::string&
     for (const py::object& o : scenes) {
         all.push_back(NamedScene::of(o).scene);
         if (duration) all.back().duration = *duration;
-        if (all.back().duration != all.front().duration || all.back().taps.size() != all.front().taps.size())
-            throw store::UsageError("run_many: scene " + std::to_string(all.size() - 1) +
-                                    " lasts another time or has other taps than the first; duration=... sets one for all");
+        const auto same = [](const Tap& a, const Tap& b) { return a.name == b.name && a.quantity == b.quantity; };
+        if (all.back().duration != all.front().duration || !std::ranges::equal(all.back().taps, all.front().taps, same))
+            throw store::UsageError(
+                "run_many: scene " + std::to_string(all.size() - 1) +
+                " lasts another time or has taps of other names or quantities than the first; duration=... sets one time for all");
     }
     const long rows = all.empty() ? 0 : std::lround(all.front().duration * job.settings.tap_rate) + 1;
     const long taps = all.empty() ? 0 : static_cast<long>(all.front().taps.size());

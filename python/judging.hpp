@@ -5,13 +5,14 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/judge/candidate.hpp"
 #include "bench/judge/foreign_trace.hpp"
+#include "bench/store/checksum.hpp"
 #include "python/calls.hpp"
 #include "python/own_schemes.hpp"
 
 namespace jvari::python {
 
 inline void know(const std::string& guest) {
-    if (std::ranges::find(plugins(), guest) == plugins().end()) plugins().push_back(guest);
+    if (std::ranges::find(all_plugins(), guest) == all_plugins().end()) all_plugins().push_back(guest);
 }
 
 inline double tap_rate_of(const std::vector<double>& rates, std::optional<double> asked) {
@@ -56,21 +57,20 @@ inline py::list check_rows_of(const std::string& scheme) {
 
 // A trace: rows x taps, or rows of the only tap; or {tap: rows}, of which further names are not looked at.
 inline Trace trace_of(const py::object& given, const Scene& scene, double tap_rate, double rate) {
-    using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
     const std::string what = "trace at " + store::text_of(rate) + " Hz";
-    std::vector<Values> columns;
+    std::vector<Numbers> columns;
     for (std::size_t k = 0; k < scene.taps.size(); ++k) {
         const py::str name(scene.taps[k].name);
         if (py::isinstance<py::dict>(given)) {
             if (!given.contains(name)) throw store::UsageError(what + ": tap " + scene.taps[k].name + " is missing");
-            columns.push_back(given[name].cast<Values>());
+            columns.push_back(numbers_of(given[name], what));
         } else {
-            const auto all = given.cast<Values>();
+            const auto all = numbers_of(given, what);
             const bool single = all.ndim() == 1 && scene.taps.size() == 1;
             if (!single && (all.ndim() != 2 || all.shape(1) != static_cast<py::ssize_t>(scene.taps.size())))
                 throw store::UsageError(what + ": expected rows x " + std::to_string(scene.taps.size()) +
                                         " taps, or a dict of taps by name");
-            columns.push_back(single ? all : given[py::make_tuple(py::slice(0, all.shape(0), 1), py::int_(k))].cast<Values>());
+            columns.push_back(single ? all : numbers_of(all[py::make_tuple(py::slice(0, all.shape(0), 1), py::int_(k))], what));
         }
         if (columns.back().ndim() != 1 || columns.back().size() != columns.front().size())
             throw store::UsageError(what + ": tap " + scene.taps[k].name + " has another number of rows than the first");
@@ -102,15 +102,22 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces, 
     const judge::Rows rows = judge::rows_for(r, judged);
     judge::Candidate c;
     c.name = name;
+    struct Lent {  // the candidate stays to the end of the process, not what it was judged by
+        std::vector<std::shared_ptr<Trace>> traces;
+        ~Lent() {
+            for (const auto& t : traces) *t = {};
+        }
+    } lent;
     for (const auto& [rate, given] : by_rate) {
         const double hz = rate.cast<double>();
-        const Trace t = trace_of(py::reinterpret_borrow<py::object>(given), judged, rows.rate, hz);
+        Trace t = trace_of(py::reinterpret_borrow<py::object>(given), judged, rows.rate, hz);
         judge::must_be_whole(t, "trace at " + store::text_of(hz) + " Hz", rows.count);
         c.contents.append(reinterpret_cast<const char*>(t.tap.data()), t.tap.size() * sizeof(double));
-        c.traces.emplace(hz, std::make_shared<const Trace>(t));
+        c.traces.emplace(hz, lent.traces.emplace_back(std::make_shared<Trace>(std::move(t))));
         if (cost.is_none()) continue;
         c.costs[hz] = py::isinstance<py::dict>(cost) ? cost[py::reinterpret_borrow<py::object>(rate)].cast<double>() : cost.cast<double>();
     }
+    c.contents = store::hash_of(c.contents);
     std::vector<std::string> others = plugins();
     std::erase(others, "trace " + name);
     return rows_of(unlocked([&] {

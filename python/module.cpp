@@ -12,6 +12,14 @@ namespace py = pybind11;
 using namespace jvari;
 
 namespace {
+// What the module alone makes: without a constructor, and without an object that was never made.
+template <class Class>
+void has_no_constructor(const Class& c) {
+    reinterpret_cast<PyTypeObject*>(c.ptr())->tp_new = [](PyTypeObject* type, PyObject*, PyObject*) -> PyObject* {
+        return PyErr_Format(PyExc_TypeError, "%s: no constructor defined; calls of the module give it", type->tp_name);
+    };
+}
+
 void raise_as(const py::handle& type, const std::exception& e) {
     PyErr_SetString(type.ptr(), e.what());
 }
@@ -45,7 +53,10 @@ void translate_exceptions(py::module_& m) {
 
 void add_scene(py::module_& m) {
     using python::NamedScene;
-    py::class_<NamedScene>(m, "Scene", "What vibrates: a scene of the library or a file, with its overrides. A value: set() gives another.")
+    py::class_<NamedScene> scene(m, "Scene",
+                                 "What vibrates: a scene of the library or a file, with its overrides. A value: set() gives another.");
+    has_no_constructor(scene);
+    scene
         .def("set", &NamedScene::with, py::arg("key"), py::arg("value"),
              "Another scene, with this key changed: set(\"string.0.tension\", 40) [N].")
         .def_property_readonly(
@@ -71,11 +82,12 @@ void add_scene(py::module_& m) {
 
 void add_run(py::module_& m) {
     using python::TakenRun;
-    py::class_<TakenRun, std::shared_ptr<TakenRun>>(
+    py::class_<TakenRun, std::shared_ptr<TakenRun>> taken(
         m, "Run",
         "What a run produced. run[\"nut\"] is the column of a tap, shape (rows,), in units[\"nut\"]: the engine's memory, not a copy, and "
-        "not to be written.")
-        .def("__getitem__", &python::column, py::arg("tap"), "A column, shape (rows,).")
+        "not to be written.");
+    has_no_constructor(taken);
+    taken.def("__getitem__", &python::column, py::arg("tap"), "A column, shape (rows,).")
         .def(
             "keys",
             [](const TakenRun& r) {
@@ -139,8 +151,9 @@ void add_studies(py::module_& m) {
         "\"boundaries\": a row per change of outcome, between x_low and x_high [the unit of x_key], relative_difference from theory [1]. "
         "Further ones, such as \"dispersion\", where the suite measures them. out: the folder that keeps cells and points, as "
         "`jvari suite --out` does.");
-    py::class_<TrimmedRows>(m, "Trimmed", "The cheapest model of a scene within a tolerance, and how it was found.")
-        .def_readonly("found", &TrimmedRows::found, "Whether there is one.")
+    py::class_<TrimmedRows> trimmed(m, "Trimmed", "The cheapest model of a scene within a tolerance, and how it was found.");
+    has_no_constructor(trimmed);
+    trimmed.def_readonly("found", &TrimmedRows::found, "Whether there is one.")
         .def_readonly("path", &TrimmedRows::path,
                       "A dict per step from the whole scene to the trimmed one, which is the last: the columns of path.csv.")
         .def_readonly("needs", &TrimmedRows::needs, "A dict per part of the scene, what it is needed for: the columns of needs.csv.")
@@ -178,6 +191,7 @@ PYBIND11_MODULE(jvari, m) {
     m.doc() = "Numerical schemes for strings against obstacles, compared by speed and accuracy on the same scenes. SI units.";
     m.attr("__version__") = bench::store::machine().version;
     translate_exceptions(m);
+    py::module_::import("atexit").attr("register")(py::cpp_function(&python::wait_for_calls));
     add_scene(m);
     add_run(m);
     add_studies(m);

@@ -6,6 +6,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <exception>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +16,7 @@
 
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/usage.hpp"
+#include "python/listening.hpp"
 #include "python/values.hpp"
 #include "schemes/making.hpp"
 #include "schemes/open/problem.hpp"
@@ -45,67 +48,107 @@ struct PythonClass {  // of a scheme, kept for the life of the process as its gu
     py::object made_by;
 };
 
+// The one way into the code of a scheme: with the interpreter's lock. What it raises is a failure of that scheme, BadScheme with its
+// sentence; what is no Exception of Python, KeyboardInterrupt or SystemExit, ends the study.
+template <class Act>
+auto in_scheme(const std::string& name, Act act) {
+    const py::gil_scoped_acquire lock;
+    const struct Inside {
+        Inside() : before(std::exchange(in_a_scheme(), true)) {}
+        ~Inside() { in_a_scheme() = before; }
+        bool before;
+    } inside;
+    try {
+        return act();
+    } catch (const py::error_already_set& e) {
+        if (!e.matches(PyExc_Exception)) calls().raised.emplace(e);
+        throw BadScheme(name + ": " + e.what());
+    } catch (const py::builtin_exception& e) {
+        throw BadScheme(name + ": " + e.what());
+    }
+}
+
+inline int dofs_of(const py::object& self) {
+    const py::object given = self.attr("dofs");
+    const Py_ssize_t n = PyNumber_AsSsize_t(given.ptr(), PyExc_OverflowError);
+    const bool none = PyErr_Occurred() != nullptr;
+    PyErr_Clear();
+    if (none || n < 0 || n > std::numeric_limits<int>::max())
+        throw py::type_error("dofs: found " + py::repr(given).cast<std::string>() + ", expected a whole number, the doubles of state");
+    return static_cast<int>(n);
+}
+
 class Interpreted final : public Scheme {
 public:
-    Interpreted(const PythonClass& of, const Scene& scene, const Settings& settings)
-        : name_(of.name), made_by_(of.made_by), problem_(scene, settings) {
+    Interpreted(const PythonClass& of, const Scene& scene, const Settings& settings) : of_(of), problem_(scene, settings) {
         refuse_beyond_arrays(scene);
-        const py::gil_scoped_acquire lock;
         try {
-            self_ = made_by_(namespace_of(problem_.arrays()));
-            dofs_ = py::hasattr(self_, "dofs") ? self_.attr("dofs").cast<int>() : 2 * static_cast<int>(problem_.arrays().modes);
-        } catch (py::error_already_set& e) {
-            throw Refusal(name_ + ": " + e.what());
+            make();
+        } catch (const BadScheme& e) {
+            throw Refusal(e.what());
         }
-        used_ = false;
+        dofs_ = in_scheme(of_.name,
+                          [this] { return py::hasattr(*self_, "dofs") ? dofs_of(*self_) : 2 * static_cast<int>(problem_.arrays().modes); });
     }
-    ~Interpreted() override {
-        const py::gil_scoped_acquire lock;
-        self_ = py::object();
-    }
-    Interpreted(const Interpreted&) = delete;
-    Interpreted& operator=(const Interpreted&) = delete;
 
     // Its own reset(), where it has one; else it is made anew. What it has raised stays the reason of this run.
     void reset() noexcept override {
         row_ = 0;
         if (!std::exchange(used_, false)) return;
-        const py::gil_scoped_acquire lock;
-        try {
-            if (py::hasattr(self_, "reset")) self_.attr("reset")();
-            else self_ = made_by_(namespace_of(problem_.arrays()));
-        } catch (const std::exception& e) {
-            failure_ = e.what();
-        }
+        attempt([this] {
+            if (in_scheme(of_.name, [this] { return py::hasattr(*self_, "reset") && (self_->attr("reset")(), true); })) return;
+            make();
+        });
     }
     Status advance(const Block& out) noexcept override {
         used_ = true;
-        const py::gil_scoped_acquire lock;
-        try {
-            if (failure_.empty()) take(self_.attr("advance")(out.rows), out);
-        } catch (const std::exception& e) {
-            failure_ = e.what();
-        }
+        attempt([&] { in_scheme(of_.name, [&] { take(self_->attr("advance")(out.rows), out); }); });
+        if (failure_ && out.stop) wait_for_end(out);
         const long step = row_ * problem_.arrays().steps_per_row;
         row_ += out.rows;
-        if (failure_.empty()) return {};
+        if (!failure_) return {};
         for (int k = 0; k < out.taps; ++k) std::fill_n(out.tap + k * out.stride, out.rows, std::numeric_limits<double>::quiet_NaN());
         return {Outcome::diverged, step};
     }
     int dofs() const override { return dofs_; }
     std::vector<Fact> facts() const override {
-        if (!failure_.empty()) throw BadScheme(name_ + ": " + failure_);
-        const py::gil_scoped_acquire lock;
-        std::vector<Fact> all;
-        if (py::hasattr(self_, "facts"))
-            for (const auto& [name, value] : self_.attr("facts")().cast<py::dict>())
-                all.emplace_back(name.cast<std::string>(), value.cast<double>(), "");
-        return all;
+        if (failure_) std::rethrow_exception(failure_);
+        return in_scheme(of_.name, [this] {
+            std::vector<Fact> all;
+            if (py::hasattr(*self_, "facts"))
+                for (const auto& [name, value] : self_->attr("facts")().cast<py::dict>())
+                    all.emplace_back(name.cast<std::string>(), value.cast<double>(), "");
+            return all;
+        });
     }
 
 private:
-    using Rows = py::array_t<double, py::array::forcecast>;
-    static void copy(const Rows& from, int rows, int columns, double* to, long stride, const char* what) {
+    static void wait_for_end(const Block& out) {  // where it is what ends the study: no row is to be kept of it
+        const auto ends = [] {
+            const py::gil_scoped_acquire lock;
+            return calls().raised.has_value();
+        };
+        while (ends() && !out.stopped()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    void make() {
+        self_ = in_scheme(of_.name, [this] { return held(of_.made_by(namespace_of(problem_.arrays()))); });
+    }
+    template <class Act>
+    void attempt(Act act) noexcept {  // nothing more once it has failed
+        if (failure_) return;
+        try {
+            act();
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+    }
+    static std::shared_ptr<py::object> held(py::object o) {  // to be let go of on any thread
+        return {new py::object(std::move(o)), [](py::object* it) {
+                    const py::gil_scoped_acquire lock;
+                    delete it;
+                }};
+    }
+    static void copy(const Numbers& from, int rows, int columns, double* to, long stride, const char* what) {
         if (from.ndim() != 2 || from.shape(0) != rows || from.shape(1) != columns)
             throw std::runtime_error(std::string("advance(") + std::to_string(rows) + ") gives " + what + " of another shape than (" +
                                      std::to_string(rows) + ", " + std::to_string(columns) + ")");
@@ -115,20 +158,20 @@ private:
     }
     static void take(const py::object& given, const Block& out) {
         const bool pair = py::isinstance<py::tuple>(given) && py::len(given) == 2;
-        copy(pair ? given[py::int_(0)].cast<Rows>() : given.cast<Rows>(), out.rows, out.taps, out.tap, out.stride, "taps");
+        copy(numbers_of(pair ? given[py::int_(0)] : given, "advance"), out.rows, out.taps, out.tap, out.stride, "taps");
         if (!out.energy) return;
-        if (pair) copy(given[py::int_(1)].cast<Rows>(), out.rows, 3, out.energy, out.stride, "energies");
+        if (pair) copy(numbers_of(given[py::int_(1)], "advance"), out.rows, 3, out.energy, out.stride, "energies");
         else
             for (int k = 0; k < 3; ++k) std::fill_n(out.energy + k * out.stride, out.rows, 0.0);
     }
 
-    std::string name_;
-    py::object made_by_, self_;
+    const PythonClass& of_;
     Problem problem_;
     int dofs_ = 0;
     long row_ = 0;
     bool used_ = false;
-    std::string failure_;
+    std::shared_ptr<py::object> self_;
+    std::exception_ptr failure_;
 };
 
 inline Features features_of(const std::vector<std::string>& names) {

@@ -19,12 +19,14 @@ namespace jvari::python {
 
 namespace py = pybind11;
 
-inline std::string text_of(const py::handle& value) {  // as an override or an option has it
+inline std::string text_of(const py::handle& value, int level = 0) {  // as an override or an option has it
+    constexpr int deepest = 16;                                       // as in scene files
+    if (level > deepest) throw bench::store::UsageError("found lists nested deeper than " + std::to_string(deepest));
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
     if (py::isinstance<py::str>(value)) return value.cast<std::string>();
     if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
         std::string text;
-        for (const py::handle& item : value) text += (text.empty() ? "" : ", ") + text_of(item);
+        for (const py::handle& item : value) text += (text.empty() ? "" : ", ") + text_of(item, level + 1);
         return "[" + text + "]";
     }
     return py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>() : bench::store::text_of(value.cast<double>());
@@ -73,6 +75,21 @@ inline py::object rows_of(const bench::store::Table& t) {
 }
 
 using Column = py::array_t<double>;
+
+// Real numbers that are all there: what would be lost of others is said by nobody.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+inline Numbers numbers_of(const py::object& given, const std::string& what) {
+    const bool masked = py::module_::import("numpy.ma").attr("isMaskedArray")(given).cast<bool>();
+    const py::array all = masked ? py::array() : py::array::ensure(given);
+    if (!all) PyErr_Clear();
+    if (masked || !all || std::string("fiub").find(all.dtype().kind()) == std::string::npos)
+        throw py::type_error(what + ": found " +
+                             (masked ? "a masked array"
+                              : !all ? "no array"
+                                     : py::str(all.dtype()).cast<std::string>()) +
+                             ", expected real numbers");
+    return all.cast<Numbers>();
+}
 
 struct TakenRun {  // a run, and what its columns are in
     Run run;

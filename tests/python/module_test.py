@@ -103,6 +103,24 @@ class Module(unittest.TestCase):
         self.assertIn("nut", b.taps)
         self.assertIn("tanpura_c3", jvari.scenes())
 
+    def test_what_would_crash_is_refused(self):
+        for kind in (jvari.Scene, jvari.Run, jvari.Trimmed):
+            for make in (kind.__new__, object.__new__, lambda kind: kind()):
+                self.assertRaises(TypeError, make, kind)
+        itself, deep = [], []
+        itself.append(itself)
+        for _ in range(100000):
+            deep = [deep]
+        for value in (itself, deep):
+            with self.assertRaisesRegex(jvari.UsageError, "nested deeper than"):
+                jvari.scene("free_string").set("duration", value)
+
+    def test_leaving_ends_what_a_daemon_thread_computes(self):
+        for call in ('run_many(["tanpura_c3_release"] * 20, "modal_two_point", duration=5.0, rate=176400)', 'compare("tanpura_c3_release", duration=1)'):
+            script = f"import jvari, threading, time\nthreading.Thread(target=lambda: jvari.{call}, daemon=True).start()\ntime.sleep(0.7)"
+            said = subprocess.run([sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=60)
+            self.assertEqual((said.returncode, said.stderr), (0, ""), call)
+
     def test_a_failed_run_says_so_and_keeps_its_valid_rows(self):
         run = jvari.run("tanpura_c3_release", "modal_explicit_penalty", **SHORT)
         self.assertEqual(run.status, "diverged")
@@ -124,6 +142,10 @@ class Module(unittest.TestCase):
         self.assertFalse(np.array_equal(many[0], many[1]))
         with self.assertRaisesRegex(jvari.UsageError, "scene 1 lasts another time"):
             jvari.run_many(["tanpura_c3_release", jvari.scene("tanpura_c3_release").set("duration", 2)], "modal_two_point")
+        other = jvari.scene("tanpura_c3_release").set("tap.2.quantity", "thread_force")
+        for change in (other, jvari.scene("tanpura_c3_release").set("tap.0.name", "other")):
+            with self.assertRaisesRegex(jvari.UsageError, "scene 1 lasts another time or has taps of other names"):
+                jvari.run_many(["tanpura_c3_release", change], "modal_two_point", **SHORT)
         with self.assertRaises(jvari.Refusal):
             jvari.run_many(["tanpura_c3"] * 3, "sitar_waveguide", **SHORT)
         self.assertEqual(jvari.run_many([], "modal_two_point").shape, (0, 0, 0))

@@ -135,6 +135,49 @@ class OwnScheme(unittest.TestCase):
         row = jvari.compare("free_string", ["misshapen"], rates=[44100], modes=20, duration=0.01)[0]
         self.assertIn("another shape", row["reason"])
 
+    def test_a_dofs_that_is_no_number_is_a_row(self):
+        for name, dofs in (("real", 2.5), ("word", "two"), ("large", 2**70), ("negative", -1)):
+            cls = type(name, (TwoPoint,), {"dofs": dofs})
+            jvari.scheme(name, represents=FEATURES)(cls)
+            row = jvari.compare("free_string", [name], rates=[44100], modes=20, duration=0.01, repeats=1)[0]
+            self.assertEqual(row["status"], "error")
+            self.assertIn("dofs: found " + repr(dofs), row["reason"])
+            with self.assertRaisesRegex(Exception, "dofs: found"):
+                jvari.run("free_string", name, duration=0.01)
+
+    def test_what_ends_python_ends_the_study(self):
+        for error in (KeyboardInterrupt, SystemExit):
+            for where in ("__init__", "advance"):
+
+                def ends(self, *_):
+                    raise error("enough")
+
+                jvari.scheme("ends", represents=FEATURES)(type("Ends", (TwoPoint,), {where: ends}))
+                with tempfile.TemporaryDirectory() as folder:
+                    with open(folder + "/a.toml", "w") as f:
+                        f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["ends"]\nrates = [44100]\nmodes = 20\nreference_modes = 20\nduration = 0.01\n')
+                    for call in (lambda: jvari.run("free_string", "ends", duration=0.01), lambda: jvari.run_many(["free_string"], "ends", duration=0.01),
+                                 lambda: jvari.compare("free_string", ["ends"], rates=[44100], modes=20, duration=0.01), lambda: jvari.suite(folder + "/a.toml")):
+                        self.assertRaises(error, call)
+        self.assertEqual(jvari.run("free_string", "modal_two_point", duration=0.01).status, "ok")
+
+    def test_a_scheme_cannot_run_itself(self):
+        class Runs(TwoPoint):
+            def advance(self, rows):
+                return jvari.run("free_string", "runs", duration=0.01)
+
+        jvari.scheme("runs", represents=FEATURES)(Runs)
+        with self.assertRaisesRegex(RuntimeError, "a scheme in Python cannot run one in Python"):
+            jvari.run("free_string", "runs", duration=0.01)
+
+    def test_rows_are_real_numbers(self):
+        for rows in (np.ma.ones((1, 1)), np.ones((1, 1)) * 1j, [["a"]]):
+            jvari.scheme("unreal", represents=FEATURES)(type("Unreal", (TwoPoint,), {"advance": lambda self, _, rows=rows: rows}))
+            with self.assertRaisesRegex(RuntimeError, "expected real numbers"):
+                jvari.run("free_string", "unreal", duration=0.01)
+            with self.assertRaisesRegex(TypeError, "expected real numbers"):
+                jvari.judge("free_string", rows, duration=0.01)
+
     def test_its_name_and_its_features_must_be_known(self):
         with self.assertRaisesRegex(jvari.UsageError, "already"):
             jvari.scheme("modal_two_point")(TwoPoint)
@@ -170,6 +213,20 @@ class Judge(unittest.TestCase):
             jvari.judge(self.scene, self.taps, duration=0.005)
         with self.assertRaisesRegex(jvari.UsageError, "rows x 4 taps"):
             jvari.judge(self.scene, np.zeros((442, 3)), duration=0.01)
+
+
+    def test_no_call_keeps_its_traces(self):
+        def megabytes():
+            with open("/proc/self/statm") as f:
+                return int(f.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+        run = jvari.run("free_string", "modal_two_point", duration=0.5, modes=5)
+        trace = np.column_stack([run[tap] for tap in run.keys()])
+        for count in (3, 10):
+            before = megabytes()
+            for _ in range(count):
+                jvari.judge("free_string", trace, duration=0.5, repeats=1, reference="modal_two_point")
+        self.assertLess(megabytes() - before, 0.5 * count * trace.nbytes / 1e6)
 
 
 class Problem(unittest.TestCase):
