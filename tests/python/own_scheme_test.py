@@ -137,8 +137,13 @@ class OwnScheme(unittest.TestCase):
 
     def test_a_dofs_that_is_no_number_is_a_row(self):
         for name, dofs in (("real", 2.5), ("word", "two"), ("large", 2**70), ("negative", -1)):
-            cls = type(name, (TwoPoint,), {"dofs": dofs})
-            jvari.scheme(name, represents=FEATURES)(cls)
+
+            class Misstates(TwoPoint):
+                def __init__(self, p, dofs=dofs):
+                    super().__init__(p)
+                    self.dofs = dofs
+
+            jvari.scheme(name, represents=FEATURES)(Misstates)
             row = jvari.compare("free_string", [name], rates=[44100], modes=20, duration=0.01, repeats=1)[0]
             self.assertEqual(row["status"], "error")
             self.assertIn("dofs: found " + repr(dofs), row["reason"])
