@@ -46,11 +46,12 @@ bool within_budget(const Descriptor& reference, const Scene& scene, const Size& 
     std::size_t contacts = 2;  // the closed forms take two alike
     for (const String& string : scene.strings) contacts = std::max(contacts, string.barriers.size());
     const double coupled = s.points > 0 ? s.points : static_cast<double>(contacts - 2);
+    const int size = std::max(s.modes, s.points);  // few measured modes may lie under many points
     double work = 0;
     for (const String& string : scene.strings) {
         const int modes = std::min(s.modes, modes_measured(string).value_or(s.modes));
         const double highest = modes_of(string, modes).omega0.back() / (2 * std::numbers::pi);
-        work += scene.duration * s.modes * std::max<double>(s.modes, highest / mode_spacing) * (1 + 2.5 * coupled);
+        work += scene.duration * size * std::max<double>(size, highest / mode_spacing) * (1 + 2.5 * coupled);
     }
     return s.points <= most_points && s.modes <= most_modes_found && work * dearness(reference, scene) <= budget;
 }
