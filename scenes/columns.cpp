@@ -47,9 +47,14 @@ struct ColumnLine {
     std::size_t find(const std::vector<std::string_view>& header, const Column& c) const {
         for (const char* name : {c.name, c.alias}) {
             const auto at = std::find(header.begin(), header.end(), name);
-            if (at != header.end()) return static_cast<std::size_t>(at - header.begin());
+            if (at == header.end()) continue;
+            if (std::find(at + 1, header.end(), name) != header.end())
+                throw SceneFileError(place + ": header: found two columns " + quote(name) + ", expected one");
+            return static_cast<std::size_t>(at - header.begin());
         }
-        throw SceneFileError(place + ": header: found no column " + quote(c.name));
+        const bool semicolons = header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos;
+        throw SceneFileError(place + ": header: found no column " + quote(c.name) +
+                             (semicolons ? "; expected commas between columns, and points in numbers, as 0.5" : ""));
     }
 
     double number(const std::vector<std::string_view>& cells, std::size_t i, const Column& c) const {
@@ -67,7 +72,7 @@ void read_columns(const std::string& path, const std::string& text, const Column
     std::size_t column_a = 0, column_b = 0;
     bool header = true;
     int line = 0;
-    for (std::size_t begin = 0; begin < text.size();) {
+    for (std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; begin < text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         const std::string_view one = trimmed(std::string_view(text).substr(begin, end - begin));
         const ColumnLine at{path + ":" + std::to_string(++line)};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "scenes/scene_file.hpp"
@@ -64,6 +65,12 @@ std::string Value::found() const {
         std::string operator()(const TomlTable&) const { return "a table"; }
     };
     return std::visit(Says{}, content);
+}
+
+std::optional<std::int64_t> Value::whole() const {
+    if (const auto* n = std::get_if<std::int64_t>(&content)) return *n;
+    const auto* x = std::get_if<double>(&content);
+    return x && std::abs(*x) < 1e15 && *x == std::floor(*x) ? std::optional(static_cast<std::int64_t>(*x)) : std::nullopt;
 }
 
 std::string Document::place(int p) const {
@@ -154,7 +161,7 @@ struct Reading {
     }
 };
 
-// TOML syntax; a bare word that is no TOML value is a text.
+// A bare number as number_of reads it; else TOML syntax, where what is no TOML value, or a number of another form (0x10), is a text.
 Value override_value(std::string_view text, const Reading& reading) {
     const auto one = [&](std::string_view value) {
         Value root = reading.parse("value = " + std::string(value));
@@ -164,8 +171,17 @@ Value override_value(std::string_view text, const Reading& reading) {
     };
     const bool bare = text.empty() || std::string_view("\"'[{").find(text.front()) == std::string_view::npos;
     if (!bare) return one(text);
+    const std::size_t from = std::min(text.find_first_not_of(' '), text.size());
+    if (const auto x = number_of(text.substr(from, text.find_last_not_of(' ') + 1 - from))) {
+        Value v{*x, reading.place};
+        if (text.find_first_not_of("+-0123456789 ") == std::string_view::npos)
+            if (const auto n = v.whole()) v.content = *n;
+        return v;
+    }
     try {
-        return one(text);
+        Value v = one(text);
+        const bool number = std::holds_alternative<std::int64_t>(v.content) || std::holds_alternative<double>(v.content);
+        return number ? one(quote(text)) : v;
     } catch (const SceneFileError&) {
         return one(quote(text));
     }

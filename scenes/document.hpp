@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -20,6 +21,7 @@ struct Value {
     int place = 1;  // line of the file; -1 - i for the i-th override
 
     const Value* find(std::string_view key) const;  // nullptr if this is no table or has no such key
+    std::optional<std::int64_t> whole() const;      // of 1000 and of 1e3
     std::string found() const;                      // for messages: 3, "text", a table
 };
 struct Member {

@@ -242,7 +242,7 @@ private:
     }
     std::string beside(const std::string& file) const { return (std::filesystem::path(document_.file).parent_path() / file).string(); }
     int integer(const Value& v, const char* key, int least) const {
-        const auto* i = std::get_if<std::int64_t>(&v.content);
+        const auto i = v.whole();
         if (!i || *i < least || *i > std::numeric_limits<int>::max())
             fail(v, at(key), v.found(), "a whole number >= " + std::to_string(least));
         return static_cast<int>(*i);

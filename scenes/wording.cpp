@@ -19,9 +19,23 @@ std::string number_text(double x) {
     return {text, end};
 }
 
+namespace {
+template <class Real>
+std::from_chars_result read(std::string_view text, Real& x) {
+    return std::from_chars(text.data(), text.data() + text.size(), x);
+}
+}  // namespace
+
 std::optional<double> number_of(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     double x = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    auto [end, error] = read(text, x);
+    if (error == std::errc::result_out_of_range) {
+        long double wide = 0;
+        error = read(text, wide).ec;
+        if (error == std::errc()) x = static_cast<double>(wide);
+        if (std::isinf(x)) return std::nullopt;
+    }
     return error == std::errc() && end == text.data() + text.size() ? std::optional(x) : std::nullopt;
 }
 #else  // a standard library that has both for whole numbers alone: Emscripten's
@@ -39,12 +53,13 @@ std::string number_text(double x) {
 }
 
 std::optional<double> number_of(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     const std::string copy(text);
     if (copy.find_first_not_of("+-.0123456789eEinfatyINFATY") != std::string::npos || copy.empty() || copy[0] == '+') return std::nullopt;
     char* end = nullptr;
     errno = 0;
     const double x = std::strtod(copy.c_str(), &end);
-    return *end || (errno == ERANGE && std::abs(x) != 0) ? std::nullopt : std::optional(x);
+    return *end || (errno == ERANGE && std::isinf(x)) ? std::nullopt : std::optional(x);
 }
 #endif
 
@@ -63,6 +78,18 @@ std::string quote(std::string_view s) {
         }
     }
     return text + '"';
+}
+
+std::string unfit_as_file(std::string_view name) {
+    constexpr std::size_t longest = 100;  // of 255 bytes that a file's name may have
+    if (name.empty()) return "is empty";
+    if (name.size() > longest) return "has " + std::to_string(name.size()) + " bytes, and at most " + std::to_string(longest) + " fit";
+    if (name.front() == '.') return "begins with a point";
+    const auto odd = std::find_if(name.begin(), name.end(), [](char c) {
+        const auto code = static_cast<unsigned char>(c);
+        return code < 0x20 || code == 0x7f || c == '/' || c == '\\';
+    });
+    return odd == name.end() ? "" : *odd == '/' || *odd == '\\' ? "has a slash" : "has a control character";
 }
 
 std::string found_text(std::string_view s) {

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -10,29 +9,37 @@
 #include "bench/store/keys.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
+#include "scenes/wording.hpp"
 
 namespace jvari::bench::command {
 
-std::string a_number(const std::string& text, bool whole) {
-    double x = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (error == std::errc() && stop == text.data() + text.size() && std::isfinite(x) && x > 0 &&
-        (!whole || (x == std::floor(x) && x <= store::most_counted)))
-        return {};
-    return fmt::format("found \"{}\", expected a {}", text,
-                       whole ? fmt::format("whole number from 1 to {}", store::most_counted) : "number > 0");
-}
 namespace {
+// "" where it is one, and the text becomes what CLI11 reads as the same: of 010 it would make 8, of 1e3 1. Else what was expected.
+std::string a_number(std::string& text) {
+    const auto x = number_of(text);
+    if (!x || !std::isfinite(*x) || !(*x > 0)) return fmt::format("found {}, expected a number > 0", found_text(text));
+    text = number_text(*x);
+    return {};
+}
+
+std::string a_count(std::string& text, int least) {
+    const auto x = number_of(text);
+    if (!x || *x != std::floor(*x) || !(*x >= least && *x <= store::most_counted))
+        return fmt::format("found {}, expected a whole number from {} to {}", found_text(text), least, store::most_counted);
+    text = fmt::format("{:.0f}", *x);
+    return {};
+}
+
 CLI::Validator in_units(std::vector<std::pair<std::string, double>> units) {  // "44.1k", "10ms"
     return CLI::Validator(
         [units = std::move(units)](std::string& text) {
             for (const auto& [unit, scale] : units) {
                 if (!text.ends_with(unit)) continue;
-                const std::string number = text.substr(0, text.size() - unit.size());
-                if (a_number(number, false).empty()) text = fmt::format("{:.15g}", scale * store::number_of(number));
+                std::string number = text.substr(0, text.size() - unit.size());
+                if (a_number(number).empty()) text = fmt::format("{:.15g}", scale * store::number_of(number));
                 break;
             }
-            return a_number(text, false);
+            return a_number(text);
         },
         "");
 }
@@ -48,8 +55,9 @@ Value assignment(const char* type) {
 }
 }  // namespace
 
-const Value positive{"X", CLI::Validator([](std::string&text) { return a_number(text, false); }, "")},
-    counting{"N", CLI::Validator([](std::string&text) { return a_number(text, true); }, "")},
+const Value positive{"X", CLI::Validator([](std::string&text) { return a_number(text); }, "")},
+    counting{"N", CLI::Validator([](std::string&text) { return a_count(text, 1); }, "")},
+    counting_or_0{"N", CLI::Validator([](std::string&text) { return a_count(text, 0); }, "")},
     hertz{"HZ", in_units({{"kHz", 1e3}, {"Hz", 1}, {"k", 1e3}})}, seconds{"S", in_units({{"ms", 1e-3}, {"us", 1e-6}, {"s", 1}})},
     metres{"M", in_units({{"mm", 1e-3}, {"um", 1e-6}, {"m", 1}})};
 

@@ -19,14 +19,12 @@ struct Running : Common {  // of a verb that runs schemes
     std::vector<std::string> plugins;
 };
 
-std::string a_number(const std::string& text, bool whole);  // "" where it is one that is > 0; else what was expected
-
 struct Value {  // of an option: what help calls it, and what it may be
     const char* type;
     CLI::Validator check = {};
 };
-// A number > 0; a whole one; then such that may have a unit behind them: the text becomes the number in SI units.
-extern const Value positive, counting, hertz, seconds, metres;
+// A number > 0; a whole one; one that may be 0; then such that may have a unit behind them: the text becomes the number in SI units.
+extern const Value positive, counting, counting_or_0, hertz, seconds, metres;
 
 // Does what was asked for, once the arguments are read, and returns the exit code of the program. Throws UsageError, BadScene,
 // SceneFileError (2), Refusal (3).

@@ -30,15 +30,6 @@ struct CompareCall : Running, compare::CompareRequest {
     std::string modes_of_reference = "0";
 };
 
-std::optional<int> modes_of_reference(const std::string& text) {
-    if (text == "cell") return std::nullopt;
-    if (text == "0") return 0;
-    if (!a_number(text, true).empty())
-        throw store::UsageError(
-            fmt::format("--reference-modes: found \"{}\", expected a whole number from 0 to {}, or cell", text, store::most_counted));
-    return std::stoi(text);
-}
-
 bool names_compliance(const compare::SchemeOption& o) {
     return o.name == compliance_option.name;
 }
@@ -92,7 +83,8 @@ std::string certificate_text(const compare::Comparison& c) {
 int compare_command(CompareCall r) {
     r.options = listed_options(r.option_lists);
     r.search = r.schemes.empty() || r.rates.empty() || std::ranges::none_of(r.options, names_compliance);
-    r.reference_modes = modes_of_reference(r.modes_of_reference);
+    if (r.modes_of_reference == "cell") r.reference_modes = std::nullopt;
+    else r.reference_modes = static_cast<int>(store::number_of(r.modes_of_reference));
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
@@ -137,7 +129,13 @@ Act compare_verb(CLI::App& program) {
     v.schemes(v.r.schemes, "absent: every scheme that represents the scene, but for controls");
     v.flag("--controls", v.r.controls, "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
     v.option("--rates", v.r.rates, {"HZ,...", hertz.check}, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")->delimiter(',');
-    v.option("--reference-modes", v.r.modes_of_reference, {"N|cell"},
+    v.option("--reference-modes", v.r.modes_of_reference,
+             {"N|cell", CLI::Validator(
+                            [](std::string& text) {
+                                const std::string wrong = text == "cell" ? "" : counting_or_0.check(text);
+                                return wrong.empty() ? wrong : wrong + ", or cell";
+                            },
+                            "")},
              "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
              "of the schemes");
     v.duration(v.r.duration);

@@ -148,7 +148,7 @@ Act trim_verb(CLI::App& program) {
     v.option("--duration", v.r.duration, seconds,
              "how much of the scene is run; absent: to 50 ms after the last pluck, for decay all of it");
     v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second that are compared, and the lowest rate that is tried; 44100 where absent");
-    v.option("--reference-modes", v.r.reference_modes, {"N", CLI::Validator(CLI::NonNegativeNumber).description("")},
+    v.option("--reference-modes", v.r.reference_modes, counting_or_0,
              "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach");
     v.jobs(v.r.jobs);
     v.option("--out", v.r.out, {"DIR"},

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +10,7 @@
 #include "bench/store/sound.hpp"
 #include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
+#include "scenes/wording.hpp"
 
 namespace jvari::bench::judge {
 
@@ -18,14 +18,11 @@ namespace {
 constexpr double near_row = 0.1;  // of a row: other programs print six digits
 
 double number_in(const std::string& field, const std::string& where) {  // NaN and inf are numbers
-    const auto from = field.find_first_not_of(" +\t\r"), to = field.find_last_not_of(" \t\r");
-    double x = 0;
+    const auto from = field.find_first_not_of(" \t\r"), to = field.find_last_not_of(" \t\r");
     if (from == std::string::npos) throw store::UsageError(where + ": found nothing, expected a number");
-    const char *begin = field.data() + from, *end = field.data() + to + 1;
-    const auto [stop, error] = std::from_chars(begin, end, x);
-    if (error == std::errc::result_out_of_range) return 0;  // a denormal, or so
-    if (error != std::errc() || stop != end) throw store::UsageError(where + ": found \"" + field + "\", expected a number");
-    return x;
+    const auto x = number_of(std::string_view(field).substr(from, to + 1 - from));
+    if (!x) throw store::UsageError(fmt::format("{}: found {}, expected a number", where, found_text(field)));
+    return *x;
 }
 
 store::Table table_in(const std::filesystem::path& path, const std::string& text) {
@@ -39,9 +36,10 @@ store::Table table_in(const std::filesystem::path& path, const std::string& text
 int column_of(const store::Table& t, const std::filesystem::path& path, const std::string& name, const char* what) {
     const int k = t.column(name);
     if (k >= 0) return k;
-    std::string names;
-    for (const std::string& c : t.columns) names += (names.empty() ? "" : ", ") + c;
-    throw store::UsageError(fmt::format("{}: {} {} is missing; the file has the columns {}", path.string(), what, name, names));
+    const bool semicolons = t.columns.size() == 1 && t.columns[0].find_first_of(";\t") != std::string::npos;
+    throw store::UsageError(fmt::format("{}: {} {} is missing; the file has the columns {}{}", path.string(), what, name,
+                                        list_of(t.columns),
+                                        semicolons ? ". Expected commas between columns, and points in numbers, as 0.5" : ""));
 }
 
 void check_times(const store::Table& t, const std::filesystem::path& path, double tap_rate) {
@@ -72,9 +70,10 @@ void copy_column(const store::Table& t, const std::filesystem::path& path, int c
 Trace from_csv(const std::filesystem::path& path, const Scene& scene, double tap_rate, long rows) {
     const std::string text = store::read_whole(path);
     const store::Table t = table_in(path, text);
-    if (static_cast<long>(t.rows.size()) < rows && !text.ends_with('\n'))
-        throw store::UsageError(
-            fmt::format("{}: ends within line {}, before the last row: the file is cut off", path.string(), t.rows.size() + 1));
+    if (!text.ends_with('\n'))
+        throw store::UsageError(fmt::format(
+            "{}: line {} does not end with a line break, so its last number may be cut off; end the file with one where it is whole",
+            path.string(), t.rows.size() + 1));
     Trace trace = empty_trace(scene, tap_rate, t.rows.size());
     std::vector<int> columns;
     for (const std::string& name : trace.names) columns.push_back(column_of(t, path, name, "tap"));
@@ -85,6 +84,12 @@ Trace from_csv(const std::filesystem::path& path, const Scene& scene, double tap
     if (energy) trace.energy.resize(3 * t.rows.size());
     for (std::size_t k = 0; energy && k < 3; ++k)
         copy_column(t, path, t.column(store::energy_names[k]), trace.energy.data() + k * t.rows.size());
+    if (const auto odd = std::ranges::find_if_not(trace.energy, [](double x) { return std::isfinite(x); }); odd != trace.energy.end()) {
+        const std::size_t at = static_cast<std::size_t>(odd - trace.energy.begin());
+        throw store::UsageError(
+            fmt::format("{}: column {} holds no number in row {}; leave the three energy columns out where there is none", path.string(),
+                        store::energy_names[at / t.rows.size()], at % t.rows.size()));
+    }
     return trace;
 }
 

@@ -3,12 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
-#include <optional>
 
 #include "bench/map/map_run.hpp"
 #include "scenes/wording.hpp"
@@ -20,13 +18,6 @@ constexpr double most_points = 1e6;  // of a map: each is a run
 
 bool is_option(const std::string& key) {
     return key.rfind("option:", 0) == 0;
-}
-
-std::optional<double> number_in(const std::string& text) {
-    double x = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x)) return std::nullopt;
-    return x;
 }
 
 const std::map<std::string, store::Kind<double>>& plain_numbers() {  // what may stand for all points, or along an axis
@@ -76,7 +67,7 @@ void finish(MapAxis& a, const store::Entry& e) {
             if (const auto x = e.at(other)) x->refuse("either values or from, to and points");
     if (!listed) spread(a, e);
     for (const std::string& text : a.values)
-        if (const auto x = number_in(text)) a.at.push_back(*x);
+        if (const auto x = number_of(text); x && std::isfinite(*x)) a.at.push_back(*x);
     if (a.at.size() < a.values.size()) a.at.clear();
     if (std::adjacent_find(a.at.begin(), a.at.end(), std::greater_equal<>()) != a.at.end())
         e.need(listed ? "values" : "points").refuse("numbers that ascend");

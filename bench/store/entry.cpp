@@ -63,14 +63,13 @@ std::string Entry::text() const {
 }
 
 std::optional<double> Entry::number() const {
-    if (const auto n = whole()) return static_cast<double>(*n);
+    if (const auto* n = std::get_if<std::int64_t>(&value_->content)) return static_cast<double>(*n);
     if (const auto* x = std::get_if<double>(&value_->content)) return *x;
     return {};
 }
 
 std::optional<std::int64_t> Entry::whole() const {
-    if (const auto* n = std::get_if<std::int64_t>(&value_->content)) return *n;
-    return {};
+    return value_->whole();
 }
 
 bool Entry::truth() const {

@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <string_view>
+
+#include "scenes/wording.hpp"
 
 namespace jvari::bench::store {
 
@@ -19,10 +19,7 @@ std::string text_of(double x) {
 }
 
 double number_of(const std::string& text) {
-    double value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && stop == end ? value : std::numeric_limits<double>::quiet_NaN();
+    return jvari::number_of(text).value_or(nan);
 }
 
 std::string options_text(const Options& options) {
@@ -91,6 +88,7 @@ Table read_csv(const std::string& text) {
     Table table;
     std::vector<std::string> fields{""};
     bool inside = false, begun = false;
+    const std::size_t start = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
     int line = 1;
     const auto end_row = [&] {
         if (!begun) return;  // an empty line
@@ -98,6 +96,9 @@ Table read_csv(const std::string& text) {
             if (is_marked(field)) field.erase(0, 1);
         if (table.columns.empty()) {
             table.columns = fields;
+            std::ranges::sort(fields);
+            if (const auto twice = std::ranges::adjacent_find(fields); twice != fields.end())
+                throw std::runtime_error(fmt::format("line 1: found two columns {}, expected one", found_text(*twice)));
         } else if (fields.size() != table.columns.size()) {
             throw std::runtime_error(fmt::format("line {}: found {} fields, expected {}", line, fields.size(), table.columns.size()));
         } else {
@@ -106,7 +107,7 @@ Table read_csv(const std::string& text) {
         fields.assign(1, "");
         begun = false;
     };
-    for (std::size_t i = 0; i < text.size(); ++i) {
+    for (std::size_t i = start; i < text.size(); ++i) {
         const char c = text[i];
         if (inside) {
             if (c != '"') fields.back() += c;

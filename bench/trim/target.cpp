@@ -2,9 +2,9 @@
 
 #include <fmt/core.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/errors.hpp"
 
@@ -40,13 +40,12 @@ Target target_of(const std::string& name, const std::string& within) {
         for (const Measure& m : measures()) names.push_back(m.name);
         throw store::UsageError("--of " + store::unknown("measure", name, names));
     }
-    double x = 0;
-    const char* end = within.data() + within.size();
-    const auto [stop, error] = std::from_chars(within.data(), end, x);
-    std::string unit(stop, end);
-    unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? unit.size() : unit.find_first_not_of(' '));
+    const auto end = within.find_last_of("0123456789.") + 1;  // of the number; npos + 1: there is none
+    const double x = store::number_of(within.substr(0, end));
+    std::string unit = within.substr(end);
+    unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
     const bool relative = found->unit == "%";
-    if (error != std::errc() || !std::isfinite(x) || !(x > 0) || (!unit.empty() && unit != found->unit))
+    if (!std::isfinite(x) || !(x > 0) || (!unit.empty() && unit != found->unit))
         throw store::UsageError(
             fmt::format("--within {}: expected a tolerance of {}, as {}", within, found->name, relative ? "1%" : "1" + found->unit));
     if (relative && unit.empty() && x > most_without_unit)

@@ -39,6 +39,12 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"run free_string --scheme modal_two_point --tap-rate 30000", "whole multiple"},
         {"run free_string --scheme modal_two_point --modes 0", "whole number from 1 to 9999999"},
         {"run free_string --scheme modal_two_point --modes 10000000", "from 1 to 9999999"},
+        {"run free_string --scheme modal_two_point --modes 0x10", "found \"0x10\", expected a whole number from 1 to 9999999"},
+        {"run free_string --scheme modal_two_point --modes 1e400", "found \"1e400\", expected a whole number from 1 to 9999999"},
+        {"run free_string --scheme modal_two_point --rate 0x10", "found \"0x10\", expected a number > 0"},
+        {"trim free_string --within 1% --reference-modes 0x10", "a whole number from 0 to 9999999"},
+        {"trim free_string --within 0x1%", "expected a tolerance"},
+        {"compare free_string --reference-modes 0x10", "a whole number from 0 to 9999999, or cell"},
         {"run free_string --scheme modal_two_point --modes 1.5", "whole number from 1 to 9999999"},
         {"run free_string --scheme exact_contact --duration 0.004 --tap-rate 0.001", "no less than a row"},
         {"run free_string --scheme modal_two_point --set tension", "KEY.PATH=VALUE"},
@@ -82,6 +88,20 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         EXPECT_EQ(o.out, "") << arguments;
         EXPECT_TRUE(says(o.err, expected)) << arguments;
     }
+}
+
+TEST(CommandLine, AWholeNumberIsReadWholeAndByTens) {
+    const Scratch scratch;
+    for (const auto& [text, modes] : {std::pair{"010", 10}, {"1e1", 10}, {"+12.0", 12}}) {
+        const Outcome o = jvari(scratch, std::string("run free_string --scheme modal_two_point --duration 0.002 --json --modes ") + text);
+        ASSERT_EQ(o.code, 0) << text << o.err;
+        EXPECT_EQ(nlohmann::json::parse(o.out).at("modes"), modes) << text;
+    }
+    const Outcome o = jvari(scratch,
+                            "compare free_string --schemes modal_two_point --rates 44100 --duration 0.002 --repeats 1 --modes 20 "
+                            "--reference-modes 2e1 --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(nlohmann::json::parse(o.out).at("cells")[0].at("reference_modes"), 20);
 }
 
 TEST(CommandLine, HelpTeachesWithExamplesAndEndsWith0) {
