@@ -155,6 +155,8 @@ void check(const Tap& tap, const Scene& scene, const std::string& path) {
 void validate(const Scene& scene) {
     Ranges ranges;
     fields(ranges, scene);
+    if (const std::string wrong = scene.name.empty() ? "" : unfit_as_file(scene.name); !wrong.empty())
+        throw BadScene("name", found_text(scene.name) + ", which " + wrong, "a name that files can be called by");
     if (scene.strings.empty()) throw BadScene("string", "no string", "at least one [[string]]");
     for (std::size_t i = 0; i < scene.strings.size(); ++i) On{scene.strings[i], "string." + std::to_string(i) + "."}.all();
     std::set<std::string> names;

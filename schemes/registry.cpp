@@ -1,7 +1,10 @@
 #include "schemes/registry.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string_view>
 
+#include "scenes/wording.hpp"
 #include "schemes/controls.hpp"
 #include "schemes/open/open_plugin.hpp"
 
@@ -51,7 +54,21 @@ const Guest* find_guest(const std::string& path) {
     return found == all_guests().end() ? nullptr : *found;
 }
 
+namespace {
+// A scheme's name stands in tables, in commands and in the names of files.
+void check_name(const std::string& path, std::string_view name) {
+    std::string wrong = unfit_as_file(name);
+    if (name == "reference") wrong = "is what results call the reference";
+    if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
+        wrong = "has letters beyond ASCII";
+    if (!wrong.empty())
+        throw std::runtime_error(path + ": the scheme's name " + found_text(name) + " " + wrong +
+                                 ". Names are of letters, digits and _, for files are called by them");
+}
+}  // namespace
+
 const Guest& add_guest(Guest guest) {
+    for (const Descriptor& d : guest.schemes) check_name(guest.path, d.name);
     const auto* added = new Guest(std::move(guest));  // NOLINT(cppcoreguidelines-owning-memory): for the life of the process
     const auto same = std::find_if(all_guests().begin(), all_guests().end(), [added](const Guest* g) { return g->path == added->path; });
     if (same == all_guests().end()) all_guests().push_back(added);

@@ -20,7 +20,7 @@ struct Guest {
     bool optimised = true;
 };
 std::span<const Guest* const> guests();  // in the order in which they came; to be asked between loads
-const Guest& add_guest(Guest);           // from now on in the place of one of the same path
+const Guest& add_guest(Guest);           // in the place of one of the same path. Throws std::runtime_error: unfit names
 const Guest* find_guest(const std::string& path);
 
 // The guest of that path, else what a shared object brings. Throws std::runtime_error with the reason.

@@ -61,6 +61,17 @@ sed '5s/,[^,]*$/,twelve/' own.csv > word.csv && refused "a word" "expected a num
 : > empty.csv && refused "an empty file" "cannot read" empty.csv
 sed '300s/,[^,]*$/,NaN/' own.csv > nan.csv && refused "NaN" "tap thread holds no number in row 298" nan.csv
 head -300 own.csv > early.csv && refused "an early end" "has 299 rows, the scene has 442" early.csv
+sed '300s/,[^,]*$/,1e400/' own.csv > large.csv && refused "a number beyond all" "1e400\", expected a number" large.csv
+head -c -3 own.csv > last.csv && refused "a last number that is cut off" "cut off" last.csv
+sed '1s/$/,nut/; 1!s/$/,0/' own.csv > twice.csv && refused "a tap that has two columns" "two columns .nut" twice.csv
+tr ',' ';' < own.csv > semicolons.csv && refused "semicolons" "Expected commas" semicolons.csv
+sed '1s/$/,energy_stored_J,energy_supplied_J,energy_dissipated_J/; 1!s/$/,nan,0,0/' own.csv > energy.csv && refused "NaN among energies" "energy_stored_J holds no number" energy.csv
+{ printf '\357\273\277'; cat own.csv; } > marked.csv
+"$jvari" judge $scene --trace 44100=marked.csv > /dev/null || fail "a byte-order mark hides the first column"
+for name in ../../x a/b "" reference "$(printf 'x%.0s' $(seq 300))"; do
+    said=$("$jvari" judge $scene --trace 44100=own.csv --name "$name" --out unfit 2>&1)
+    [ $? = 2 ] && echo "$said" | grep -q "the scheme's name" && [ ! -e unfit/cells.csv ] || fail "a trace called \"$name\" is not refused before it is judged: $said"
+done
 cp own.csv trace.txt && refused "another extension" "expected .csv or .wav" trace.txt
 
 # Any program as a scheme, by files: it has the same rows, and its cells are kept.

@@ -37,7 +37,11 @@ std::string enter(Candidate candidate) {  // as a guest; returns its path
     d.all_strings = true;
     d.own = kept;
     d.untimed = no_cost;
-    add_guest({path, {d}, kept->contents});
+    try {
+        add_guest({path, {d}, kept->contents});
+    } catch (const std::runtime_error& e) {
+        throw store::UsageError(e.what());
+    }
     return path;
 }
 

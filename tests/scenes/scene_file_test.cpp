@@ -273,6 +273,13 @@ TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
     EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100\n"), "modes.csv:2: decay_rate_per_s: found \"\", expected a number >= 0");
     EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,-1\n"), "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
     EXPECT_EQ(with("# a\nfrequency,decay_rate_per_s\n"), "modes.csv:2: header: found no column \"frequency_hz\"");
+    EXPECT_EQ(with("frequency_hz,frequency_hz,decay_rate_per_s\n100,200,1\n"),
+              "modes.csv:1: header: found two columns \"frequency_hz\", expected one");
+    EXPECT_EQ(with("frequency_hz;decay_rate_per_s\n100;0,5\n"),
+              "modes.csv:1: header: found no column \"frequency_hz\"; expected commas between columns, and points in numbers, as 0.5");
+    EXPECT_EQ(with("\xef\xbb\xbf"
+                   "frequency_hz,decay_rate_per_s\n100,-1\n"),
+              "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
     EXPECT_EQ(with("# nothing\n"), "modes.csv:1: found no header, expected the columns \"frequency_hz\", \"decay_rate_per_s\"");
     EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n"), "scene.toml:9: string.0.damping.file: found no rows, expected at least one");
     EXPECT_EQ(
@@ -285,6 +292,16 @@ TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
 }
 
 // ---- Overrides
+
+TEST(Overrides, NumbersAreReadWholeAndByTens) {
+    const std::string base = "tanpura_c3_release";
+    EXPECT_EQ(read_scene(base, {"string.0.length=010"}).strings[0].length, 10);
+    EXPECT_EQ(
+        read_scene(base, {"string.0.initial={shape=\"mode\",number=2,amplitude=1e-3}", "string.0.initial.number=3e0"}).strings[0].initial,
+        Initial(ModeInitial{3, 1e-3}));
+    for (const char* text : {"0x10", "1_0", "1e400", "nan", "inf", "0,5"})
+        EXPECT_THROW(read_scene(base, {std::string("string.0.length=") + text}), std::runtime_error) << text;
+}
 
 TEST(Overrides, SetValuesByPathAlsoAbsentOnes) {
     const Scene scene =
@@ -364,6 +381,8 @@ TEST(Overrides, ErrorsNameTheOverride) {
         {"name=[1", "--set name=[1: not valid TOML: Error while parsing array: encountered end-of-file"},
         {"duration=1\nname=2", "--set duration=1\nname=2: duration: found \"1\\u000Aname=2\", expected a positive number [s]"},
         {"a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1", "--set a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1: found a key of 17 parts, expected at most 16"},
+        {"name=../../x",
+         "--set name=../../x: name: found \"../../x\", which begins with a point, expected a name that files can be called by"},
         {"string.0.length=0.005", "scene.toml:9: string.0.barrier.0.position: found 0.01, expected 0 < x < 0.005 [m], on the string"},
     };
     for (const auto& [override, expected] : rows) EXPECT_EQ(message(lumped, {override}), expected);

@@ -7,10 +7,12 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/pareto.hpp"
 #include "bench/compare/scene_notes.hpp"
+#include "bench/store/checksum.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/study/columns.hpp"
 #include "scenes/scene_file.hpp"
+#include "scenes/wording.hpp"
 
 namespace jvari::bench::compare {
 
@@ -119,6 +121,8 @@ bool at_an_end(const Comparison& c, const study::Cell& cell) {  // of the rates 
 std::string file_of(const study::Cell& cell) {  // "modal_two_point-compliance=matched-88200-133"
     std::string name = store::variant_name(cell.scheme->name, store::options_text(cell.settings.options));
     std::ranges::replace(name, ' ', '-');
+    if (!unfit_as_file(name).empty())
+        name = fmt::format("{}-{}", cell.scheme->name, store::hash_of(name));  // a plugin's option may be a path
     if (cell.settings.sample_rate > 0) name += fmt::format("-{}", store::text_of(cell.settings.sample_rate));
     return fmt::format("{}-{}", name, cell.modes());
 }
