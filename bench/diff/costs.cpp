@@ -92,6 +92,13 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
 }  // namespace
 
 void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pairs, Difference& d) {
+    for (const Pair& p : pairs) {  // a cell that ran has a cost, whatever the machine
+        if (b.cells.at(p.after, "status") != "ok") continue;
+        for (const char* column : {wall.median, processor.median})
+            if (a.cells.number(p.before, column) > 0 && !(b.cells.number(p.after, column) > 0))
+                d.findings.push_back(
+                    {Turn::worse, p.name, column, a.cells.at(p.before, column), b.cells.at(p.after, column), "its cost is gone"});
+    }
     const Clock clock = clock_of(a.cells, b.cells);
     std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
     if (ratios.empty()) return;

@@ -45,6 +45,9 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     d.cells_in_both = static_cast<int>(pairs.size());
     columns_alone(a.cells, b.cells, d.columns.before);
     columns_alone(b.cells, a.cells, d.columns.after);
+    for (const char* column : {"status", "flags"})
+        if (a.cells.column(column) >= 0 && b.cells.column(column) < 0)
+            d.findings.push_back({Turn::worse, "every cell", column, "known", "", "the column is gone"});
     const auto columns = compared_columns(a.cells, b.cells);
     int other_truth = 0;
     std::string how;
@@ -118,6 +121,9 @@ bool Difference::nothing() const {
 
 Difference difference(const Folder& before, const Folder& after) {
     Difference d;
+    for (const Folder* f : {&before, &after})
+        if (!f->altered.empty())
+            d.findings.push_back({Turn::worse, f->name, f->altered, "cells.csv", "errors.csv", "the two files differ: one was changed"});
     compare_cells(before, after, d);
     compare_dispersion(before.dispersion, after.dispersion, d);
     compare_maps(before, after, d);

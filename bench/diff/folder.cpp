@@ -24,6 +24,18 @@ Made made_by(const store::Folder& folder) {
             text("cpu"),    text("cores"), text("vectors"),  text("system")};
 }
 
+// Errors stand in cells.csv and in errors.csv: a folder in which they differ was changed by hand.
+std::string altered_column(const store::Table& cells, const store::Table& errors) {
+    const auto same = [&](const std::string& column) {
+        for (std::size_t i = 0; i < errors.rows.size(); ++i)
+            if (i >= cells.rows.size() || cells.at(i, column) != errors.at(i, column)) return false;
+        return true;
+    };
+    for (const std::string& column : errors.columns)
+        if (cells.column(column) >= 0 && !same(column)) return column;
+    return "";
+}
+
 std::string counted(std::map<std::string, int>& seen, const std::string& text) {
     const int n = ++seen[text];
     return n == 1 ? text : fmt::format("{} #{}", text, n);
@@ -48,8 +60,14 @@ Folder read_folder(const fs::path& path) {
     std::error_code error;
     if (!fs::is_directory(path, error)) throw store::UsageError(fmt::format("{}: no such folder", path.string()));
     const store::Folder folder{path};
-    const Folder f{path.string(),        made_by(folder),           folder.cells(false), folder.table("dispersion"),
-                   folder.table("maps"), folder.table("boundaries")};
+    Folder f{path.string(),
+             made_by(folder),
+             folder.cells(false),
+             folder.table("dispersion"),
+             folder.table("maps"),
+             folder.table("boundaries"),
+             ""};
+    f.altered = altered_column(f.cells, folder.table("errors"));
     if (f.cells.columns.empty() && f.maps.columns.empty())
         throw store::UsageError(fmt::format("{}: neither cells.csv nor errors.csv nor maps.csv", f.name));
     return f;

@@ -23,6 +23,7 @@ struct Folder {
     Made made;
     store::Table cells;                         // errors and costs of a cell in one row
     store::Table dispersion, maps, boundaries;  // empty where the file is absent
+    std::string altered;                        // a column in which errors.csv differs from cells.csv; "": none
 };
 
 // Throws UsageError where there is no manifest.json, no cells, errors or maps, or a file cannot be read.

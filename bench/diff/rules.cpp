@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
+#include <sstream>
 
 #include "bench/compare/bound.hpp"
 #include "bench/study/columns.hpp"
@@ -40,10 +43,12 @@ std::string against_the_scene(std::string column) {
     return column;
 }
 
-double tolerance_of(const std::string& column, const store::Table& before, std::size_t i) {
-    const double old = std::abs(before.number(i, column)), motion = (floors * sensitivity(before, i) + 1e-6) * old;
+// A noise floor counts as the lower of the two: one that was raised in either folder excuses nothing.
+double tolerance_of(const std::string& column, const store::Table& before, std::size_t i, const store::Table& after, std::size_t k) {
+    const double old = std::abs(before.number(i, column));
+    const double motion = (floors * std::min(sensitivity(before, i), sensitivity(after, k)) + 1e-6) * old;
     const std::string of_scene = against_the_scene(column);
-    if (const double floor = before.number(i, "floor_" + of_scene); !std::isnan(floor)) {
+    if (const double floor = std::fmin(before.number(i, "floor_" + of_scene), after.number(k, "floor_" + of_scene)); !std::isnan(floor)) {
         const double noise = floors * floor + rounding * (old + (column.starts_with("centroid_hz") ? centroid : 0));
         return of_scene == column ? noise : std::fmax(noise, motion);
     }
@@ -73,10 +78,25 @@ int worse_where_larger(const std::string& column) {
     return 0;
 }
 
+bool never_negative(const std::string& column) {
+    return worse_where_larger(column) != 0 || study::rule_of(column) == study::Rule::floor;
+}
+
+std::set<std::string> words_of(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
 Turn text_turn(const std::string& column, const std::string& before, const std::string& after) {
     if (before == after) return Turn::same;
     if (column == "status") return before == "ok" ? Turn::worse : after == "ok" ? Turn::better : Turn::moved;
-    if (column == "flags") return before.empty() ? Turn::worse : after.empty() ? Turn::better : Turn::moved;
+    if (column == "flags") {  // one that was not there before is worse, whatever else is gone
+        const auto lacks_one_of = [](const std::set<std::string>& all, const std::set<std::string>& of) {
+            return !std::ranges::includes(all, of);
+        };
+        const auto was = words_of(before), is = words_of(after);
+        return lacks_one_of(was, is) ? Turn::worse : lacks_one_of(is, was) ? Turn::better : Turn::same;
+    }
     return Turn::moved;
 }
 }  // namespace
@@ -101,7 +121,8 @@ bool is_skipped(const std::string& column) {
 Turn turn_of(const std::string& column, const store::Table& before, std::size_t i, const store::Table& after, std::size_t k) {
     if (study::rule_of(column) == study::Rule::text) return text_turn(column, before.at(i, column), after.at(k, column));
     const double was = before.number(i, column), is = after.number(k, column);
-    if (same_number(was, is, tolerance_of(column, before, i))) return Turn::same;
+    if (is < 0 && !(was < 0) && never_negative(column)) return Turn::worse;  // no error is: the table is damaged
+    if (same_number(was, is, tolerance_of(column, before, i, after, k))) return Turn::same;
     const int sign = worse_where_larger(column);
     if (sign == 0) return Turn::moved;
     if (std::isnan(was) || std::isnan(is)) return std::isnan(is) ? Turn::worse : Turn::better;

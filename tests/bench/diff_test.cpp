@@ -67,6 +67,14 @@ TEST(Costs, OfTwoMachinesAreNotComparedAndItIsSaid) {
     EXPECT_TRUE(says(d.notes[0], "two machines"));
 }
 
+TEST(Costs, ThatAreGoneAreWorse) {
+    for (const char* cost : {"", "nan", "0", "-1"}) {
+        Folder after = timed(1, 0.02);
+        after.cells.rows[5][7] = cost;
+        EXPECT_EQ(difference(timed(1, 0.02), after).count(Turn::worse), 1) << cost;
+    }
+}
+
 TEST(Costs, OfASingleSchemeAreNotToldFromTheMachines) {
     Folder a = timed(1, 0.02), b = timed(2, 0.02, 1.3);
     a.cells.rows.resize(rates), b.cells.rows.resize(rates);
@@ -215,6 +223,33 @@ TEST(Outcomes, ThatFailAreWorseAndFlagsToo) {
     EXPECT_EQ(turn_between(was, cell("diverged", "", 0.05, 1e-12, 1e-3)), Turn::worse);
     EXPECT_EQ(turn_between(cell("diverged", "", 0.05, 1e-12, 1e-3), was), Turn::better);
     EXPECT_EQ(turn_between(was, cell("ok", "adhesion", 0.05, 1e-12, 1e-3)), Turn::worse);
+}
+
+TEST(Outcomes, AFurtherFlagAndAColumnThatIsGoneAreWorse) {
+    Folder before = timed(1, 0.02);
+    before.cells.columns.emplace_back("flags");
+    for (auto& row : before.cells.rows) row.emplace_back("energy");
+    Folder after = before;
+    after.cells.rows[0].back() = "adhesion energy";
+    EXPECT_EQ(difference(before, after).count(Turn::worse), 1);
+    EXPECT_EQ(difference(after, before).count(Turn::better), 1);
+    Folder without = before;  // no status: no cell is known to have run
+    for (auto& row : without.cells.rows) row.erase(row.begin() + 5);
+    without.cells.columns.erase(without.cells.columns.begin() + 5);
+    EXPECT_EQ(difference(before, without).count(Turn::worse), 1);
+    Folder negative = before;
+    negative.cells.rows[0][6] = "-1";
+    EXPECT_EQ(difference(before, negative).count(Turn::worse), 1);
+}
+
+TEST(Errors, AreNotExcusedByAFloorThatWasRaised) {
+    Folder before = timed(1, 0.02);
+    before.cells.columns.emplace_back("floor_error_l2_50ms");
+    for (auto& row : before.cells.rows) row.emplace_back("1e-12");
+    Folder after = before;
+    before.cells.rows[0].back() = "1e9";
+    after.cells.rows[0][6] = "0.5";
+    EXPECT_EQ(difference(before, after).count(Turn::worse), 1);
 }
 
 TEST(Outcomes, OfMapsAreComparedPointByPoint) {
