@@ -1,4 +1,7 @@
 // jvari: what it was called with, and what a failure means to the caller.
+#include <unistd.h>
+
+#include <cstdlib>
 #include <cstring>
 
 #include "bench/command/console.hpp"
@@ -20,14 +23,11 @@ int fail(bool json, int code, const char* status, const std::string& message) {
     }
     return code;
 }
-}  // namespace
 
-int main(int argc, char** argv) {
+bool ended = false;
+
+int code_of(int argc, char** argv, bool json) {
     using namespace jvari;
-    bench::command::hold_standard_streams();
-    bench::store::heed_interruptions();
-    bool json = false;
-    for (int k = 1; k < argc; ++k) json = json || std::strcmp(argv[k], "--json") == 0;
     try {
         return bench::command::call(argc, argv);
     } catch (const bench::store::UsageError& e) {
@@ -46,4 +46,22 @@ int main(int argc, char** argv) {
         return fail(json, bench::command::exit_code::run_failed, "error",
                     "something was thrown that is no exception of the standard library");
     }
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace jvari::bench;
+    command::hold_standard_streams();
+    store::heed_interruptions();
+    bool json = false;
+    for (int k = 1; k < argc; ++k) json = json || std::strcmp(argv[k], "--json") == 0;
+    if (json) command::keep_standard_output();
+    std::atexit([] {
+        if (ended) return;
+        command::tell("jvari: a plugin or a library called exit() before the work was done; nothing of it is to be trusted");
+        _exit(command::exit_code::run_failed);
+    });
+    const int code = code_of(argc, argv, json);
+    ended = true;
+    return code;
 }

@@ -72,7 +72,29 @@ for name in ../../x a/b "" reference "$(printf 'x%.0s' $(seq 300))"; do
     said=$("$jvari" judge $scene --trace 44100=own.csv --name "$name" --out unfit 2>&1)
     [ $? = 2 ] && echo "$said" | grep -q "the scheme's name" && [ ! -e unfit/cells.csv ] || fail "a trace called \"$name\" is not refused before it is judged: $said"
 done
+mkfifo pipe.wav
+said=$(timeout 20 "$jvari" judge $scene --tap nut --trace 44100=pipe.wav 2>&1)
+[ $? = 2 ] && echo "$said" | grep -q "no file" || fail "a pipe is waited for as a sound: $said"
 cp own.csv trace.txt && refused "another extension" "expected .csv or .wav" trace.txt
+
+# What a plugin prints does not stand among the JSON, and one that ends the program is no success.
+cat > talks.c <<'END'
+#include <stdio.h>
+#include <stdlib.h>
+#include "jvari_scheme.h"
+static const struct jvari_plugin nothing = {sizeof nothing, JVARI_SCHEME_VERSION};
+const struct jvari_plugin* jvari_schemes(void) {
+    puts("hello");
+    if (getenv("LEAVES")) exit(0);
+    return &nothing;
+}
+END
+if command -v cc >/dev/null; then
+    cc -shared -fPIC -I"$tree/schemes/open" talks.c -o talks.so || fail "the plugin that prints does not compile"
+    "$jvari" run $scene --scheme modal_two_point --plugin ./talks.so --json > talks.json 2>/dev/null && [ "$(head -c 1 talks.json)" = "{" ] || fail "a plugin prints into the JSON: $(head -1 talks.json)"
+    LEAVES=1 "$jvari" run $scene --scheme modal_two_point --plugin ./talks.so >/dev/null 2>&1
+    [ $? = 4 ] || fail "a plugin that calls exit(0) ends the program as if the work were done"
+fi
 
 # Any program as a scheme, by files: it has the same rows, and its cells are kept.
 cat > copies.sh <<'END'

@@ -42,7 +42,18 @@ const char* colour_of(std::string_view line) {
     return "";
 }
 
-std::string coloured(const std::string& text, int stream) {
+// Names and notes come from files and plugins: what would steer the terminal is shown as a question mark.
+std::string harmless(std::string text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto c = static_cast<unsigned char>(text[i]), before = static_cast<unsigned char>(i > 0 ? text[i - 1] : 0);
+        if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f) text[i] = '?';
+        else if (before == 0xc2 && c >= 0x80 && c < 0xa0) text[i - 1] = text[i] = '?';
+    }
+    return text;
+}
+
+std::string coloured(const std::string& said, int stream) {
+    std::string text = harmless(said);
     if (!in_colour(stream)) return text;
     std::string all;
     for (std::size_t from = 0; from <= text.size();) {
@@ -54,9 +65,11 @@ std::string coloured(const std::string& text, int stream) {
     return all;
 }
 
+std::FILE* own_output = stdout;
+
 void put(const std::string& text) {
     const std::string line = coloured(text, STDOUT_FILENO) + "\n";
-    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
+    if (std::fwrite(line.data(), 1, line.size(), own_output) != line.size() || std::fflush(own_output) != 0)
         throw store::Unwritable(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
 
@@ -77,7 +90,7 @@ public:
         const auto now = std::chrono::steady_clock::now();
         if (now - start_ < 2s || now - last_ < pause_) return;
         last_ = now;
-        const std::string line = fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what);
+        const std::string line = harmless(fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what));
         if (!terminal_) return tell(line);
         const store::Undisturbed whole;
         if (!shown_) shown_.emplace(clear_line);
@@ -100,6 +113,14 @@ void hold_standard_streams() {
         if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) != stream) _exit(exit_code::run_failed);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
+}
+
+void keep_standard_output() {
+    const int own = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+    std::FILE* file = own < 0 ? nullptr : fdopen(own, "w");
+    if (!file) return;
+    own_output = file;
+    dup2(STDERR_FILENO, STDOUT_FILENO);
 }
 
 void tell(const std::string& line) {

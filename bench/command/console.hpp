@@ -17,6 +17,7 @@ constexpr const char* status(int code) {  // as --json says it
 
 // Before any file is opened: none takes the number of a standard stream that the caller closed; and what cannot be written, to a pipe that
 // nobody reads or past a limit of file size, is an error of writing (Unwritable) where by default it would be a signal and the end.
+void keep_standard_output();  // for print_json alone: what a plugin prints goes to standard error
 void hold_standard_streams();
 // A line to standard error. That it could not be written is nowhere to be told.
 void tell(const std::string& line);

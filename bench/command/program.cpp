@@ -82,7 +82,9 @@ int call(int argc, const char* const* argv) {
         Console(false, false).print(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
         return exit_code::done;
     } catch (const CLI::ParseError& e) {
-        throw store::UsageError(fmt::format("{} (see jvari {}--help)", e.what(), verb.empty() ? "" : verb + " "));
+        const std::vector<std::string> all = words_of(argc, argv);
+        const char* behind = std::ranges::find(all, "--") == all.end() ? "" : "; what stands behind -- is no option";
+        throw store::UsageError(fmt::format("{}{} (see jvari {}--help)", e.what(), behind, verb.empty() ? "" : verb + " "));
     }
     return acts[static_cast<std::size_t>(asked - names.begin())]();
 }

@@ -1,10 +1,15 @@
 #include "bench/judge/problem_file.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/error.hpp"
 #include "bench/compare/compare_plan.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/store/usage.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/open/problem.hpp"
@@ -14,6 +19,7 @@ namespace jvari::bench::judge {
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* format = "jvari problem 1";
+constexpr double most_steps = 1e7;  // of plucks: 200 MB of text
 
 Json numbers(const double* data, std::int64_t n) {
     return std::vector<double>(data, data + n);
@@ -65,6 +71,17 @@ Exported exported(const compare::CompareRequest& request) {
     e.settings.tap_rate = compare::tap_rate_for(request, request.rates);
     e.settings.modes = request.modes.empty() ? 0 : request.modes.front();
     refuse_beyond_arrays(e.scene);
+    if (const double ratio = e.settings.sample_rate / e.settings.tap_rate;
+        !(std::abs(ratio - std::round(ratio)) < 1e-9 * ratio) || ratio < 0.5)
+        throw store::UsageError(
+            fmt::format("--tap-rate: found {:.12g}; {:.12g} Hz is no whole multiple of it", e.settings.tap_rate, e.settings.sample_rate));
+    double steps = 0;  // each holds a force of every pluck
+    for (const String& s : e.scene.strings)
+        if (s.pluck) steps += e.settings.sample_rate * std::min(s.pluck->start + s.pluck->duration, e.scene.duration);
+    if (steps > most_steps)
+        throw store::UsageError(
+            fmt::format("the pluck takes {:.2g} steps at {:.12g} Hz, and the file holds at most {:.0e}: export at a lower rate", steps,
+                        e.settings.sample_rate, most_steps));
     return e;
 }
 

@@ -50,6 +50,8 @@ Signal read_signal(const fs::path& path, const std::function<void(const std::str
     struct Close {
         void operator()(SNDFILE* f) const { sf_close(f); }
     };
+    std::error_code error;  // a pipe would be waited for
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse("which is no file");
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, Close> file(sf_open(path.c_str(), SFM_READ, &info));
     if (!file) refuse(fmt::format("which cannot be read: {}", sf_strerror(nullptr)));

@@ -77,6 +77,8 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"compare free_string --modes 10,0", "whole number from 1 to 9999999"},
         {"compare free_string --reference-modes some", "a whole number from 0 to 9999999, or cell"},
         {"compare tanpura_c3_release --option compliance=own --option compliance=matched", "in one list, compliance=own,matched"},
+        {"export tanpura_c3 --duration 0.5 --rate 44100000000 --without-reference --out /tmp/never.json", "export at a lower rate"},
+        {"export tanpura_c3_release --duration 0.01 --tap-rate 48000 --out /tmp/never.json", "no whole multiple"},
         {"compare free_string --repeats 0", "whole number from 1 to 9999999"},
         {"compare free_string --jobs 0", "whole number from 1 to 9999999"},
         {"compare free_string --out /proc/nowhere", "/proc/nowhere"},
