@@ -17,6 +17,7 @@ done
 find "$dir/root/usr/lib" -name jvariConfig.cmake | grep -q . || fail "the package lacks what find_package(jvari) reads"
 depends=$(dpkg-deb -f "$deb" Depends)
 for library in libc6 libgsl libsundials; do echo "$depends" | grep -q $library || fail "the package does not name $library: $depends"; done
+grep -q 'GNU General Public License' "$dir/root/usr/share/doc/jvari/copyright" || fail "the copyright does not say that the program is under the GPL"
 case $depends in *python*) fail "the package needs Python: $depends" ;; esac
 
 # Its scenes and certificates are its own: a scene and a suite that it alone has are found, a certificate that it lacks is missed.

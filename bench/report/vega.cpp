@@ -48,6 +48,10 @@ std::optional<std::string> vega_scripts(const Vega& v) {
         auto text = whole(fs::path(v.folder) / library);
         if (!text) return std::nullopt;
         if (const auto map = text->rfind("//# sourceMappingURL"); map != std::string::npos) text->resize(map);
+        const fs::path package = fs::path(v.folder) / fs::path(library).begin()->c_str();
+        auto licence = whole(package / "LICENSE");
+        if (!licence) licence = whole(package.parent_path() / "vega-lite/LICENSE");  // vega comes without its own, which is the same
+        if (licence) *text = "/*\n" + *licence + "*/\n" + *text;                     // the notice goes with every copy
         all += "<script>" + inside_script(std::move(*text)) + "</script>\n";
     }
     return all;
