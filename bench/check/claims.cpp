@@ -59,7 +59,7 @@ std::vector<map::Trial> map_of(const Descriptor& d) {
         if (d.represents.has(Feature::lumped_barrier)) {
             const double k[] = {1e4, 1e6, 1e8, 1e10};
             s.barriers = {LumpedBarrier{10e-3, 0, 0, {k[level]}, 1, 0}};
-            return std::pair{scene, fmt::format("a bridge of {:g} N/m", k[level])};
+            return std::pair{scene, fmt::format("a bridge of {:g} N per m", k[level])};
         }
         const double stiffness[] = {0, 6.03e-5, 1e-3, 1e-2};
         s.bending_stiffness = d.represents.has(Feature::bending_stiffness) ? stiffness[level] : 0;

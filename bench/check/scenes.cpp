@@ -263,7 +263,7 @@ std::vector<Scene> make_scenes_of_numbers() {
     }
     {
         String a = played, b = played, c = played;
-        a.damping = QualityFactorDamping{1e-3, 1.8e-4, 1.2, 0.02, 0.02};
+        a.damping = QualityFactorDamping{1e-3, 1.8e-4, 1.2, 1e-3, 0.02};
         b.damping = PerPeriodDamping{0.8};
         TableDamping t;
         t.file = "measured";
