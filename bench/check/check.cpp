@@ -43,7 +43,7 @@ bool Checked::broken() const {
     return std::any_of(answers.begin(), answers.end(), [](const Answered& a) { return a.verdict.broken(); });
 }
 
-Checked check(const Descriptor& d, const store::Listener& listener) {
+Checked check(const Descriptor& d, const store::Listener& listener, const std::function<void(const Checked&, const Promise&)>& answered) {
     Checked c{d.name, d.source, {}};
     const auto progress = listener.begin(std::string("check ") + d.name);
     double done = 0;
@@ -62,26 +62,31 @@ Checked check(const Descriptor& d, const store::Listener& listener) {
             c.answers.push_back({&p, one.scene.name, std::move(verdict), seconds});
             done += 1.0 / cases.size();
         }
+        if (answered) answered(c, p);
     }
     return c;
 }
 
-std::string text_of(const Checked& c) {
-    std::string text = fmt::format("{} ({})\n", c.scheme, c.source);
+std::string line_of(const Checked& c, const Promise& p) {
+    const Count n = count_of(c, p);
+    const bool tells = n.first && n.answer() == n.first->verdict.answer && !n.first->verdict.why.empty() &&
+                       (n.answer() != Answer::kept || n.first->scene.empty());
+    const std::string where = tells && !n.first->scene.empty() && n.broken + n.excused > 0 ? n.first->scene + ": " : "";
+    const std::string scenes = scenes_text(n);
+    return fmt::format("  {:<9}  {:<48}  {}{}{}", n.broken > 0 ? "BROKEN" : name_of(n.answer()), p.name, scenes,
+                       tells && !scenes.empty() ? "; " : "", tells ? where + n.first->verdict.why : "");
+}
+
+std::string conclusion_of(const Checked& c) {
     int broken = 0;
     std::string excused;
     for (const Promise& p : promises()) {
         const Count n = count_of(c, p);
         broken += n.broken > 0;
         if (n.excused > 0) excused += (excused.empty() ? "" : ", ") + std::string(p.name);
-        const bool tells = n.first && n.answer() == n.first->verdict.answer && !n.first->verdict.why.empty() &&
-                           (n.answer() != Answer::kept || n.first->scene.empty());
-        const std::string where = tells && !n.first->scene.empty() && n.broken + n.excused > 0 ? n.first->scene + ": " : "";
-        const std::string scenes = scenes_text(n);
-        text += fmt::format("  {:<9}  {:<48}  {}{}{}\n", n.broken > 0 ? "BROKEN" : name_of(n.answer()), p.name, scenes,
-                            tells && !scenes.empty() ? "; " : "", tells ? where + n.first->verdict.why : "");
     }
-    text += broken == 0 ? "  keeps what it promises" : fmt::format("  breaks {} of {} promises", broken, promises().size());
+    const std::string text =
+        broken == 0 ? "  keeps what it promises" : fmt::format("  breaks {} of {} promises", broken, promises().size());
     return text + (excused.empty() ? "" : fmt::format(", but for what it is known to break: {}", excused));
 }
 

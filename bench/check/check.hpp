@@ -1,6 +1,7 @@
 // All promises of one scheme, asked: what `jvari check` prints, writes and returns.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ struct Checked {
     bool broken() const;
 };
 
-Checked check(const Descriptor&, const store::Listener&);
+// `answered` is told each promise as soon as all its scenes are.
+Checked check(const Descriptor&, const store::Listener&, const std::function<void(const Checked&, const Promise&)>& answered = {});
 
-std::string text_of(const Checked&);  // a line a promise
+std::string line_of(const Checked&, const Promise&);
+std::string conclusion_of(const Checked&);
 std::string json_of(const std::vector<Checked>&);
 std::string junit_of(const std::vector<Checked>&);  // a test suite a scheme, a test case a promise and scene
 

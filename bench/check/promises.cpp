@@ -83,7 +83,10 @@ Settings settings_for(const Descriptor& d, const Scene& scene) {
 
 bool takes(const Descriptor& d, const Scene& scene, const Settings& settings) {
     try {
-        return represents(d, scene) && make_scheme(d, scene, settings) != nullptr;
+        if (!represents(d, scene)) return false;
+        const auto scheme = make_scheme(d, scene, settings);
+        if (d.balance == Balance::none && *d.untimed) run(*scheme, scene, settings);  // a program that is called refuses when it runs
+        return true;
     } catch (const Refusal&) {
         return false;
     } catch (const BadScene&) {  // one made here that cannot be
@@ -114,6 +117,9 @@ Verdict ask(const Promise& p, const Case& c) {
                 return not_asked(e.what());
             }
         return excused(p, c, p.of(c));
+    } catch (const Refusal& refusal) {
+        return *c.scheme.untimed ? not_asked(std::string("refuses it: ") + refusal.what())
+                                 : broken(fmt::format("refuses the scene after it was made: {}", refusal.what()));
     } catch (const std::exception& e) {
         return broken(fmt::format("it throws: {}", e.what()));
     } catch (...) {

@@ -1,5 +1,8 @@
 // jvari check: does a scheme, of this tree or of a plugin, keep what every scheme promises?
 #include "bench/check/check.hpp"
+
+#include <fmt/core.h>
+
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
@@ -28,8 +31,10 @@ int check_command(CheckRequest r) {
     std::vector<check::Checked> checked;
     bool broken = false;
     for (const Descriptor* d : asked) {
-        checked.push_back(check::check(*d, console));
-        console.print((checked.size() > 1 ? "\n" : "") + check::text_of(checked.back()));
+        console.print(fmt::format("{}{} ({})", checked.empty() ? "" : "\n", d->name, d->source));
+        checked.push_back(
+            check::check(*d, console, [&](const check::Checked& c, const check::Promise& p) { console.print(check::line_of(c, p)); }));
+        console.print(check::conclusion_of(checked.back()));
         broken = broken || checked.back().broken();
     }
     if (!r.junit.empty()) store::write_fresh(r.junit, check::junit_of(checked));

@@ -90,9 +90,9 @@ std::string text_for(const RunRequest& r, const Descriptor& d, const study::Summ
 Json json_of(const study::Summary& s) {
     Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", name_of(s.status.outcome)}};
     if (s.status.outcome != Outcome::ok) j["step"] = s.status.step;
-    each_figure(s, [&j](const std::string& name, auto figure) {                               // NaN becomes null
-        if (name != "processor_seconds")                                                      // nobody took them
-            j[name == "largest_displacement" ? "displacement_over_allowed" : name] = figure;  // a ratio (`list facts`)
+    each_figure(s, [&j](const std::string& name, auto figure) {  // NaN becomes null
+        if (name != "processor_seconds")                         // nobody took them
+            j[name] = figure;
     });
     j["flags"] = Json::object();
     for (const study::Flag& f : study::flags_of(s)) j["flags"][f.name] = f.sentence;

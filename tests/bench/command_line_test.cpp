@@ -172,7 +172,7 @@ TEST(CommandLine, RunReportsEveryKeyOfTheContract) {
     const auto json = nlohmann::json::parse(o.out);
     for (const char* key : {"scheme", "scene", "rate", "modes", "dofs", "steps", "rows", "wall_seconds", "ns_per_step", "times_real_time",
                             "status", "energy_residual_per_step", "energy_residual_accumulated", "smallest_contact_force",
-                            "largest_contact_force", "deepest_penetration", "displacement_over_allowed", "flags", "facts"})
+                            "largest_contact_force", "deepest_penetration", "largest_over_bound", "flags", "facts"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(json.at("rows"), 442);
     EXPECT_EQ(json.at("modes"), 133);

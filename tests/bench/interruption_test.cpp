@@ -106,7 +106,7 @@ TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml", kept = scratch / "stopped/cells";
     std::ofstream(file)
-        << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
+        << "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = [\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
            "modes = 20\nreference_modes = \"cell\"\nduration = 0.05\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
     ASSERT_EQ(Started(scratch, {"suite", file, "--jobs", "1", "--out", scratch / "whole"}).end(), -1);
     int before = 0;

@@ -350,7 +350,7 @@ TEST(Trim, WritesASceneThatIsReadWhateverItsNameHolds) {
     const auto folder = std::filesystem::temp_directory_path() / ("jvari-trim-names-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     Scene scene = read_scene("free_string");
-    scene.name = "x\nduration = 7\n[[string]]\n#";
+    scene.name = "x\" duration = 7 [[string]] #";
     std::ofstream(folder / "scene.toml") << write_scene(scene);
     trim::Request r = request((folder / "scene.toml").string(), "10%");
     r.scheme = "modal_two_point";

@@ -130,8 +130,9 @@ Listing list_measured(const char* title, int name_width, int unit_width, const s
 Listing list_facts() {
     std::vector<Measured> all;
     for (const FactName& f : facts::table) all.push_back({f.name, f.unit, f.meaning});
-    all.push_back({"displacement_over_allowed", "",
-                   "largest displacement of a tap over what the energy of the run could make of it, sqrt(E L/(2T))"});
+    all.push_back(
+        {"largest_over_bound", "",
+         "largest value of a tap over what the energy of the scene can make of it [1]; a run beyond the root of ten has diverged"});
     return list_measured("facts", 28, 7, all);
 }
 
