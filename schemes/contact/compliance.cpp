@@ -242,6 +242,23 @@ void refuse_soft(const std::string& who, double bb, double bc, double cc) {
     if (!(bb * cc >= bc * bc)) refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
 }
 
+// The mass of the ladder stands for modes above the last one kept. Where the step takes far more from a point than the cut modes do, mass
+// and spring would swing below it, at a frequency that no part of the string has there.
+void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutModes& cut, int kept) {
+    const int n = m.points();
+    for (int p = 0; p < n && !cut.C.empty(); ++p) {
+        const int at = p * n + p;
+        const double last = cut.modes.omega0[kept - 1], swings = std::abs(cut.C[at]) / std::sqrt(cut.E[at] * m.C[at]);
+        if (swings < last)
+            throw Refusal(
+                who + ": at the " + (p < m.contacts ? "barrier" : "thread") +
+                " nearly all that the string lacks is due to the step, not to modes that are cut off; what stands for those would "
+                "swing at " +
+                std::to_string(std::lround(swings / (2 * pi))) + " Hz, below the highest mode, " +
+                std::to_string(std::lround(last / (2 * pi))) + " Hz; compliance=own always can run, another rate or number of modes may");
+    }
+}
+
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 Square power_of(const std::vector<double>& m, int n, double power) {  // of what is more than rounding of a symmetric, positive matrix
@@ -310,8 +327,10 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
     MissingMatrix m = difference(s, sites, taps, own);
     const int n = sites.points();
     const auto put_ladder = [&] {
-        if (dt > 0 && n > 0)
-            m.ladder = ladder_of(s, m.C, cut_modes(s, std::span(sites.forces).first(n), kept, std::numbers::pi / dt), n, kept, dt);
+        if (!(dt > 0 && n > 0)) return;
+        const CutModes cut = cut_modes(s, std::span(sites.forces).first(n), kept, pi / dt);
+        refuse_swinging(who, m, cut, kept);
+        m.ladder = ladder_of(s, m.C, cut, n, kept, dt);
     };
     if (n <= 1 + (m.thread ? 1 : 0)) {
         refuse_soft(who, m.contacts > 0 ? m.C.front() : 0, n == 2 ? m.C[1] : 0, m.thread ? m.C.back() : 0);

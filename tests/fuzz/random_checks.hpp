@@ -45,9 +45,10 @@ void check_certificate(const RandomCase&, Tally&, const Finding&, const std::fun
 // modes and four times the points.
 void check_certificate_about_scene(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 
-// Matched modal_two_point must not err by more than 1.2 times as much as own, in a tap whose error is above 1e-3. The truth is matched
-// exact_contact with 4 to 8 times the modes; half of these give its uncertainty.
+// Matched modal_two_point must not err by more than 1.2 times as much as own, in a tap whose error is above 1e-3. The truth is
+// exact_contact with 4 to 8 times the modes, matched, and for bars and wide footprints own with 4 to 16 times; half of these give its
+// uncertainty. What is refused does no harm.
 constexpr double harm = 1.2, harm_matters = 1e-3, matching_seconds = 10;  // seconds: of CPU, each run of one scene
-void check_matching(const RandomCase&, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
+void check_matching(const RandomCase&, Matching, Tally&, const Finding&, const std::function<void(const std::string&)>& at);
 
 }  // namespace jvari::test

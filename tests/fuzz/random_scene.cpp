@@ -161,10 +161,25 @@ RandomCase drawn(Dice& d) {
     if (d.chance(0.06)) put_on_a_body(d, c.scene);                                                 // last: what others draw stays
     return c;
 }
-bool to_be_matched(Dice& d, String& s) {
+// So many modes are below 20 kHz, of which tension carries the first alone or the first few.
+void stiffen(Dice& d, String& s) {
+    const double modes = d.decades(10, 60), first = 20e3 / (modes * modes);
+    s.bending_stiffness = s.linear_density * std::pow(2 * first * s.length * s.length / std::numbers::pi, 2);
+    s.tension = s.bending_stiffness * std::pow(d.decades(0.3, 10) / s.length, 2);
+}
+
+bool to_be_matched(Dice& d, String& s, Matching kind) {
+    if (kind == Matching::bar) stiffen(d, s);
     std::erase_if(s.barriers, [](const Barrier& b) { return !std::holds_alternative<LumpedBarrier>(b); });
     if (s.barriers.size() > 1) s.barriers.resize(1);
-    for (Barrier& b : s.barriers) std::get<LumpedBarrier>(b).contact_loss = 0;
+    if (kind != Matching::string && s.barriers.empty()) return false;
+    for (Barrier& any : s.barriers) {
+        LumpedBarrier& b = std::get<LumpedBarrier>(any);
+        b.contact_loss = 0;
+        if (kind != Matching::wide) continue;
+        b.width = d.between(0.01, 0.06);
+        b.position = d.between(0.5 * b.width, s.length - 0.5 * b.width);
+    }
     s.polarisation.reset();
     s.thread.reset();
     if (d.chance(0.7))
@@ -175,7 +190,7 @@ bool to_be_matched(Dice& d, String& s) {
 }
 }  // namespace
 
-RandomCase matching_case(std::uint64_t seed) {
+RandomCase matching_case(std::uint64_t seed, Matching kind) {
     Dice d{std::mt19937_64(seed)};
     RandomCase c;
     c.seed = seed;
@@ -184,7 +199,7 @@ RandomCase matching_case(std::uint64_t seed) {
     c.scene.duration = 0.01;
     c.scene.strings.resize(1);
     do c.scene.strings[0] = string_of(d);
-    while (!to_be_matched(d, c.scene.strings[0]));
+    while (!to_be_matched(d, c.scene.strings[0], kind));
     const String& s = c.scene.strings[0];
     c.settings.modes = modes_below(s, 20e3);
     c.scene.taps = {{"nut", Quantity::nut_force, 0, 0}, {"y", Quantity::displacement, 0, 0.3 * s.length}};

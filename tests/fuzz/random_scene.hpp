@@ -18,7 +18,9 @@ struct RandomCase {
 };
 RandomCase random_case(std::uint64_t seed);
 // One string with at most one lumped barrier without contact loss, and mostly a thread of any stiffness and damping, for 10 ms at 44.1 kHz:
-// a scene for compliance=matched. It has the modes below 20 kHz, 8 to 150.
-RandomCase matching_case(std::uint64_t seed);
+// a scene for compliance=matched. It has the modes below 20 kHz, 8 to 150. `bar`: with a barrier, on a string whose bending
+// carries all modes but the first few. `wide`: with a barrier of 1 to 6 cm.
+enum class Matching { string, bar, wide };
+RandomCase matching_case(std::uint64_t seed, Matching = Matching::string);
 
 }  // namespace jvari::test

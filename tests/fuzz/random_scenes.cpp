@@ -3,8 +3,8 @@
 //   random_scenes COUNT SEED      COUNT scenes, seeds SEED and on
 //   random_scenes COUNT FILE      the first COUNT seeds that a file lists, one a line
 //   random_scenes scene COUNT SEED|FILE    the same scenes: does a certificate claim too much about the scene?
-//   random_scenes matched COUNT SEED|FILE  scenes of its own: does a fact say where compliance=matched does harm?
-//   random_scenes show [matched] SEED      the scene of a seed, as TOML
+//   random_scenes matched|bar|wide COUNT SEED|FILE  scenes of its own: does compliance=matched do harm?
+//   random_scenes show [matched|bar|wide] SEED      the scene of a seed, as TOML
 //
 // Each scene has a process of its own: a signal, a run without end or a memory that overflows is a finding with its seed, and the next
 // scene goes on. Prints a line per finding and a summary; ends with 1 where there was a finding.
@@ -42,7 +42,20 @@ void send(int pipe, const std::string& line) {
     if (write(pipe, whole.data(), whole.size()) < 0) _exit(3);
 }
 
-enum class Asked { promises, about_scene, matching };
+enum class Asked { promises, about_scene, matched, bar, wide };
+Matching kind_of(Asked asked) {
+    return asked == Asked::bar ? Matching::bar : asked == Asked::wide ? Matching::wide : Matching::string;
+}
+Asked asked_by(const std::string& word) {
+    return word == "scene"     ? Asked::about_scene
+           : word == "matched" ? Asked::matched
+           : word == "bar"     ? Asked::bar
+           : word == "wide"    ? Asked::wide
+                               : Asked::promises;
+}
+RandomCase drawn(Asked asked, std::uint64_t seed) {
+    return asked >= Asked::matched ? matching_case(seed, kind_of(asked)) : random_case(seed);
+}
 
 [[noreturn]] void run_scene(Asked asked, std::uint64_t seed, int pipe) {
     const rlimit time{seconds_allowed, seconds_allowed + 5}, memory{memory_allowed, memory_allowed}, none{0, 0};
@@ -53,9 +66,9 @@ enum class Asked { promises, about_scene, matching };
     const auto finding = [&](const std::string& scheme, const std::string& what) { send(pipe, "!" + scheme + ": " + what); };
     Tally t;
     at("drawing the scene");
-    const RandomCase c = asked == Asked::matching ? matching_case(seed) : random_case(seed);
+    const RandomCase c = drawn(asked, seed);
     if (asked == Asked::about_scene) check_certificate_about_scene(c, t, finding, at);
-    else if (asked == Asked::matching) check_matching(c, t, finding, at);
+    else if (asked >= Asked::matched) check_matching(c, kind_of(asked), t, finding, at);
     else check_schemes(c, t, finding, at);
     if (asked == Asked::promises && seed % certified_every == 0 && !c.extreme) check_certificate(c, t, finding, at);
     std::ostringstream line;
@@ -121,9 +134,10 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
             tally.scenes, tally.judged, tally.ended, tally.claims, tally.worst_claim, findings);
         return findings > 0 || tally.judged == 0;
     }
-    if (asked == Asked::matching) {
-        std::printf("%ld scenes at two rates each, %ld judged, %ld ended by a limit\nmatched does harm in %ld runs\n%ld findings\n",
-                    tally.scenes, tally.judged, tally.ended, tally.harmed, findings);
+    if (asked >= Asked::matched) {
+        std::printf(
+            "%ld scenes at two rates each, %ld ended by a limit\n%ld runs judged, %ld refused, matched does harm in %ld\n%ld findings\n",
+            tally.scenes, tally.ended, tally.runs, tally.refused, tally.harmed, findings);
         return findings > 0 || tally.judged == 0;
     }
     std::printf("%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld ended by a limit, %ld refusals\n", tally.scenes,
@@ -141,14 +155,16 @@ int main(int argc, char** argv) {
     using namespace jvari::test;
     if ((argc == 3 || argc == 4) && std::string(argv[1]) == "show") {
         const std::uint64_t seed = std::strtoull(argv[argc - 1], nullptr, 10);
-        std::printf("%s", jvari::write_scene((argc == 4 ? matching_case(seed) : random_case(seed)).scene).c_str());
+        std::printf("%s", jvari::write_scene(drawn(asked_by(argv[argc - 2]), seed).scene).c_str());
         return 0;
     }
     const std::string mode = argc == 4 ? argv[1] : "";
-    const Asked asked = mode == "scene" ? Asked::about_scene : mode == "matched" ? Asked::matching : Asked::promises;
+    const Asked asked = asked_by(mode);
     if (asked != Asked::promises) --argc, ++argv;
     if (argc != 3)
-        return std::fprintf(stderr, "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched COUNT SEED|FILE | show [matched] SEED\n"),
+        return std::fprintf(stderr,
+                            "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched|bar|wide COUNT SEED|FILE | show "
+                            "[matched|bar|wide] SEED\n"),
                2;
     const std::size_t count = std::strtoull(argv[1], nullptr, 10);
     std::vector<std::uint64_t> seeds;

@@ -504,5 +504,29 @@ TEST(Compliance, SchemesThatAreTooSoftSaySo) {
     }
 }
 
+// What stands for the cut modes may not swing among those that are kept: refused where it would, as under a wide footprint.
+TEST(Compliance, WhatIsMostlyTheStepsIsRefusedAtWideFootprints) {
+    const auto swings = [](double width, double tension_over_bending, int rate) {
+        Scene scene = c3_release();
+        String& s = scene.strings.front();
+        s.thread.reset();
+        bridge(scene).position = 0.1, bridge(scene).width = width;
+        if (tension_over_bending > 0) s.bending_stiffness = s.tension / tension_over_bending;
+        try {
+            make_scheme(scheme("modal_two_point"), scene, at(rate, std::min(133, modes_below(s, 20e3))));
+            return false;
+        } catch (const Refusal& refusal) {
+            EXPECT_NE(std::string(refusal.what()).find("below the highest mode"), std::string::npos) << refusal.what();
+            return true;
+        }
+    };
+    for (const int rate : {44100, 176400}) {
+        EXPECT_FALSE(swings(0, 0, rate)) << rate;
+        EXPECT_FALSE(swings(3e-3, 0, rate)) << rate;
+        EXPECT_TRUE(swings(0.03, 0, rate)) << rate;
+        EXPECT_FALSE(swings(0, 100, rate)) << rate;
+    }
+}
+
 }  // namespace
 }  // namespace jvari
