@@ -64,7 +64,7 @@ only pybind11 'pybind11/' 'python/'
 forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|sndfile|CLI|fmt|cvode|sundials)' \
     $(find scenes schemes reference analysis -name '*.hpp' ! -name '*-inl.hpp')  # -inl: part of a file of its own folder, compiled once for each set of instructions
 forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' $(find results -maxdepth 3 -path results/runs -prune -o \( -name '*.json' -o -name '*.toml' \) -print)
-forbid "records come from a commit that exists" '"commit": "[^"]*-dirty' $(find results -maxdepth 3 -name manifest.json)
+forbid "records come from a commit that exists" '^  "commit": "[^"]*-dirty' $(find results -maxdepth 3 -name manifest.json)
 lines=$(cat $product | wc -l)
 share() {  # share MOST ROOM FILES...: they have at most so many of the product's lines
     most=$1 room=$2

@@ -92,6 +92,13 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
 }  // namespace
 
 void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pairs, Difference& d) {
+    const auto costs = [](const Folder& f) {
+        return std::ranges::any_of(store::all_rows(f.cells), [&f](std::size_t i) { return f.cells.number(i, wall.median) > 0; });
+    };
+    if (!costs(b)) {
+        if (costs(a)) d.notes.push_back("no cell of the second folder has a cost: none was measured, or they are gone");
+        return;
+    }
     for (const Pair& p : pairs) {  // a cell that ran has a cost, whatever the machine
         if (b.cells.at(p.after, "status") != "ok") continue;
         for (const char* column : {wall.median, processor.median})
