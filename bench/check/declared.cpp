@@ -79,7 +79,9 @@ Verdict refusals_name_what_is_missing(const Case& c) {
 }
 
 Verdict runs_a_scene(const Case& c) {
-    const std::string refused = names_of(always_refused(c.scheme));
+    const Features never = always_refused(c.scheme);
+    const std::string refused = names_of(never);
+    if (is_called(c.scheme) && never != c.scheme.represents) return kept(refused.empty() ? "" : "refuses " + refused);
     return refused.empty() ? kept() : broken(fmt::format("declares {}, and refuses every scene that needs that", refused));
 }
 

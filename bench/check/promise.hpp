@@ -86,6 +86,7 @@ Verdict stays_sound_over_a_map(const Case&);
 
 Settings settings_for(const Descriptor&, const Scene&);
 bool is_as_the_scene_says(const Descriptor&, const Scene&);    // it represents it, and approximates nothing of it
+bool is_called(const Descriptor&);                             // a program by files: it declares nothing, and refuses when it runs
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
 Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it
 

@@ -14,7 +14,10 @@ function contact(d, b, theta, k)  # F of r + b = theta F (48): the four cases of
 end
 
 function run(p)
-    p["contacts"] <= 1 && all(p["contact_exponent"] .== 1) || error("this scheme takes one contact of exponent 1 at most")
+    if p["contacts"] > 1 || any(p["contact_exponent"] .!= 1) || any(p["contact_loss"] .!= 0)
+        println("this scheme takes one contact at most, of exponent 1 and without loss")
+        exit(3)  # refused
+    end
     dt, M, steps, rows = 1 / p["sample_rate"], p["modes"], p["steps_per_row"], p["rows"]
     omega0, sigma = float(p["omega0"]), float(p["sigma"])
     omega, R, E = sqrt.(complex(omega0 .^ 2 - sigma .^ 2)), exp.(-sigma * dt), expm1.(-sigma * dt)

@@ -2,7 +2,10 @@
 % One contact of exponent 1 at most, and a thread. In MATLAB, set the two names in the next line by hand.
 if exist('OCTAVE_VERSION'), files = argv(); else, files = {'problem.json', 'trace.csv'}; end
 p = jsondecode(fileread(files{1}));
-assert(p.contacts <= 1 && all(p.contact_exponent == 1), 'this scheme takes one contact of exponent 1 at most');
+if p.contacts > 1 || any(p.contact_exponent != 1) || any(p.contact_loss != 0)
+  disp('this scheme takes one contact at most, of exponent 1 and without loss');
+  exit(3);  % refused
+end
 dt = 1/p.sample_rate; steps = p.steps_per_row; none = zeros(p.modes, 1);
 omega = sqrt(p.omega0.^2 - p.sigma.^2); R = exp(-p.sigma*dt); E = expm1(-p.sigma*dt);
 num = real(E.^2 + 4*R.*sin(omega*dt/2).^2); den = real(E.^2 + 4*R.*cos(omega*dt/2).^2);

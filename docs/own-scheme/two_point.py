@@ -13,8 +13,8 @@ import numpy as np
 
 class TwoPoint:
     def __init__(self, p):
-        if p.contacts > 1 or np.any(p.contact_exponent != 1):
-            raise NotImplementedError("this scheme takes one contact of exponent 1 at most")
+        if p.contacts > 1 or np.any(p.contact_exponent != 1) or np.any(p.contact_loss != 0):
+            raise NotImplementedError("this scheme takes one contact at most, of exponent 1 and without loss")
         self.p, self.dt = p, 1 / p.sample_rate
         omega = np.sqrt((p.omega0**2 - p.sigma**2).astype(complex))
         R, E = np.exp(-p.sigma * self.dt), np.expm1(-p.sigma * self.dt)
@@ -28,6 +28,7 @@ class TwoPoint:
         self.inverse = 1 / (1 + self.phi_c * (self.g_c @ self.e_c))
         self.beta = self.phi_c * self.theta_bc * self.inverse  # (47)
         self.theta = self.g_b @ self.e_b - self.beta * self.theta_bc
+        self.heard = np.reshape(p.tap_weights, (p.taps, p.modes))
         self.dofs = 2 * p.modes
         self.reset()
 
@@ -63,7 +64,7 @@ class TwoPoint:
         trace = np.empty((rows, self.p.taps))
         for row in trace:
             (F_b, F_c), self.forces = self.forces / self.p.steps_per_row, np.zeros(2)
-            shape, speed = self.p.tap_weights @ self.y, self.p.tap_weights @ (2 / self.dt * self.q)
+            shape, speed = self.heard @ self.y, self.heard @ (2 / self.dt * self.q)
             forces = {"bridge_force": F_b, "thread_force": F_c, "driving_force": -F_b - F_c}
             row[:] = [forces.get(of, (speed if of == "velocity" else shape)[k]) for k, of in enumerate(self.p.tap_quantities)]
             for _ in range(self.p.steps_per_row):
